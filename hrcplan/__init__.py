@@ -1,0 +1,3 @@
+"""PDDL-first human-robot collaborative planning."""
+
+__version__ = "0.1.0"

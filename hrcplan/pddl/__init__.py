@@ -1,0 +1,1 @@
+"""PDDL files: reading with positions, checking, the shipped library, and writing."""

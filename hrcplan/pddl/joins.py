@@ -1,0 +1,123 @@
+"""Bindings of an action's parameters that are supported by facts: joins over its conditions."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+
+from hrcplan.pddl.model import Action, And, Atom, Fact, Formula, Problem
+
+Binding = dict[str, str]
+
+
+class FactIndex:
+    """Facts by predicate and by one argument; growing, never shrinking."""
+
+    def __init__(self, facts: Iterable[Fact] = ()) -> None:
+        self.facts: set[Fact] = set()
+        self._by_argument: dict[tuple[str, int, str], list[Fact]] = defaultdict(list)
+        self._by_name: dict[str, list[Fact]] = defaultdict(list)
+        for fact in facts:
+            self.add(fact)
+
+    def add(self, fact: Fact) -> bool:
+        """Take in a fact; return whether it is new."""
+        if fact in self.facts:
+            return False
+        self.facts.add(fact)
+        self._by_name[fact[0]].append(fact)
+        for position, argument in enumerate(fact[1:]):
+            self._by_argument[fact[0], position, argument].append(fact)
+        return True
+
+    def candidates(self, atom: Atom, binding: Mapping[str, str]) -> Sequence[Fact]:
+        """Return a superset of the facts that match an atom under a binding: the smallest list."""
+        best = self._by_name[atom.name]
+        for position, term in enumerate(atom.args):
+            value = binding.get(term) if term.startswith("?") else term
+            if value is not None:
+                found = self._by_argument.get((atom.name, position, value), [])
+                if len(found) < len(best):
+                    best = found
+        return best
+
+
+class Join:
+    """An action's parameters and the atoms that its bindings must satisfy."""
+
+    def __init__(self, action: Action, atoms: Sequence[Atom], problem: Problem) -> None:
+        self.action = action
+        self.atoms = tuple(atoms)
+        self._objects = {p.name: problem.objects_of(p.types) for p in action.params}
+        self._allowed = {name: frozenset(found) for name, found in self._objects.items()}
+
+    def bindings(self, index: FactIndex, first: tuple[int, Fact] | None = None) -> Iterator[Binding]:
+        """Yield every binding whose atoms are all in ``index``.
+
+        With ``first = (i, fact)`` only those that match atom ``i`` with that fact.
+        """
+        if first is None:
+            yield from self._extend({}, self.atoms, index)
+            return
+        position, fact = first
+        binding = self._match(self.atoms[position], fact, {})
+        if binding is not None:
+            rest = self.atoms[:position] + self.atoms[position + 1 :]
+            yield from self._extend(binding, rest, index)
+
+    def _extend(
+        self, binding: Binding, atoms: tuple[Atom, ...], index: FactIndex
+    ) -> Iterator[Binding]:
+        if not atoms:
+            yield from self._free(binding)
+            return
+        options = [index.candidates(atom, binding) for atom in atoms]
+        chosen = min(range(len(atoms)), key=lambda i: len(options[i]))
+        rest = atoms[:chosen] + atoms[chosen + 1 :]
+        for fact in tuple(options[chosen]):
+            wider = self._match(atoms[chosen], fact, binding)
+            if wider is not None:
+                yield from self._extend(wider, rest, index)
+
+    def _free(self, binding: Binding) -> Iterator[Binding]:
+        missing = next((p.name for p in self.action.params if p.name not in binding), None)
+        if missing is None:
+            yield binding
+            return
+        for value in self._objects[missing]:
+            yield from self._free({**binding, missing: value})
+
+    def _match(self, atom: Atom, fact: Fact, binding: Binding) -> Binding | None:
+        wider = dict(binding)
+        for term, value in zip(atom.args, fact[1:], strict=True):
+            if not term.startswith("?"):
+                if term != value:
+                    return None
+            elif term in wider:
+                if wider[term] != value:
+                    return None
+            elif value in self._allowed[term]:
+                wider[term] = value
+            else:
+                return None
+        return wider
+
+
+def conjuncts(formula: Formula) -> Iterator[Formula]:
+    """Yield the parts of nested conjunctions."""
+    if isinstance(formula, And):
+        for part in formula.parts:
+            yield from conjuncts(part)
+    else:
+        yield formula
+
+
+def needed_atoms(action: Action) -> tuple[Atom, ...]:
+    """Return the atoms that must have been true before the action starts."""
+    own = {e.target.name for e in action.effects if e.kind == "add" and e.when == "start"}
+    return tuple(
+        part
+        for condition in action.conditions
+        for part in conjuncts(condition.formula)
+        if isinstance(part, Atom) and (condition.when == "start" or part.name not in own)
+    )

@@ -1,0 +1,86 @@
+"""Shipped domains and problems: find a file by path or by name.
+
+In a checkout the folders ``domains/`` and ``problems/`` beside the package come first, so a
+file that was added a second ago is seen; an installed wheel carries a copy inside the package.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from hrcplan.errors import InputError
+from hrcplan.pddl.source import nearest
+
+_PACKAGE = Path(__file__).resolve().parent.parent
+
+
+def root() -> Path:
+    """Return the folder that holds ``domains`` and ``problems``."""
+    checkout = _PACKAGE.parent
+    if (checkout / "domains").is_dir() and (checkout / "pyproject.toml").is_file():
+        return checkout
+    return _PACKAGE / "_pddl"
+
+
+def domain_names() -> tuple[str, ...]:
+    """Return the names of the shipped domains, sorted."""
+    return tuple(sorted(path.stem for path in (root() / "domains").glob("*.pddl")))
+
+
+def problem_names(domain: str) -> tuple[str, ...]:
+    """Return the names of the shipped problems of a domain, sorted."""
+    return tuple(sorted(path.stem for path in (root() / "problems" / domain).glob("*.pddl")))
+
+
+def find_domain(name: str) -> Path:
+    """Return the file of a domain given by path or shipped name; a path that exists wins.
+
+    Raises:
+        InputError: if there is neither; the message lists what there is.
+    """
+    if Path(name).is_file() or _is_path(name):
+        return Path(name)
+    path = root() / "domains" / f"{name}.pddl"
+    if path.is_file():
+        return path
+    hint = nearest(name, domain_names()) or f"shipped: {', '.join(domain_names())}"
+    raise InputError(f"there is no domain '{name}'", code="no-file", path=name, hint=hint)
+
+
+def find_problem(domain: str, name: str) -> Path:
+    """Return the file of a problem of ``domain`` given by path or shipped name.
+
+    Raises:
+        InputError: if there is neither; the message lists what there is.
+    """
+    if Path(name).is_file() or _is_path(name):
+        return Path(name)
+    shipped = Path(domain).stem
+    path = root() / "problems" / shipped / f"{name}.pddl"
+    if path.is_file():
+        return path
+    known = problem_names(shipped)
+    hint = nearest(name, known) or (f"shipped: {', '.join(known)}" if known else None)
+    message = f"there is no problem '{name}' of domain '{shipped}'"
+    raise InputError(message, code="no-file", path=name, hint=hint)
+
+
+def domain_file_for(name: str, problem: Path) -> Path | None:
+    """Return the file of domain ``name``: beside a problem file, else shipped, else None."""
+    beside = [p for p in sorted(problem.parent.glob("*.pddl")) if p != problem]
+    shipped = root() / "domains" / f"{name}.pddl"
+    for path in (*beside, shipped):
+        if path.is_file() and _defines(path, name):
+            return path
+    return None
+
+
+def _is_path(name: str) -> bool:
+    return "/" in name or name.endswith(".pddl") or Path(name).is_dir()
+
+
+def _defines(path: Path, name: str) -> bool:
+    text = re.sub(r";[^\n]*", "", path.read_text(encoding="utf-8", errors="replace"))
+    found = re.match(r"\s*\(\s*define\s*\(\s*domain\s+([^\s()]+)", text.lower())
+    return found is not None and found[1] == name

@@ -1,0 +1,321 @@
+"""What PDDL files say, as immutable values: domains, problems, formulas, expressions.
+
+Names are lower case. A *fact* is a tuple ``(predicate, *objects)``. ``str()`` of every value
+is PDDL again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from functools import cached_property
+
+Number = int | Fraction
+Fact = tuple[str, ...]
+FluentKey = tuple[str, ...]
+"""A ground function: ``(name, *objects)``."""
+
+OBJECT = "object"
+TOTAL_COST = "total-cost"
+TOTAL_TIME = "total-time"
+DURATION = "?duration"
+
+
+def number_text(value: Number) -> str:
+    """Return a number as PDDL writes it: exact where the decimal ends, else 12 digits.
+
+    >>> number_text(Fraction(17, 100)), number_text(3)
+    ('0.17', '3')
+    """
+    if isinstance(value, int) or value.denominator == 1:
+        return str(int(value))
+    text = f"{float(value):.12f}".rstrip("0")
+    return text
+
+
+def fact_text(fact: Fact) -> str:
+    """Return ``(name arg …)``."""
+    return f"({' '.join(fact)})"
+
+
+@dataclass(frozen=True, slots=True)
+class Param:
+    """A parameter (or variable) and the types it may have; several mean ``(either …)``."""
+
+    name: str
+    types: tuple[str, ...] = (OBJECT,)
+
+    def __str__(self) -> str:
+        kind = self.types[0] if len(self.types) == 1 else f"(either {' '.join(self.types)})"
+        return f"{self.name} - {kind}"
+
+
+@dataclass(frozen=True, slots=True)
+class Signature:
+    """A declared predicate or function."""
+
+    name: str
+    params: tuple[Param, ...]
+
+    def __str__(self) -> str:
+        return _group(self.name, *self.params)
+
+
+@dataclass(frozen=True, slots=True)
+class Atom:
+    """A predicate applied to variables and objects."""
+
+    name: str
+    args: tuple[str, ...]
+
+    def __str__(self) -> str:
+        return _group(self.name, *self.args)
+
+
+@dataclass(frozen=True, slots=True)
+class Equal:
+    """Two terms that denote the same object."""
+
+    left: str
+    right: str
+
+    def __str__(self) -> str:
+        return f"(= {self.left} {self.right})"
+
+
+@dataclass(frozen=True, slots=True)
+class Function:
+    """A numeric function applied to terms; also ``total-time`` and ``?duration``."""
+
+    name: str
+    args: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        return self.name if self.name == DURATION else _group(self.name, *self.args)
+
+
+@dataclass(frozen=True, slots=True)
+class Constant:
+    """A number."""
+
+    value: Number
+
+    def __str__(self) -> str:
+        return number_text(self.value)
+
+
+@dataclass(frozen=True, slots=True)
+class Arithmetic:
+    """``+ - * /`` over expressions."""
+
+    op: str
+    parts: tuple[Expr, ...]
+
+    def __str__(self) -> str:
+        return _group(self.op, *self.parts)
+
+
+Expr = Function | Constant | Arithmetic
+
+
+@dataclass(frozen=True, slots=True)
+class Compare:
+    """A numeric condition: ``< <= = >= >``."""
+
+    op: str
+    left: Expr
+    right: Expr
+
+    def __str__(self) -> str:
+        return f"({self.op} {self.left} {self.right})"
+
+
+@dataclass(frozen=True, slots=True)
+class Not:
+    """Negation."""
+
+    body: Formula
+
+    def __str__(self) -> str:
+        return f"(not {self.body})"
+
+
+@dataclass(frozen=True, slots=True)
+class And:
+    """Conjunction; empty means true."""
+
+    parts: tuple[Formula, ...] = ()
+
+    def __str__(self) -> str:
+        return _group("and", *self.parts)
+
+
+@dataclass(frozen=True, slots=True)
+class Or:
+    """Disjunction; empty means false."""
+
+    parts: tuple[Formula, ...] = ()
+
+    def __str__(self) -> str:
+        return _group("or", *self.parts)
+
+
+@dataclass(frozen=True, slots=True)
+class Quantified:
+    """``forall`` or ``exists``."""
+
+    universal: bool
+    params: tuple[Param, ...]
+    body: Formula
+
+    def __str__(self) -> str:
+        word = "forall" if self.universal else "exists"
+        return f"({word} {_group(*self.params)} {self.body})"
+
+
+Formula = Atom | Equal | Compare | Not | And | Or | Quantified
+TRUE = And()
+
+
+@dataclass(frozen=True, slots=True)
+class Condition:
+    """A formula and when it must hold: ``start``, ``all`` (over all) or ``end``."""
+
+    when: str
+    formula: Formula
+
+
+@dataclass(frozen=True, slots=True)
+class Effect:
+    """One change: ``add``/``delete`` an atom, or ``assign``/``increase``/… a function.
+
+    ``params`` are the variables of an enclosing ``forall``; ``given`` is the condition of an
+    enclosing ``when`` (``TRUE`` if there is none).
+    """
+
+    when: str
+    kind: str
+    target: Atom | Function
+    value: Expr | None = None
+    params: tuple[Param, ...] = ()
+    given: Formula = TRUE
+
+    def __str__(self) -> str:
+        match self.kind:
+            case "add":
+                text = str(self.target)
+            case "delete":
+                text = f"(not {self.target})"
+            case _:
+                text = f"({self.kind} {self.target} {self.value})"
+        if self.given != TRUE:
+            text = f"(when {self.given} {text})"
+        return f"(forall {_group(*self.params)} {text})" if self.params else text
+
+
+@dataclass(frozen=True, slots=True)
+class Action:
+    """An action schema; an instantaneous one has all its conditions and effects at start."""
+
+    name: str
+    params: tuple[Param, ...]
+    conditions: tuple[Condition, ...]
+    effects: tuple[Effect, ...]
+    durative: bool = False
+    durations: tuple[tuple[str, Expr], ...] = ()
+
+
+@dataclass(frozen=True)
+class Domain:
+    """A planning domain, with the file it came from and its ``;; hrcplan:`` notes."""
+
+    name: str
+    requirements: tuple[str, ...] = ()
+    types: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    constants: Mapping[str, str] = field(default_factory=dict)
+    predicates: Mapping[str, Signature] = field(default_factory=dict)
+    functions: Mapping[str, Signature] = field(default_factory=dict)
+    actions: tuple[Action, ...] = ()
+    notes: tuple[str, ...] = ()
+    path: str = ""
+
+    @cached_property
+    def _ancestors(self) -> dict[str, frozenset[str]]:
+        found: dict[str, frozenset[str]] = {OBJECT: frozenset([OBJECT])}
+
+        def visit(name: str) -> frozenset[str]:
+            if name not in found:
+                found[name] = frozenset([name, OBJECT])  # cuts a cyclic hierarchy
+                above = (visit(parent) for parent in self.types.get(name, ()))
+                found[name] = frozenset([name, OBJECT]).union(*above)
+            return found[name]
+
+        for name in self.types:
+            visit(name)
+        return found
+
+    def is_a(self, name: str, types: tuple[str, ...]) -> bool:
+        """Return whether type ``name`` is one of ``types`` or below one of them."""
+        return not self._ancestors.get(name, frozenset([name, OBJECT])).isdisjoint(types)
+
+    @cached_property
+    def is_temporal(self) -> bool:
+        """Whether any action has a duration."""
+        return any(action.durative for action in self.actions)
+
+    @cached_property
+    def changed_functions(self) -> frozenset[str]:
+        """Functions that some action changes, ``total-cost`` included if it is one of them."""
+        return frozenset(
+            effect.target.name
+            for action in self.actions
+            for effect in action.effects
+            if isinstance(effect.target, Function)
+        )
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A planning problem: objects, initial state, goal and metric of one domain."""
+
+    name: str
+    domain: Domain
+    objects: Mapping[str, str] = field(default_factory=dict)
+    facts: frozenset[Fact] = frozenset()
+    values: Mapping[FluentKey, Number] = field(default_factory=dict)
+    goal: Formula = TRUE
+    metric: Expr | None = None
+    maximize: bool = False
+    path: str = ""
+
+    @cached_property
+    def all_objects(self) -> dict[str, str]:
+        """Objects and the domain's constants, with their types."""
+        return {**self.domain.constants, **self.objects}
+
+    def objects_of(self, types: tuple[str, ...]) -> tuple[str, ...]:
+        """Return the objects of any of ``types``, in the order in which they are declared."""
+        return tuple(o for o, t in self.all_objects.items() if self.domain.is_a(t, types))
+
+    def with_values(self, values: Mapping[FluentKey, Number]) -> Problem:
+        """Return this problem with some function values of the initial state replaced."""
+        return replace(self, values={**self.values, **values})
+
+    @cached_property
+    def agents(self) -> tuple[str, ...]:
+        """Objects of type ``agent`` or below; empty if the domain has no such type."""
+        return self.objects_of(("agent",)) if "agent" in self.domain.types else ()
+
+
+def _group(*parts: object) -> str:
+    return f"({' '.join(map(str, parts))})"
+
+
+def functions_in(expression: Expr | None) -> Iterator[Function]:
+    """Yield every function of an expression, from left to right."""
+    if isinstance(expression, Function):
+        yield expression
+    elif isinstance(expression, Arithmetic):
+        for part in expression.parts:
+            yield from functions_in(part)

@@ -1,0 +1,142 @@
+"""The tree of a problem file to a Problem of its domain; every fault is noted."""
+
+from __future__ import annotations
+
+from hrcplan.pddl.domain import declared_name, read_objects, sections_of
+from hrcplan.pddl.formulas import read_atom, read_expression, read_formula, read_function
+from hrcplan.pddl.model import (
+    TRUE,
+    Domain,
+    Expr,
+    Fact,
+    FluentKey,
+    Formula,
+    Number,
+    Problem,
+)
+from hrcplan.pddl.reader import Group, Node, Word
+from hrcplan.pddl.scope import Scope, to_number
+from hrcplan.pddl.source import Source, nearest, quote
+
+_UNSUPPORTED = (":constraints", ":length")
+_SECTIONS = (":domain", ":objects", ":init", ":goal", ":metric", ":requirements")
+
+
+def named_domain(root: Group) -> Word | None:
+    """Return the domain's name that a problem tree gives, or None if it gives none."""
+    for node in root:
+        if isinstance(node, Group) and node.head == ":domain" and len(node) == 2:
+            return node[1] if isinstance(node[1], Word) else None
+    return None
+
+
+def read_problem(root: Group, source: Source, domain: Domain) -> Problem:
+    """Return the problem that a ``(define (problem …) …)`` tree describes."""
+    sections = dict(sections_of(root, source, _SECTIONS, _SECTIONS))
+    _check_domain(root, source, domain)
+    known = dict(domain.constants)
+    objects = read_objects(sections.get(":objects"), source, list(domain.types), known)
+    scope = Scope(source, domain, {**known, **objects}, {})
+    init = _Init(scope)
+    for node in sections.get(":init", ())[1:]:
+        init.take(node)
+    metric, maximize = _metric(sections.get(":metric"), scope)
+    return Problem(
+        name=declared_name(root, "problem", source),
+        domain=domain,
+        objects=objects,
+        facts=frozenset(init.facts),
+        values=init.values,
+        goal=_goal(sections.get(":goal"), root, scope),
+        metric=metric,
+        maximize=maximize,
+        path=source.path,
+    )
+
+
+def _check_domain(root: Group, source: Source, domain: Domain) -> None:
+    name = named_domain(root)
+    if name is None:
+        source.error(root.at, "no-domain", "the problem does not say its (:domain NAME)")
+    elif domain.name and name != domain.name:
+        message = f"the problem is for domain {quote(name)}, not {quote(domain.name)}"
+        source.error(name.at, "domain-mismatch", message, nearest(name, [domain.name]))
+
+
+class _Init:
+    """Facts and values of ``:init``, one element at a time."""
+
+    def __init__(self, scope: Scope) -> None:
+        self.scope = scope
+        self.facts: set[Fact] = set()
+        self.values: dict[FluentKey, Number] = {}
+
+    def take(self, node: Node) -> None:
+        source = self.scope.source
+        if isinstance(node, Word) or not node.head:
+            source.error(node.at, "not-a-fact", "a fact such as (at a b) is expected here")
+        elif node.head == "=":
+            self._value(node)
+        elif node.head == "at" and len(node) == 3 and _is_time(node[1], node[2]):
+            source.error(node.at, "unsupported", "timed initial literals are not supported")
+        elif node.head == "not":
+            self._negated(node)
+        elif node.head == "and":
+            source.error(node.at, "not-a-fact", ":init lists its facts without 'and'")
+        else:
+            atom = read_atom(node, self.scope)
+            if atom is not None:
+                self.facts.add((atom.name, *atom.args))
+
+    def _negated(self, node: Group) -> None:
+        inner = node[1] if len(node) == 2 else None
+        if isinstance(inner, Group) and inner.head:
+            read_atom(inner, self.scope)
+        else:
+            self.scope.source.error(node.at, "not-a-fact", "(not (fact)) is expected here")
+
+    def _value(self, node: Group) -> None:
+        source = self.scope.source
+        target = node[1] if len(node) == 3 else None
+        if not isinstance(target, Group) or not target.head:
+            source.error(node.at, "not-a-fact", "(= (function …) NUMBER) is expected here")
+            return
+        function = read_function(target, self.scope)
+        spelled = node[2]
+        value = to_number(spelled) if isinstance(spelled, Word) else None
+        if value is None:
+            word = quote(spelled) if isinstance(spelled, Word) else "a group"
+            source.error(spelled.at, "bad-number", f"{word} is not a number")
+        elif function is not None:
+            key = (function.name, *function.args)
+            if self.values.get(key, value) != value:
+                message = f"{function} gets a second value"
+                source.error(node.at, "duplicate-value", message)
+            self.values[key] = value
+
+
+def _is_time(word: Node, what: Node) -> bool:
+    return isinstance(word, Word) and to_number(word) is not None and isinstance(what, Group)
+
+
+def _goal(section: Group | None, root: Group, scope: Scope) -> Formula:
+    if section is None or len(section) < 2:
+        at = root if section is None else section
+        scope.source.error(at.at, "no-goal", "the problem has no goal", "add (:goal (and …))")
+        return TRUE
+    if len(section) > 2:
+        message = "a goal is one condition"
+        scope.source.error(section[2].at, "stray-word", message, "put an (and …) around all")
+    return read_formula(section[1], scope)
+
+
+def _metric(section: Group | None, scope: Scope) -> tuple[Expr | None, bool]:
+    if section is None:
+        return None, False
+    if len(section) != 3 or section[1] not in ("minimize", "maximize"):
+        message = "(:metric minimize EXPRESSION) is expected here"
+        scope.source.error(section.at, "bad-metric", message)
+        return None, False
+    return read_expression(section[2], scope), section[1] == "maximize"
+
+

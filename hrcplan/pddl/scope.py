@@ -1,0 +1,103 @@
+"""Names that are known at one place of a file: types, terms, predicates, functions.
+
+Looks a name up, reports an unknown one with a hint, and checks number and types of arguments.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+from hrcplan.pddl.model import Domain, Number, Param, Signature
+from hrcplan.pddl.reader import Group, Word
+from hrcplan.pddl.source import Source, nearest, quote
+
+_NUMBER = re.compile(r"[+-]?(\d{1,30}(\.\d{0,30})?|\.\d{1,30})(e[+-]?\d{1,2})?")
+
+
+@dataclass(frozen=True)
+class Scope:
+    """A domain, the objects known so far, and the variables bound here."""
+
+    source: Source
+    domain: Domain
+    objects: Mapping[str, str]
+    variables: Mapping[str, tuple[str, ...]]
+
+    def binding(self, params: Sequence[Param]) -> Scope:
+        """Return this scope with further variables."""
+        bound = {**self.variables, **{p.name: p.types for p in params}}
+        return replace(self, variables=bound)
+
+    def types_of(self, term: Word) -> tuple[str, ...] | None:
+        """Return the types of a variable or object; None, with an error, if it is unknown."""
+        if term.startswith("?"):
+            if term not in self.variables:
+                message = f"variable {quote(term)} is not bound here"
+                self.source.error(term.at, "unbound", message, nearest(term, self.variables))
+            return self.variables.get(term)
+        if term not in self.objects:
+            message = f"there is no object {quote(term)}"
+            self.source.error(term.at, "unknown-object", message, nearest(term, self.objects))
+            return None
+        return (self.objects[term],)
+
+    def arguments(self, group: Group, signature: Signature) -> tuple[str, ...] | None:
+        """Return the arguments of ``group``; None, with errors, if they do not fit."""
+        terms = [term for term in group[1:] if isinstance(term, Word)]
+        if len(terms) < len(group) - 1:
+            inner = next(t for t in group[1:] if isinstance(t, Group))
+            self.source.error(inner.at, "not-a-term", "a variable or object is expected here")
+            return None
+        if len(terms) != len(signature.params):
+            message = (
+                f"{quote(signature.name)} takes {len(signature.params)} arguments, "
+                f"not {len(terms)}"
+            )
+            self.source.error(group.at, "wrong-arity", message, f"declared as {signature}")
+            return None
+        fits = [self._fits(t, p) for t, p in zip(terms, signature.params, strict=True)]
+        return tuple(map(str, terms)) if all(fits) else None
+
+    def _fits(self, term: Word, param: Param) -> bool:
+        types = self.types_of(term)
+        if types is None:
+            return False
+        if not any(self.domain.is_a(t, param.types) for t in types):
+            have, want = " or ".join(types), " or ".join(param.types)
+            self.source.error(term.at, "wrong-type", f"{quote(term)} is {have}, not {want}")
+            return False
+        return True
+
+    def signature(self, word: Word, kind: str) -> Signature | None:
+        """Return the declared predicate or function; None, with an error, if there is none."""
+        known = self.domain.predicates if kind == "predicate" else self.domain.functions
+        if word in known:
+            return known[word]
+        other = self.domain.functions if kind == "predicate" else self.domain.predicates
+        if word in other:
+            wrong = "function" if kind == "predicate" else "predicate"
+            self.source.error(word.at, f"unknown-{kind}", f"{quote(word)} is a {wrong}")
+        else:
+            message = f"{kind} {quote(word)} is not declared"
+            self.source.error(word.at, f"unknown-{kind}", message, nearest(word, known))
+        return None
+
+
+def to_number(word: str) -> Number | None:
+    """Return the exact number that a word spells, or None.
+
+    >>> to_number("0.5"), to_number("10"), to_number("1.2.3")
+    (Fraction(1, 2), 10, None)
+    """
+    if not _NUMBER.fullmatch(word):
+        return None
+    value = Fraction(word)
+    return int(value) if value.denominator == 1 else value
+
+
+def looks_numeric(word: str) -> bool:
+    """Whether a word was meant as a number: it starts with a digit, or a sign or dot and one."""
+    return word.lstrip("+-.")[:1].isdigit()

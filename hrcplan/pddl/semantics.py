@@ -1,0 +1,215 @@
+"""What formulas and effects mean in a state: the lifted reading of PDDL, without grounding.
+
+States are a set of facts and a mapping of function values. Validation replays plans with it,
+and the bit representation of ``task.py`` is tested against it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence, Set
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import product
+
+from hrcplan.pddl.model import (
+    Action,
+    And,
+    Arithmetic,
+    Atom,
+    Compare,
+    Constant,
+    Effect,
+    Equal,
+    Expr,
+    Fact,
+    FluentKey,
+    Formula,
+    Function,
+    Not,
+    Number,
+    Or,
+    Param,
+    Problem,
+    Quantified,
+)
+
+Values = Mapping[FluentKey, Number]
+Binding = Mapping[str, str]
+
+
+class Undefined(ArithmeticError):
+    """A function without a value, or a division by zero; ``key`` says which."""
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """Facts that hold, and the values of functions."""
+
+    facts: Set[Fact]
+    values: Values
+
+
+def ground_key(function: Function | Atom, binding: Binding) -> tuple[str, ...]:
+    """Return ``(name, *objects)`` of a function or atom under a binding."""
+    return (function.name, *(binding.get(arg, arg) for arg in function.args))
+
+
+def evaluate(expression: Expr, values: Values, binding: Binding) -> Number:
+    """Return the exact value of an expression.
+
+    Raises:
+        Undefined: if a function has no value, or something is divided by zero.
+    """
+    match expression:
+        case Constant(value):
+            return value
+        case Function():
+            key = ground_key(expression, binding)
+            if key not in values:
+                raise Undefined(f"({' '.join(key)}) has no value")
+            return values[key]
+        case Arithmetic(op, parts):
+            return _apply(op, [evaluate(part, values, binding) for part in parts])
+
+
+def _apply(op: str, numbers: Sequence[Number]) -> Number:
+    if len(numbers) == 1:
+        return -numbers[0] if op == "-" else numbers[0]
+    total = numbers[0]
+    for number in numbers[1:]:
+        if op == "+":
+            total = total + number
+        elif op == "-":
+            total = total - number
+        elif op == "*":
+            total = total * number
+        elif number == 0:
+            raise Undefined("division by zero")
+        else:
+            total = Fraction(total) / number
+    return int(total) if isinstance(total, Fraction) and total.denominator == 1 else total
+
+
+_COMPARE = {
+    "<": lambda a, b: a < b,
+    "<=": lambda a, b: a <= b,
+    "=": lambda a, b: a == b,
+    ">=": lambda a, b: a >= b,
+    ">": lambda a, b: a > b,
+}
+
+
+def holds(formula: Formula, state: State, binding: Binding, problem: Problem) -> bool:
+    """Return whether a condition is true in a state.
+
+    Raises:
+        Undefined: if a function it compares has no value.
+    """
+    match formula:
+        case Atom():
+            return ground_key(formula, binding) in state.facts
+        case Not(body):
+            return not holds(body, state, binding, problem)
+        case And(parts):
+            return all(holds(part, state, binding, problem) for part in parts)
+        case Or(parts):
+            return any(holds(part, state, binding, problem) for part in parts)
+        case Equal(left, right):
+            return binding.get(left, left) == binding.get(right, right)
+        case Compare(op, left, right):
+            numbers = (evaluate(side, state.values, binding) for side in (left, right))
+            return bool(_COMPARE[op](*numbers))
+        case Quantified(universal, params, body):
+            test = all if universal else any
+            return test(
+                holds(body, state, inner, problem)
+                for inner in instances(params, binding, problem)
+            )
+
+
+def unmet(formula: Formula, state: State, binding: Binding, problem: Problem) -> str | None:
+    """Return the first part of a condition that is false, as ground PDDL; None if all hold."""
+    if isinstance(formula, And):
+        parts = (unmet(part, state, binding, problem) for part in formula.parts)
+        return next((part for part in parts if part is not None), None)
+    if isinstance(formula, Quantified) and formula.universal:
+        found = (
+            unmet(formula.body, state, inner, problem)
+            for inner in instances(formula.params, binding, problem)
+        )
+        return next((part for part in found if part is not None), None)
+    return None if holds(formula, state, binding, problem) else ground_text(formula, binding)
+
+
+def ground_text(formula: Formula, binding: Binding) -> str:
+    """Return a formula as PDDL, with its variables replaced by objects where bound."""
+    words = str(formula).replace("(", "( ").replace(")", " )").split()
+    text = " ".join(binding.get(word, word) for word in words)
+    return text.replace("( ", "(").replace(" )", ")")
+
+
+def instances(params: Sequence[Param], binding: Binding, problem: Problem) -> Iterator[Binding]:
+    """Yield ``binding`` extended by every choice of objects for ``params``."""
+    names = [param.name for param in params]
+    for chosen in product(*(problem.objects_of(param.types) for param in params)):
+        yield {**binding, **dict(zip(names, chosen, strict=True))}
+
+
+def bind(action: Action, args: Sequence[str], problem: Problem) -> Binding | str:
+    """Return the parameters bound to ``args``, or what is wrong with them."""
+    if len(args) != len(action.params):
+        return f"'{action.name}' takes {len(action.params)} arguments, not {len(args)}"
+    known = problem.all_objects
+    for param, arg in zip(action.params, args, strict=True):
+        if arg not in known:
+            return f"there is no object '{arg}'"
+        if not problem.domain.is_a(known[arg], param.types):
+            return f"'{arg}' is {known[arg]}, but {param.name} must be {' or '.join(param.types)}"
+    return {param.name: arg for param, arg in zip(action.params, args, strict=True)}
+
+
+@dataclass(frozen=True, slots=True)
+class Changes:
+    """What effects do at one instant: facts deleted, then facts added, and new values."""
+
+    adds: frozenset[Fact]
+    deletes: frozenset[Fact]
+    values: Mapping[FluentKey, Number]
+
+    def apply(self, state: State) -> State:
+        """Return the state after the changes; an add wins over a delete of the same fact."""
+        return State((state.facts - self.deletes) | self.adds, {**state.values, **self.values})
+
+
+def changes(
+    effects: Sequence[Effect], state: State, binding: Binding, problem: Problem
+) -> Changes:
+    """Return what ``effects`` change in ``state``; all of them read the state before.
+
+    Raises:
+        Undefined: if an expression needs a function without a value.
+    """
+    adds: set[Fact] = set()
+    deletes: set[Fact] = set()
+    values: dict[FluentKey, Number] = {}
+    for effect in effects:
+        for inner in instances(effect.params, binding, problem):
+            if not holds(effect.given, state, inner, problem):
+                continue
+            key = ground_key(effect.target, inner)
+            if effect.value is None:
+                (adds if effect.kind == "add" else deletes).add(key)
+            else:
+                amount = evaluate(effect.value, state.values, inner)
+                before = values.get(key, state.values.get(key))
+                values[key] = _assigned(effect.kind, key, before, amount)
+    return Changes(frozenset(adds), frozenset(deletes), values)
+
+
+def _assigned(kind: str, key: FluentKey, before: Number | None, amount: Number) -> Number:
+    if kind == "assign":
+        return amount
+    if before is None:
+        raise Undefined(f"({' '.join(key)}) has no value")
+    ops = {"increase": "+", "decrease": "-", "scale-up": "*", "scale-down": "/"}
+    return _apply(ops[kind], [before, amount])
