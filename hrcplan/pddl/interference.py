@@ -1,0 +1,94 @@
+"""When two happenings of a plan interfere, so that a gap must separate them."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from hrcplan.pddl.model import (
+    Action,
+    And,
+    Atom,
+    Compare,
+    Equal,
+    Fact,
+    FluentKey,
+    Formula,
+    Not,
+    Or,
+    Problem,
+    functions_in,
+)
+from hrcplan.pddl.semantics import Binding, ground_key, instances
+
+_ROLE = {"add": "add", "delete": "delete", "increase": "sum", "decrease": "sum"}
+
+
+class Access(NamedTuple):
+    """What one event reads and writes: facts, and functions (summed or otherwise changed)."""
+
+    reads: frozenset[Fact]
+    adds: frozenset[Fact]
+    deletes: frozenset[Fact]
+    function_reads: frozenset[FluentKey]
+    sums: frozenset[FluentKey]
+    assigns: frozenset[FluentKey]
+
+
+def clash(a: Access, b: Access) -> Fact | None:
+    """Return a fact or function about which two happenings interfere, or None.
+
+    Fox and Long (2003), Definition 12: neither may write what the other reads, add what the
+    other deletes, or assign what the other changes; increases of one function commute.
+    """
+    for one, other in ((a, b), (b, a)):
+        facts = (one.reads | one.adds) & other.deletes | one.reads & other.adds
+        written = other.sums | other.assigns
+        functions = one.function_reads & written | one.assigns & written
+        if facts or functions:
+            return min(facts | functions)
+    return None
+
+
+def access(problem: Problem, action: Action, binding: Binding, when: str) -> Access:
+    """Return what the ``start`` or ``end`` of an action under a binding reads and writes."""
+    atoms: set[Fact] = set()
+    functions: set[FluentKey] = set()
+    for condition in action.conditions:
+        if condition.when == when:
+            _collect(condition.formula, binding, problem, atoms, functions)
+    written: dict[str, set[Fact]] = {role: set() for role in ("add", "delete", "sum", "assign")}
+    for effect in action.effects:
+        if effect.when != when:
+            continue
+        for inner in instances(effect.params, binding, problem):
+            _collect(effect.given, inner, problem, atoms, functions)
+            functions.update(ground_key(f, inner) for f in functions_in(effect.value))
+            written[_ROLE.get(effect.kind, "assign")].add(ground_key(effect.target, inner))
+    return Access(
+        frozenset(atoms), frozenset(written["add"]), frozenset(written["delete"]),
+        frozenset(functions), frozenset(written["sum"]), frozenset(written["assign"]),
+    )  # fmt: skip
+
+
+def _collect(
+    formula: Formula, binding: Binding, problem: Problem, atoms: set[Fact], functions: set[FluentKey]
+) -> None:
+    """Add every fact and function that a formula looks at."""
+    match formula:
+        case Atom():
+            atoms.add(ground_key(formula, binding))
+        case Not(body):
+            _collect(body, binding, problem, atoms, functions)
+        case And(parts) | Or(parts):
+            for part in parts:
+                _collect(part, binding, problem, atoms, functions)
+        case Compare(_, left, right):
+            for side in (left, right):
+                functions.update(ground_key(f, binding) for f in functions_in(side))
+        case Equal():
+            pass
+        case _:
+            for inner in instances(formula.params, binding, problem):
+                _collect(formula.body, inner, problem, atoms, functions)
+
+
