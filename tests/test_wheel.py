@@ -1,0 +1,53 @@
+"""The wheel carries the PDDL, and an editable installation does not: there the checkout counts."""
+
+import shutil
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+
+
+def pddl_files() -> set[str]:
+    return {
+        path.relative_to(ROOT).as_posix()
+        for folder in ("domains", "problems")
+        for path in (ROOT / folder).rglob("*.pddl")
+    }
+
+
+@pytest.fixture(scope="module")
+def checkout(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A copy of what a wheel is built from, so that nothing is written into the checkout."""
+    copy = tmp_path_factory.mktemp("checkout")
+    for name in ("pyproject.toml", "README.md", "LICENSE"):
+        shutil.copy(ROOT / name, copy)
+    for name in ("hrcplan", "domains", "problems"):
+        shutil.copytree(ROOT / name, copy / name, ignore=shutil.ignore_patterns("__pycache__"))
+    return copy
+
+
+def built(checkout: Path, hook: str, target: Path) -> set[str]:
+    """Return the names inside the wheel that pip's own build hook makes."""
+    code = f"import sys, hatchling.build; print(hatchling.build.{hook}(sys.argv[1]))"
+    command = [sys.executable, "-c", code, str(target)]
+    run = subprocess.run(command, cwd=checkout, capture_output=True, text=True, check=True)
+    with zipfile.ZipFile(target / run.stdout.split()[-1]) as wheel:
+        return set(wheel.namelist())
+
+
+def test_wheel_carries_code_types_and_pddl(checkout: Path, tmp_path: Path) -> None:
+    names = built(checkout, "build_wheel", tmp_path)
+    assert {"hrcplan/__init__.py", "hrcplan/cli.py", "hrcplan/py.typed"} <= names
+    shipped = {name.removeprefix("hrcplan/_pddl/") for name in names if "/_pddl/" in name}
+    assert shipped == pddl_files() != set()
+    tops = {name.partition("/")[0] for name in names if ".dist-info/" not in name}
+    assert tops == {"hrcplan"}
+
+
+def test_editable_installation_holds_no_copies(checkout: Path, tmp_path: Path) -> None:
+    names = built(checkout, "build_editable", tmp_path)
+    assert not [name for name in names if name.endswith((".pddl", ".py"))]

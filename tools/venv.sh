@@ -1,0 +1,95 @@
+# Sourced by the launchers: `need_venv EXTRA` returns once $root/.venv holds the project with
+# that extra. Everything said here goes to stderr, and nothing here touches the caller's folder.
+# Before sourcing, the launcher sets $root to the checkout, symbolic links resolved.
+
+venv=$root/.venv
+stamp=$venv/hrcplan-stamp    # written last: the extra, then the hashes and places of the inputs
+owner=$venv/hrcplan-checkout # written first: whose environment this is
+
+# Another environment's settings must neither steer pip nor leak modules into ours.
+unset VIRTUAL_ENV PYTHONHOME PYTHONPATH
+
+say() { printf 'hrcplan: %s\n' "$*" >&2; }
+
+# The places are part of what is compared: a moved checkout has stale paths in its .venv.
+inputs() { sha256sum "$root/pyproject.toml" "$root/constraints.txt"; }
+
+# True when the last finished installation is of the present inputs and holds extra $1.
+# `test` contains `java`, so either serves a call that wants `java`.
+stamp_fits() {
+    installed='' first='' second=''
+    [ -x "$venv/bin/python" ] && [ -r "$stamp" ] || return 1
+    { IFS= read -r installed && IFS= read -r first && IFS= read -r second; } <"$stamp" || return 1
+    case $installed in "$1" | test) ;; *) return 1 ;; esac
+    [ "$(inputs)" = "$first
+$second" ]
+}
+
+# Exit status 3: too old; 4: cannot make environments, and Debian's package for it is printed.
+probe='import sys
+if sys.version_info < (3, 11):
+    sys.exit(3)
+try:
+    import ensurepip, venv
+except ImportError:
+    print("python%d.%d-venv" % sys.version_info[:2])
+    sys.exit(4)'
+
+# Set $python to the first interpreter that will do. The one called python3 comes first,
+# because that is the one its user chose; then 3.11, on which the project is tested.
+find_python() {
+    if [ -n "${HRCPLAN_PYTHON-}" ]; then set -- "$HRCPLAN_PYTHON"; else
+        set -- python3 python3.11 python3.12 python3.13 python3.14
+    fi
+    package=''
+    for python in "$@"; do
+        found=$("$python" -c "$probe" 2>/dev/null) && return 0
+        [ $? -eq 4 ] && package=${package:-$found}
+    done
+    if [ -n "$package" ]; then
+        say "this Python has no venv module. On Debian or Ubuntu: apt install $package"
+    else
+        say "needs Python 3.11 or newer; tried: $*"
+        say "On Debian or Ubuntu: apt install python3 python3-venv"
+        say "or name an interpreter: HRCPLAN_PYTHON=/path/to/python"
+    fi
+    return 1
+}
+
+# An environment of ours whose interpreter works is kept, anything else of ours is made anew.
+make_venv() {
+    if [ -e "$venv" ] && [ ! -e "$owner" ]; then
+        say "$venv was not made by this launcher; please move it away"
+        return 1
+    fi
+    [ "$(cat "$owner" 2>/dev/null)" = "$root" ] && "$venv/bin/python" -c 'import pip' 2>/dev/null &&
+        return 0
+    find_python || return 1
+    rm -rf "$venv" && mkdir "$venv" && printf '%s\n' "$root" >"$owner" &&
+        "$python" -m venv "$venv"
+}
+
+install_project() {
+    extra=$1
+    # An outdated stamp still tells that the test extra is in; an update keeps it.
+    [ "$installed" = test ] && extra=test
+    say "installing into .venv with the extra '$extra'; this takes a moment"
+    make_venv || return 1
+    before=$(inputs) && rm -f "$stamp" || return 1
+    env -u PIP_TARGET -u PIP_PREFIX PIP_USER=0 "$venv/bin/python" -m pip install \
+        --no-input --disable-pip-version-check \
+        -c "$root/constraints.txt" -e "$root[$extra]" || return 1
+    printf '%s\n' "$extra" "$before" >"$stamp.new" && mv "$stamp.new" "$stamp"
+}
+
+# The lock is the kernel's: it goes with its last holder, be that holder killed or finished,
+# and a pip that outlives a killed launcher still holds it.
+need_venv() {
+    stamp_fits "$1" && return 0
+    (
+        flock -n 9 || { say 'waiting for another installation to finish' && flock 9; } || exit 1
+        stamp_fits "$1" || install_project "$1"
+    ) 9>"$root/.venv.lock" >&2 </dev/null && return 0
+    say 'the installation failed; the next call tries again'
+    exit 126 # "found, but cannot run": none of hrcplan's own exit codes
+}
