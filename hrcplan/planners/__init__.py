@@ -1,0 +1,1 @@
+"""Planners: adapters, our own exact search, and one checked result type."""
