@@ -92,7 +92,7 @@ def make_project(root: Path) -> Path:
     return root
 
 
-def environment(root: Path, extra: Mapping[str, str] = {}) -> dict[str, str]:
+def environment(root: Path, extra: Mapping[str, str]) -> dict[str, str]:
     # No index and no settings of this machine: a look at the network would fail, not pass unseen.
     return {
         **os.environ,
