@@ -3,10 +3,13 @@
 import shutil
 import subprocess
 import sys
+import tomllib
 import zipfile
 from pathlib import Path
 
 import pytest
+
+import hrcplan
 
 ROOT = Path(__file__).parents[1]
 
@@ -51,3 +54,8 @@ def test_wheel_carries_code_types_and_pddl(checkout: Path, tmp_path: Path) -> No
 def test_editable_installation_holds_no_copies(checkout: Path, tmp_path: Path) -> None:
     names = built(checkout, "build_editable", tmp_path)
     assert not [name for name in names if name.endswith((".pddl", ".py"))]
+
+
+def test_package_and_project_name_the_same_version() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
+    assert hrcplan.__version__ == project["version"]
