@@ -1,0 +1,98 @@
+;; title: a human and a robot cook one of many recipes, step by step
+;; source: Ghose, Gitelson, Jin, Abawe, Vázquez, Scassellati: I've Changed My Mind: Robots Adapting to Changing
+;;         Human Goals during Collaboration (section IV-A: kitchen, meals, signatures of actions);
+;;         agent state as a cost: Izquierdo-Badiola et al., Improved Task Planning through Failure Anticipation
+;; changed: the paper prints signatures only, so every condition, effect and recipe is ours. The agent comes
+;;          first; mix names its dish, and cook and blend what they work in, so that each fact has one step
+;;          that adds it and no recipe's step waits for, or is opened by, a step of another recipe
+;; time-unit: step (the paper: every step takes the same time, whoever does it)
+;; abstraction: ingredients are never used up and nothing is washed, emptied or switched off: effects only add
+;;              facts, except that get removes "stored" and every step but serve removes "served". A meal
+;;              counts as served only if nothing was done to it since, so serve can be repeated and comes
+;;              last in every optimal plan. The sink is no object: water is collected in the dish.
+;;              A station is whatever a step is done at, and capacity is how hard that is for an agent: the
+;;              thing to fetch (its place on the shelf), the dish or the appliance. serve is done at no station.
+
+(define (domain kitchen)
+  (:requirements :strips :typing :numeric-fluents :action-costs)
+
+  (:types
+    agent station - object
+    ingredient tool equipment - station
+    dish appliance - equipment
+    cookware - dish
+    cooker - appliance)
+
+  (:predicates
+    (controllable ?a - agent)                   ; static: the robot
+    (goes-in ?i - ingredient ?d - equipment)    ; static: what may be poured where
+    (stored ?x - station)                       ; on the shelf
+    (available ?x - station)                    ; in the workspace; of equipment: ready to be filled
+    (in ?i - ingredient ?d - equipment)
+    (has-water ?d - dish)
+    (on ?p - appliance)
+    (low ?p - cooker)
+    (mixed ?i - ingredient ?d - dish)
+    (cooked ?i - ingredient)
+    (blended ?i - ingredient)
+    (served))
+
+  (:functions
+    (knowledge ?a - agent)
+    (motivation ?a - agent)
+    (capacity ?a - agent ?x - station)
+    (total-cost))
+
+  (:action get
+    :parameters (?a - agent ?i - station)
+    :precondition (stored ?i)
+    :effect (and (available ?i) (not (stored ?i)) (not (served))
+      (increase (total-cost) (+ (+ (knowledge ?a) (motivation ?a)) (capacity ?a ?i)))))
+
+  (:action pour
+    :parameters (?a - agent ?i - ingredient ?d - equipment)
+    :precondition (and (goes-in ?i ?d) (available ?i) (available ?d))
+    :effect (and (in ?i ?d) (not (served))
+      (increase (total-cost) (+ (+ (knowledge ?a) (motivation ?a)) (capacity ?a ?d)))))
+
+  (:action mix
+    :parameters (?a - agent ?i - ingredient ?d - dish)
+    :precondition (in ?i ?d)
+    :effect (and (mixed ?i ?d) (not (served))
+      (increase (total-cost) (+ (+ (knowledge ?a) (motivation ?a)) (capacity ?a ?d)))))
+
+  (:action cook
+    :parameters (?a - agent ?i - ingredient ?d - cookware ?p - cooker)
+    :precondition (and (in ?i ?d) (has-water ?d) (on ?p))
+    :effect (and (cooked ?i) (not (served))
+      (increase (total-cost) (+ (+ (knowledge ?a) (motivation ?a)) (capacity ?a ?p)))))
+
+  (:action blend
+    :parameters (?a - agent ?i - ingredient ?p - appliance)
+    :precondition (and (in ?i ?p) (on ?p))
+    :effect (and (blended ?i) (not (served))
+      (increase (total-cost) (+ (+ (knowledge ?a) (motivation ?a)) (capacity ?a ?p)))))
+
+  (:action turn_on
+    :parameters (?a - agent ?p - appliance)
+    :precondition (and)
+    :effect (and (on ?p) (not (served))
+      (increase (total-cost) (+ (+ (knowledge ?a) (motivation ?a)) (capacity ?a ?p)))))
+
+  (:action collect_water
+    :parameters (?a - agent ?d - dish)
+    :precondition (available ?d)
+    :effect (and (has-water ?d) (not (served))
+      (increase (total-cost) (+ (+ (knowledge ?a) (motivation ?a)) (capacity ?a ?d)))))
+
+  (:action reduce_heat
+    :parameters (?a - agent ?p - cooker)
+    :precondition (on ?p)
+    :effect (and (low ?p) (not (served))
+      (increase (total-cost) (+ (+ (knowledge ?a) (motivation ?a)) (capacity ?a ?p)))))
+
+  (:action serve
+    :parameters (?a - agent)
+    :precondition (and)
+    :effect (and (served)
+      (increase (total-cost) (+ (knowledge ?a) (motivation ?a))))))
