@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from bisect import bisect_right
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
@@ -9,16 +10,23 @@ from pathlib import Path
 
 from hrcplan.errors import Diagnostic, InputError
 
-MAX_QUOTE = 60  # characters of a file that a message may repeat
+MAX_QUOTE = 60  # characters of a file that a message repeats at a time
+MAX_MESSAGE = 160  # a message and its hint are each cut here, whatever they repeat
+MAX_HINTS = 100  # a file of nonsense is not worth a search among its names for every word
+SECTION_SIMILARITY = 0.75  # a misspelt section or keyword this close is read as what was meant
+
+_NEWLINE = re.compile(r"\r\n?|\n")
+_BOM = b"\xef\xbb\xbf"
 
 
 @dataclass(slots=True)
 class Source:
-    """A file's text and the faults found in it so far."""
+    """A file's text, the faults found in it so far, and the requirements that it uses."""
 
     path: str
     text: str
     diagnostics: list[Diagnostic] = field(default_factory=list)
+    uses: dict[str, int] = field(default_factory=dict)
     _lines: list[int] = field(default_factory=list)
 
     def position(self, at: int) -> tuple[int, int]:
@@ -28,7 +36,7 @@ class Source:
         (2, 2)
         """
         if not self._lines:
-            self._lines = [0, *(i + 1 for i, c in enumerate(self.text) if c == "\n")]
+            self._lines = [0, *(match.end() for match in _NEWLINE.finditer(self.text))]
         line = bisect_right(self._lines, at)
         return line, at - self._lines[line - 1] + 1
 
@@ -40,10 +48,20 @@ class Source:
         """Note a warning at offset ``at``."""
         self._note(at, "warning", code, message, hint)
 
+    def unknown(self, at: int, code: str, message: str, word: str, known: Iterable[str]) -> None:
+        """Note that ``word`` is none of ``known``, with the nearest of them as a hint."""
+        helpful = len(self.diagnostics) < MAX_HINTS
+        self.error(at, code, message, nearest(word, known) if helpful else None)
+
+    def use(self, requirement: str, at: int) -> None:
+        """Remember where the file first needs a requirement flag."""
+        self.uses.setdefault(requirement, at)
+
     def _note(self, at: int, severity: str, code: str, message: str, hint: str | None) -> None:
         line, column = self.position(at)
+        hint = None if hint is None else _cut(hint, MAX_MESSAGE)
         self.diagnostics.append(
-            Diagnostic(self.path, line, column, severity, code, message, hint)
+            Diagnostic(self.path, line, column, severity, code, _cut(message, MAX_MESSAGE), hint)
         )
 
     @property
@@ -53,8 +71,30 @@ class Source:
 
 
 def quote(text: str) -> str:
-    """Return ``text`` in quotes, shortened so that a message never repeats a long line."""
-    return f"'{text}'" if len(text) <= MAX_QUOTE else f"'{text[:MAX_QUOTE]}…'"
+    """Return ``text`` in quotes, shortened, and harmless to a terminal.
+
+    >>> quote("wp1"), quote("a\\x1b[31m")
+    ("'wp1'", "'a\\\\x1b[31m'")
+    """
+    shown = _cut(text, MAX_QUOTE)
+    return f"'{shown}'" if shown.isprintable() else f"'{ascii(shown)[1:-1]}'"
+
+
+def _cut(text: str, limit: int) -> str:
+    return text if len(text) <= limit else f"{text[: limit - 1]}…"
+
+
+def nearest_name(word: str, known: Iterable[str], similarity: float = 0.6) -> str | None:
+    """Return the known name that is most like ``word``, or None if none is close."""
+    from rapidfuzz import distance, process
+
+    found = process.extractOne(
+        word[:MAX_QUOTE],
+        [name for name in known if name != word],
+        scorer=distance.OSA.normalized_similarity,
+        score_cutoff=similarity,
+    )
+    return None if found is None else str(found[0])
 
 
 def nearest(word: str, known: Iterable[str]) -> str | None:
@@ -63,61 +103,79 @@ def nearest(word: str, known: Iterable[str]) -> str | None:
     >>> nearest("motivaton", ["motivation", "capacity"])
     "did you mean 'motivation'?"
     """
-    from rapidfuzz import distance, process
-
-    choices = [k for k in known if k != word]
-    found = process.extractOne(
-        word[:MAX_QUOTE], choices, scorer=distance.OSA.normalized_similarity, score_cutoff=0.6
-    )
-    return f"did you mean '{found[0]}'?" if found else None
+    name = nearest_name(word, known)
+    return None if name is None else f"did you mean {quote(name)}?"
 
 
 def read_source(path: str | Path) -> Source:
-    """Return the text of a file as a Source.
-
-    A file that is not UTF-8 text gives a Source with an error and no text.
+    """Return the text of a file as a Source; see ``decode`` for what is not UTF-8 text.
 
     Raises:
         InputError: if there is no such file, it is a folder, or it may not be read.
     """
+    shown = str(path)
     try:
-        data = Path(path).read_bytes()
+        return decode(shown, Path(path).read_bytes())
     except IsADirectoryError:
-        raise InputError(f"{path} is a folder, not a file", code="is-folder", path=str(path),
-                         hint="name one file inside it") from None  # fmt: skip
+        hint = "name one file inside it"
+        message = f"{shown} is a folder, not a file"
+        raise InputError(message, code="is-folder", path=shown, hint=hint) from None
     except FileNotFoundError:
-        raise InputError(f"there is no file {path}", code="no-file", path=str(path)) from None
+        raise InputError(f"there is no file {shown}", code="no-file", path=shown) from None
     except (OSError, ValueError) as error:
-        raise InputError(f"cannot read {path}: {error}", path=str(path)) from None
-    return decode(str(path), data)
+        raise InputError(f"cannot read {shown}: {error}", path=shown) from None
+
+
+def read_text(path: str | Path) -> str:
+    """Return the text of a file that is not PDDL, such as a plan.
+
+    Raises:
+        InputError: if it is missing, a folder, or not UTF-8 text.
+    """
+    source = read_source(path)
+    if source.has_errors:
+        fault = source.diagnostics[0]
+        raise InputError(fault.message, code=fault.code, path=fault.path, line=fault.line)
+    return source.text
 
 
 def decode(path: str, data: bytes) -> Source:
-    """Return ``data`` as a Source; text that is not UTF-8 becomes an error at its place."""
-    fault = _encoding_fault(data)
-    if fault is None:
-        return Source(path, data.decode("utf-8-sig"))
-    at, code, message = fault
-    readable = data[:at].decode("utf-8", errors="replace")
-    source = Source(path, readable)
-    source.error(len(readable), code, message, "save the file as UTF-8 text")
+    """Return ``data`` as a Source.
+
+    A few bytes that are not UTF-8 are one error, and the rest is read all the same; UTF-16 and
+    binary content is one error and no text.
+    """
+    data = data.removeprefix(_BOM)
+    if b"\0" in data or data[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        return _not_text(path, data)
+    try:
+        return Source(path, data.decode())
+    except UnicodeDecodeError as error:
+        source = Source(path, data.decode(errors="replace"))
+        at = len(data[: error.start].decode())
+        message = f"byte 0x{data[error.start]:02x} is not UTF-8"
+        source.error(at, "not-utf-8", message, "save the file as UTF-8 text")
+        if source.text.count("\ufffd") * 20 > len(source.text):
+            source.text = ""  # not a stray accent but some other encoding, or no text at all
+        return source
+
+
+def _not_text(path: str, data: bytes) -> Source:
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff") or data.count(0) * 4 > len(data):
+        source = Source(path, "")
+        source.error(0, "utf-16", "the file is UTF-16, not UTF-8", "save the file as UTF-8 text")
+        return source
+    before = data[: data.index(0)].decode(errors="replace")
+    source = Source(path, before)
+    source.error(len(before), "binary", "the file holds a NUL byte: it is not text")
     source.text = ""
     return source
 
 
-def _encoding_fault(data: bytes) -> tuple[int, str, str] | None:
-    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        return 0, "utf-16", "the file is UTF-16, not UTF-8"
-    nul = data.find(b"\0")
-    if nul >= 0:
-        return nul, "binary", "the file holds a NUL byte; it is binary or UTF-16"
-    try:
-        data.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        return error.start, "not-utf-8", f"byte 0x{data[error.start]:02x} is not UTF-8"
-    return None
-
-
 def in_order(diagnostics: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
     """Return diagnostics sorted by place, without repetitions."""
-    return tuple(sorted(set(diagnostics), key=lambda d: (d.path, d.line, d.column, d.code)))
+
+    def place(fault: Diagnostic) -> tuple[str, int, int, str, str]:
+        return fault.path, fault.line, fault.column, fault.code, fault.message
+
+    return tuple(sorted(set(diagnostics), key=place))

@@ -1,0 +1,125 @@
+"""A result of planning as JSON (DESIGN, section 6) and as a table with a lane per agent."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from hrcplan.cli.output import number
+from hrcplan.pddl.model import Number, Problem, number_text
+from hrcplan.planners.answer import Status
+from hrcplan.planners.solve import Result
+from hrcplan.plans import Plan, PlannedAction, lane, seconds_text
+
+VERDICT = {
+    Status.OPTIMAL: "proven optimal",
+    Status.SOLVED: "not proven optimal",
+    Status.UNSOLVABLE: "unsolvable",
+    Status.UNSOLVED: "no plan within the limits",
+}
+
+
+def as_json(problem: Problem, found: Result) -> dict[str, Any]:
+    """Return the document of ``plan --json``."""
+    report = found.report
+    return {
+        "status": found.status.value,
+        "planner": found.planner,
+        "cost": number(report.cost) if report else None,
+        "makespan_s": number(report.makespan_s) if report else None,
+        "metric": number(report.metric) if report else None,
+        "valid": report.valid if report else None,
+        "steps": _steps(problem, found),
+        "wall_s": round(found.wall_s, 6),
+        "why": found.why,
+        "tried": [
+            {"planner": a.planner, "outcome": a.outcome, "wall_s": round(a.wall_s, 6)}
+            for a in found.attempts
+        ],
+        "shortest": found.shortest,
+    }
+
+
+def _steps(problem: Problem, found: Result) -> list[dict[str, Any]]:
+    if found.plan is None or found.report is None:
+        return []
+    return [
+        {
+            "start_s": number(action.start_s),
+            "duration_s": number(action.duration_s),
+            "agent": lane(action.args, problem),
+            "action": action.name,
+            "args": list(action.args),
+            "cost": number(cost),
+        }
+        for action, cost in zip(found.plan.actions, found.report.step_costs, strict=True)
+    ]
+
+
+def as_text(problem: Problem, found: Result) -> str:
+    """Return a headline, the plan with one column per lane, and what it costs."""
+    head = f"{problem.domain.name}/{problem.name}: {VERDICT[found.status]}"
+    by = f" ({found.planner}, {found.wall_s:.2f} s)" if found.planner != "auto" else ""
+    tried = _tried(found)
+    if found.plan is None or found.report is None:
+        return f"{head}{by}{tried}"
+    plan = "\n".join(_table(problem, found.plan))
+    return f"{head}{by}{tried}\n\n{plan}\n\n{_figures(problem, found)}"
+
+
+def _tried(found: Result) -> str:
+    others = [a for a in found.attempts if a.planner != found.planner]
+    return "".join(f"\n  {a.planner}: {a.outcome}" for a in others)
+
+
+def _figures(problem: Problem, found: Result) -> str:
+    report = found.report
+    assert report is not None and found.plan is not None
+    lines: list[str] = []
+    if report.metric is not None:
+        lines.append(f"metric    {_short(report.metric)}   minimize {problem.metric}")
+    if report.cost is not None:
+        lines.append(f"cost      {_short(report.cost)}")
+    if report.makespan_s is not None:
+        unit = " s" if problem.domain.is_temporal else " steps"
+        proof = {None: "", True: "   (shortest for these steps)", False: ""}[found.shortest]
+        lines.append(f"makespan  {_short(report.makespan_s)}{unit}{proof}")
+    lines.append(f"valid     yes, replayed: {len(found.plan.actions)} actions, goal reached")
+    return "\n".join(lines)
+
+
+def _short(value: Number) -> str:
+    return number_text(value)
+
+
+def _table(problem: Problem, plan: Plan) -> list[str]:
+    """Return lines: time or position, then one column per agent that does anything."""
+    lanes = [a for a in problem.agents if any(lane(p.args, problem) == a for p in plan.actions)]
+    if any(lane(p.args, problem) is None for p in plan.actions) or not lanes:
+        lanes.append("")
+    rows: dict[str, dict[str, str]] = {}
+    for position, action in enumerate(plan.actions):
+        when = str(position + 1) if action.start_s is None else _clock(action.start_s, problem)
+        agent = lane(action.args, problem) or ""
+        rows.setdefault(when, {})[agent] = _cell(action, agent)
+    head = "step" if not plan.is_schedule else "time (s)" if problem.domain.is_temporal else "time"
+    table = [[head, *lanes]] + [[when, *(row.get(a, "") for a in lanes)] for when, row in rows.items()]
+    widths = [max(len(line[i]) for line in table) for i in range(len(lanes) + 1)]
+    rule = ["─" * width for width in widths]
+    return [_line(line, widths) for line in (table[0], rule, *table[1:])]
+
+
+def _clock(start: Number, problem: Problem) -> str:
+    return seconds_text(start) if problem.domain.is_temporal else number_text(start)
+
+
+def _cell(action: PlannedAction, agent: str) -> str:
+    rest = list(action.args)
+    if agent:
+        rest.remove(agent)
+    return " ".join([action.name, *rest])
+
+
+def _line(cells: list[str], widths: list[int]) -> str:
+    first = cells[0].rjust(widths[0]) if cells[0][:1].isdigit() else cells[0].ljust(widths[0])
+    rest = [cell.ljust(width) for cell, width in zip(cells[1:], widths[1:], strict=True)]
+    return "  ".join(["", first, *rest]).rstrip()

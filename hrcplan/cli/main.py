@@ -1,0 +1,86 @@
+"""The command group: every way out of a command passes through here."""
+
+from __future__ import annotations
+
+import importlib
+import sys
+import traceback
+from collections.abc import Callable
+from typing import Any, NoReturn
+
+import rich_click as click
+
+from hrcplan import __version__
+from hrcplan.cli import output
+from hrcplan.errors import HrcplanError, LimitError, PddlError
+
+COMMANDS = {
+    "plan": "hrcplan.cli.plan",
+    "validate": "hrcplan.cli.validate",
+    "check": "hrcplan.cli.check",
+    "new-problem": "hrcplan.cli.new_problem",
+    "planners": "hrcplan.cli.planners",
+    "doctor": "hrcplan.cli.doctor",
+}
+INTERNAL_ERROR = 5
+INTERRUPTED = 130
+
+
+class _Commands(click.RichGroup):
+    """Commands that are imported when they are called, so that ``--help`` answers at once."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Return the names in the order of a first walk through the tool."""
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """Return a command, or None if there is none of this name."""
+        if cmd_name not in COMMANDS:
+            return None
+        module = importlib.import_module(COMMANDS[cmd_name])
+        command: click.Command = module.command
+        return command
+
+    def main(self, *args: Any, **kwargs: Any) -> NoReturn:
+        """Run a command and exit; errors become messages and exit codes."""
+        sys.exit(_guarded(lambda: super(_Commands, self).main(*args, standalone_mode=False)))
+
+
+def _guarded(run: Callable[[], Any]) -> int:
+    try:
+        result = run()
+    except click.exceptions.Exit as stop:
+        return stop.exit_code
+    except click.ClickException as error:
+        error.show()
+        return error.exit_code
+    except (KeyboardInterrupt, click.Abort):
+        output.fail("interrupted", "interrupted")
+        return INTERRUPTED
+    except PddlError as error:
+        output.fail_pddl(error)
+        return error.exit_code
+    except HrcplanError as error:
+        output.fail(error.code, error.message, error.path, error.line, error.hint)
+        return error.exit_code
+    except MemoryError:
+        output.fail("memory", "out of memory", hint="a smaller problem, or --planner kairos")
+        return LimitError.exit_code
+    except BrokenPipeError:
+        sys.stderr.close()
+        return 1
+    except Exception as error:  # noqa: BLE001  a bug of ours: no traceback unless asked for
+        if output.DEBUG:
+            traceback.print_exc()
+        what = f"{type(error).__name__}: {error}"
+        output.fail("internal", f"internal error: {what}", hint="run again with --debug, and tell us")
+        return INTERNAL_ERROR
+    return result if isinstance(result, int) else 0
+
+
+@click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(__version__, prog_name="hrcplan")
+@click.option("--debug", is_flag=True, help="Show tracebacks.")
+def main(debug: bool) -> None:
+    """Plan for humans and robots from PDDL: agent states are costs, plans are checked."""
+    output.DEBUG = debug

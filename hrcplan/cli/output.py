@@ -1,0 +1,115 @@
+"""What goes to stdout (the result, or one JSON document) and to stderr (all the rest)."""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+import tempfile
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any, TypeVar
+
+import rich_click as click
+
+from hrcplan.errors import PddlError, UsageError
+from hrcplan.pddl.model import Number
+
+DEBUG = False
+JSON = False
+VERBOSE = False
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+def common_options(function: F) -> F:
+    """Add ``--json`` and ``-v`` to a command; both take effect at once."""
+
+    def set_json(ctx: click.Context, param: click.Parameter, value: bool) -> None:
+        global JSON
+        JSON = value
+
+    def set_verbose(ctx: click.Context, param: click.Parameter, value: bool) -> None:
+        global VERBOSE
+        VERBOSE = value
+
+    function = click.option("-v", "--verbose", is_flag=True, expose_value=False,
+                            callback=set_verbose, help="Say more on stderr.")(function)  # fmt: skip
+    return click.option("--json", is_flag=True, is_eager=True, expose_value=False,
+                        callback=set_json, help="Print one JSON document.")(function)  # fmt: skip
+
+
+def document(value: Mapping[str, Any]) -> None:
+    """Print one JSON document on stdout."""
+    print(json.dumps(value, indent=2, ensure_ascii=False))
+
+
+def result(text: str) -> None:
+    """Print a result in words on stdout."""
+    print(text)
+
+
+def say(text: str) -> None:
+    """Print progress on stderr if it was asked for."""
+    if VERBOSE:
+        print(text, file=sys.stderr)
+
+
+def warn(text: str) -> None:
+    """Print a warning on stderr."""
+    print(f"warning: {text}", file=sys.stderr)
+
+
+def fail(
+    code: str, message: str, path: str | None = None, line: int | None = None,
+    hint: str | None = None,
+) -> None:  # fmt: skip
+    """Print an error: JSON on stdout if asked for, else words on stderr."""
+    if JSON:
+        fault = {"code": code, "message": message, "path": path, "line": line, "hint": hint}
+        document({"error": fault})
+        return
+    place = "" if path is None or path in message else f"{path}:{line}: " if line else f"{path}: "
+    print(f"error: {place}{message}", file=sys.stderr)
+    if hint:
+        print(f"  hint: {hint}", file=sys.stderr)
+
+
+def fail_pddl(error: PddlError) -> None:
+    """Print every fault of PDDL files."""
+    if JSON:
+        fail(error.code, error.message, error.path, error.line, error.hint)
+        return
+    for diagnostic in error.diagnostics:
+        print(diagnostic, file=sys.stderr)
+
+
+def number(value: Number | None) -> int | float | None:
+    """Return a number as JSON holds it: an int where it is whole."""
+    if value is None or isinstance(value, int):
+        return value
+    return int(value) if value.denominator == 1 else float(value)
+
+
+def write_atomically(path: Path, data: str | bytes) -> None:
+    """Write a file by rename, so that it is there completely or not at all.
+
+    Raises:
+        UsageError: if the folder is missing or may not be written.
+    """
+    raw = data.encode() if isinstance(data, str) else data
+    try:
+        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+        try:
+            with os.fdopen(handle, "wb") as file:
+                file.write(raw)
+            mask = os.umask(0)
+            os.umask(mask)
+            os.chmod(name, 0o666 & ~mask)
+            Path(name).replace(path)
+        except BaseException:
+            Path(name).unlink(missing_ok=True)
+            raise
+    except OSError as error:
+        reason = error.strerror or str(error)
+        raise UsageError(f"cannot write {path}: {reason}", path=str(path)) from None

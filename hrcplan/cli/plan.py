@@ -1,0 +1,77 @@
+"""``hrcplan plan``: ask planners for a plan and print it in lanes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import rich_click as click
+
+from hrcplan.cli import output
+from hrcplan.errors import UsageError
+
+STATUS_EXIT = {"solved-optimally": 0, "solved": 0, "unsolvable": 1, "unsolved": 4}
+
+
+@click.command("plan")
+@click.argument("names", nargs=-1, required=True, metavar="DOMAIN PROBLEM")
+@click.option("--planner", default="auto", show_default=True, metavar="NAME",
+              help="auto, one of `hrcplan planners`, up:NAME, or 'cmd:PROGRAM {domain} {problem}'.")
+@click.option("--timeout", type=click.FloatRange(0, min_open=True), default=60.0,
+              show_default=True, metavar="S", help="Seconds for all planners together.")
+@click.option("--set", "settings", multiple=True, metavar="'F OBJ…=N'",
+              help="Change a value of the initial state, as in 'motivation human=8'.")
+@click.option("--any", "any_plan", is_flag=True, help="The first valid plan is enough.")
+@click.option("--lanes", is_flag=True, help="Lay a sequential plan out in lanes.")
+@click.option("--gantt", type=click.Path(path_type=Path), metavar="FILE",
+              help="Draw the lanes into a .png or .svg file.")
+@click.option("-o", "--output", "target", type=click.Path(path_type=Path), metavar="PLAN",
+              help="Write the plan in IPC format.")
+@output.common_options
+def command(
+    names: tuple[str, ...], planner: str, timeout: float, settings: tuple[str, ...],
+    any_plan: bool, lanes: bool, gantt: Path | None, target: Path | None,
+) -> int:
+    """Find a plan for DOMAIN PROBLEM (paths, or shipped names such as transport/two-boxes).
+
+    The plan is replayed in hrcplan's own semantics before it is printed.
+    """
+    from hrcplan.cli.arguments import problem_of, split_names
+    from hrcplan.planners.solve import solve
+
+    _check_targets(gantt, target)
+    domain, name, _ = split_names(names, 0)
+    problem = problem_of(domain, name, settings)
+    found = solve(problem, planner, timeout_s=timeout, any_plan=any_plan,
+                  lanes=lanes or gantt is not None)
+    for attempt in found.attempts:
+        output.say(f"{attempt.planner}: {attempt.outcome} ({attempt.wall_s:.2f} s)")
+    if found.plan is not None and target is not None:
+        from hrcplan.plans import format_plan
+
+        output.write_atomically(target, format_plan(found.plan))
+    if found.plan is not None and gantt is not None:
+        from hrcplan.gantt import draw
+
+        output.write_atomically(gantt, draw(problem, found.plan, gantt.suffix[1:].lower()))
+    _print(problem, found)
+    return STATUS_EXIT[found.status.value]
+
+
+
+def _check_targets(gantt: Path | None, target: Path | None) -> None:
+    """Refuse what cannot be written before any planner runs."""
+    if gantt is not None and gantt.suffix.lower() not in (".png", ".svg"):
+        raise UsageError(f"--gantt writes .png or .svg, not '{gantt.suffix}'", path=str(gantt))
+    for path in (gantt, target):
+        if path is not None and (path.is_dir() or not path.parent.is_dir()):
+            raise UsageError(f"cannot write {path}: no such folder, or it is one", path=str(path))
+
+
+def _print(problem: Any, found: Any) -> None:
+    from hrcplan.cli import lanes
+
+    if output.JSON:
+        output.document(lanes.as_json(problem, found))
+    else:
+        output.result(lanes.as_text(problem, found))

@@ -1,0 +1,40 @@
+"""``hrcplan validate``: replay a plan and say whether, or where and why not, it is valid."""
+
+from __future__ import annotations
+
+import rich_click as click
+
+from hrcplan.cli import output
+
+
+@click.command("validate")
+@click.argument("names", nargs=-1, required=True, metavar="DOMAIN PROBLEM PLAN")
+@output.common_options
+def command(names: tuple[str, ...]) -> int:
+    """Replay PLAN (IPC format, with or without times) for DOMAIN PROBLEM."""
+    from hrcplan.cli.arguments import problem_of, split_names
+    from hrcplan.pddl.source import read_text
+    from hrcplan.plans import parse_plan
+    from hrcplan.validation import validate
+
+    domain, name, (path,) = split_names(names, 1)
+    problem = problem_of(domain, name, ())
+    plan = parse_plan(read_text(path), path)
+    report = validate(problem, plan)
+    if output.JSON:
+        output.document({
+            "valid": report.valid,
+            "cost": output.number(report.cost),
+            "makespan_s": output.number(report.makespan_s),
+            "metric": output.number(report.metric),
+            "failed_step": report.failed_step,
+            "reason": report.reason,
+        })  # fmt: skip
+    elif report.valid:
+        figures = [("cost", report.cost), ("makespan", report.makespan_s), ("metric", report.metric)]
+        shown = [f"{label} {output.number(v):g}" for label, v in figures if v is not None]
+        output.result(f"valid: {len(plan.actions)} actions, {', '.join(shown)}")
+    else:
+        step = "" if report.failed_step is None else f"step {report.failed_step + 1}: "
+        output.result(f"invalid: {step}{report.reason}")
+    return 0 if report.valid else 1

@@ -1,0 +1,66 @@
+"""Planner names to planners: ours, an installed package's, ``up:NAME``, ``cmd:…``, a class."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from importlib import import_module
+from importlib.metadata import EntryPoint, entry_points
+
+from hrcplan.errors import MissingPlannerError, UsageError
+from hrcplan.planners.answer import Planner
+from hrcplan.pddl.source import nearest
+
+GROUP = "hrcplan.planners"
+BUILT_IN = {
+    "fast-downward": "hrcplan.planners.fast_downward:FastDownward",
+    "exact": "hrcplan.planners.exact:Exact",
+    "kairos": "hrcplan.planners.kairos:Kairos",
+    "enhsp": "hrcplan.planners.enhsp:Enhsp",
+}
+_PREFIXES = {
+    "up": "hrcplan.planners.up:UnifiedPlanning",
+    "cmd": "hrcplan.planners.command:Command",
+}
+
+
+def names() -> tuple[str, ...]:
+    """Return the planners that have a name of their own: ours first, then installed ones."""
+    return (*BUILT_IN, *sorted(entry.name for entry in _installed() if entry.name not in BUILT_IN))
+
+
+def make(name: str) -> Planner:
+    """Return the planner called ``name``.
+
+    Raises:
+        UsageError: if there is no such planner.
+        MissingPlannerError: if the package that offers it cannot be imported.
+
+    >>> make("kairos").card.name
+    'kairos'
+    """
+    if name in BUILT_IN:
+        return _load(name, BUILT_IN[name])
+    prefix, _, rest = name.partition(":")
+    if prefix in _PREFIXES and rest:
+        return _load(name, _PREFIXES[prefix], rest)
+    for entry in _installed():
+        if entry.name == name:
+            return _load(name, entry.value)
+    if rest and prefix.replace(".", "").isidentifier() and rest.isidentifier():
+        return _load(name, name)
+    hint = nearest(name, names()) or f"known: {', '.join(names())}, up:NAME, cmd:PROGRAM …"
+    raise UsageError(f"there is no planner '{name}'", code="unknown-planner", hint=hint)
+
+
+def _installed() -> Iterator[EntryPoint]:
+    yield from entry_points(group=GROUP)
+
+
+def _load(name: str, place: str, *args: str) -> Planner:
+    module, _, attribute = place.partition(":")
+    try:
+        planner: Planner = getattr(import_module(module), attribute)(*args)
+    except (ImportError, AttributeError) as error:
+        message = f"planner '{name}' cannot be loaded from {place}: {error}"
+        raise MissingPlannerError(message, hint="is its package installed?") from error
+    return planner
