@@ -1,0 +1,218 @@
+"""Run a program that may hang, fork, flood or eat memory, and leave nothing behind.
+
+``run`` starts the program in a session of its own, under a small supervisor process
+(``guard.py``) that outlives neither the program nor hrcplan. Time, memory and output have
+limits; reaching one is an expected outcome and comes back as a value with the output so far.
+It may be called from any thread. Linux only (``/proc``, child subreaper).
+"""
+
+import contextlib
+import enum
+import marshal
+import math
+import os
+import selectors
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import IO
+
+_GUARD = Path(__file__).resolve().with_name("guard.py")
+_CHUNK = 1 << 16
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What a program may use.
+
+    Attributes:
+        time_s: Wall-clock seconds from the program's start; zero or less ends it at once.
+        memory_bytes: Resident memory of the program and all its descendants together, or None
+            for no limit. It is looked at about 50 times a second, so a short peak may pass.
+            Address space is not limited: a Java runtime reserves far more than it uses.
+        output_bytes: Bytes of standard output and standard error together.
+
+    Raises:
+        ValueError: if the time is not a number, or memory or output is negative.
+    """
+
+    time_s: float
+    memory_bytes: int | None = 4 << 30
+    output_bytes: int = 16 << 20
+
+    def __post_init__(self) -> None:
+        """Refuse what is not a limit."""
+        if math.isnan(self.time_s) or self.output_bytes < 0 or (self.memory_bytes or 0) < 0:
+            raise ValueError(f"not a limit: {self!r}")
+
+
+class Ended(enum.Enum):
+    """Why a program is no longer running."""
+
+    EXITED = "exited"  # by itself or by a signal that was not ours
+    TIMEOUT = "timeout"
+    MEMORY = "memory"
+    OUTPUT = "output"
+    MISSING = "missing"  # not found, or not executable; it never ran
+
+
+@dataclass(frozen=True)
+class Finished:
+    """How a program ended and what it wrote.
+
+    Attributes:
+        ended: What ended it.
+        code: Exit code, or minus the number of the signal that killed it; None unless ``EXITED``.
+        stdout: Standard output as UTF-8, wrong bytes replaced. At a limit: what came before it.
+        stderr: Standard error likewise; if ``MISSING``, the operating system's reason.
+        wall_s: Wall-clock seconds of the whole call, clearing up included.
+    """
+
+    ended: Ended
+    code: int | None
+    stdout: str
+    stderr: str
+    wall_s: float
+
+
+def run(
+    argv: Sequence[str], *, cwd: Path, limits: Limits, env: Mapping[str, str] | None = None
+) -> Finished:
+    r"""Return how a program ended, once it and everything it started is gone.
+
+    At a limit the whole tree gets SIGTERM, and SIGKILL 0.3 s later (memory: SIGKILL at once).
+    Children that the program leaves behind when it exits are ended likewise, also daemons. If
+    this process dies, even by SIGKILL, or is interrupted, the tree is ended too.
+
+    Args:
+        argv: Program and arguments; a program without a slash is looked up in ``PATH`` of its
+            environment. Standard input is empty.
+        cwd: Working directory of the program.
+        limits: What it may use.
+        env: Its whole environment; by default that of this process.
+
+    Raises:
+        ValueError: if ``argv`` is empty.
+        OSError: if ``cwd`` is no directory, or no further process can be started.
+        KeyboardInterrupt: after the tree was ended, if this process is interrupted meanwhile.
+
+    Example:
+        >>> run(["echo", "found a plan"], cwd=Path("/"), limits=Limits(time_s=5)).stdout
+        'found a plan\n'
+        >>> run(["sleep", "60"], cwd=Path("/"), limits=Limits(time_s=0.1)).ended
+        <Ended.TIMEOUT: 'timeout'>
+    """
+    started_s = time.monotonic()
+    with _guarded(_job(argv, limits, env), cwd) as (guard, report):
+        output, answer = _collect(guard, report, limits.output_bytes)
+    ended, code, message = _verdict(output, answer)
+    stdout, stderr = (bytes(kept).decode("utf-8", "replace") for kept in output.streams.values())
+    return Finished(ended, code, stdout, stderr + message, time.monotonic() - started_s)
+
+
+def _job(argv: Sequence[str], limits: Limits, env: Mapping[str, str] | None) -> bytes:
+    """Return the message to the guard: bytes as the operating system wants them."""
+    if not argv:
+        raise ValueError("no program to run")
+    variables = os.environ if env is None else env
+    encoded = {os.fsencode(name): os.fsencode(value) for name, value in variables.items()}
+    words = [os.fsencode(word) for word in argv]
+    return marshal.dumps((words, encoded, os.getpid(), limits.time_s, limits.memory_bytes))
+
+
+@contextlib.contextmanager
+def _guarded(job: bytes, cwd: Path) -> Iterator[tuple[subprocess.Popen[bytes], int]]:
+    """Yield the guard at work on a job; on the way out cut its lifeline and await its end."""
+    report, report_write = os.pipe()
+    try:
+        try:
+            guard = _start(report_write, cwd)
+        finally:
+            os.close(report_write)
+        with contextlib.ExitStack() as exits:
+            exits.callback(guard.wait)
+            for pipe in (guard.stdout, guard.stderr, guard.stdin):
+                assert pipe
+                exits.callback(_close, pipe)
+            with contextlib.suppress(BrokenPipeError):  # a guard that died is noticed later
+                assert guard.stdin
+                guard.stdin.write(job)
+                guard.stdin.flush()
+            yield guard, report
+    finally:
+        os.close(report)
+
+
+def _start(report_write: int, cwd: Path) -> subprocess.Popen[bytes]:
+    """Start a guard in a session of its own, so that Ctrl-C in a terminal is ours alone."""
+    return subprocess.Popen(
+        # -I -S: the surroundings of a planner cannot disturb the guard, and it starts faster.
+        [sys.executable, "-I", "-S", str(_GUARD), str(report_write)],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        pass_fds=(report_write,),
+        cwd=cwd,
+        start_new_session=True,
+    )
+
+
+def _close(pipe: IO[bytes]) -> None:
+    """Close a pipe whose other end may be gone."""
+    with contextlib.suppress(BrokenPipeError):
+        pipe.close()
+
+
+@dataclass
+class _Output:
+    """What a program wrote, by file descriptor, as long as there is room."""
+
+    room: int
+    streams: dict[int, bytearray]
+    is_over: bool = False
+
+    def take(self, fd: int) -> bool:
+        """Keep what can be read now; return whether more may come."""
+        # One byte more than fits tells "exactly full" from "too much".
+        piece = os.read(fd, min(_CHUNK, self.room + 1))
+        kept = piece[: self.room]
+        self.streams[fd] += kept
+        self.room -= len(kept)
+        self.is_over = self.is_over or len(kept) < len(piece)
+        return bool(piece) and not self.is_over
+
+
+def _collect(guard: subprocess.Popen[bytes], report: int, limit: int) -> tuple[_Output, bytes]:
+    """Return the output and the guard's answer; no answer if the output is too long."""
+    assert guard.stdout
+    assert guard.stderr
+    streams = {pipe.fileno(): bytearray() for pipe in (guard.stdout, guard.stderr)}
+    output = _Output(limit, streams)
+    with selectors.PollSelector() as ready:
+        for fd in (*streams, report):
+            ready.register(fd, selectors.EVENT_READ)
+        while not output.is_over:
+            woken = {key.fd for key, _ in ready.select()}
+            # At the answer everything that could write is gone, so silence is the end: the end of
+            # file may never come, if a process that nobody can kill holds the pipe.
+            if woken == {report}:
+                return output, os.read(report, _CHUNK)
+            for fd in woken - {report}:
+                if not output.take(fd):
+                    ready.unregister(fd)
+    return output, b""
+
+
+def _verdict(output: _Output, answer: bytes) -> tuple[Ended, int | None, str]:
+    """Return what ended the program, its exit code, and a remark for its standard error."""
+    if output.is_over:
+        return Ended.OUTPUT, None, ""
+    if not answer:
+        # Somebody killed the guard; the kernel then kills the program, too.
+        return Ended.EXITED, -signal.SIGKILL, "hrcplan: the supervisor process was lost\n"
+    reason, code, message = marshal.loads(answer)
+    return Ended(reason), code, message
