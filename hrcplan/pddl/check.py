@@ -1,22 +1,24 @@
 """Files in, domains and problems and every fault out.
 
-The one way in: ``load`` and ``hrcplan check`` use the same pass, so what ``check`` accepts
-can be loaded and what it rejects cannot.
+The one way in: ``load_domain``, ``load_problem`` and ``hrcplan check`` use the same pass, so
+what ``check`` accepts can be loaded and what it rejects cannot.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from hrcplan.errors import Diagnostic, InputError, PddlError
-from hrcplan.pddl import conventions, library
+from hrcplan.pddl import library
 from hrcplan.pddl.domain import read_domain
-from hrcplan.pddl.model import Domain, Problem
+from hrcplan.pddl.model import Domain, Note, Problem
 from hrcplan.pddl.problem import named_domain, read_problem
 from hrcplan.pddl.reader import Group, read
 from hrcplan.pddl.source import Source, in_order, nearest, quote, read_source
+
+_PROBLEM_SECTIONS = frozenset([":domain", ":objects", ":init", ":goal", ":metric"])
 
 
 @dataclass(slots=True)
@@ -30,21 +32,56 @@ class _File:
     problem: Problem | None = None
 
 
-def check_files(paths: Sequence[str | Path]) -> tuple[Diagnostic, ...]:
-    """Return every fault of the files, in order; problems are checked against their domains.
+@dataclass(frozen=True, slots=True)
+class CheckReport:
+    """The faults of some files, in order, and the notes of the domains among them."""
+
+    n_files: int
+    diagnostics: tuple[Diagnostic, ...]
+    notes: tuple[tuple[str, Note], ...]
+
+    @property
+    def has_errors(self) -> bool:
+        """Whether any of the faults is an error, not only a warning."""
+        return any(d.severity == "error" for d in self.diagnostics)
+
+    def to_json(self) -> dict[str, object]:
+        """Return the document that ``hrcplan check --json`` prints."""
+        return {"files": self.n_files, "diagnostics": [asdict(d) for d in self.diagnostics]}
+
+    def lines(self) -> Iterator[str]:
+        """Yield the lines that ``hrcplan check`` prints: faults, then notes."""
+        yield from map(str, self.diagnostics)
+        for path, note in self.notes:
+            yield f"{path}: note: {note}"
+
+
+def check(paths: Sequence[str | Path]) -> CheckReport:
+    """Return every fault of the files; problems are checked against their domains.
 
     A problem's domain is the one of its name among the files given, else beside the problem,
-    else among the shipped ones.
-
-    Raises:
-        InputError: if none of the files can be opened is not raised: a missing file is a fault.
+    else among the shipped ones. A file that cannot be read is a fault like any other.
     """
     files = [_open(path) for path in paths]
-    domains = {f.domain.name: f for f in files if f.domain is not None}
+    domains = _Domains(files)
     for file in files:
         if file.kind == "problem":
             _check_problem(file, domains)
-    return in_order([d for file in files for d in file.source.diagnostics])
+    return CheckReport(
+        n_files=len(files),
+        diagnostics=in_order([d for file in files for d in file.source.diagnostics]),
+        notes=tuple(
+            (file.source.path, note)
+            for file in files
+            if file.domain is not None
+            for note in file.domain.notes
+        ),
+    )
+
+
+def check_files(paths: Sequence[str | Path]) -> tuple[Diagnostic, ...]:
+    """Return the diagnostics of ``check``."""
+    return check(paths).diagnostics
 
 
 def load_domain(path: str | Path) -> Domain:
@@ -54,7 +91,7 @@ def load_domain(path: str | Path) -> Domain:
         PddlError: with every fault of the file.
         InputError: if the file cannot be read.
     """
-    file = _open(path, missing_ok=False)
+    file = _read(read_source(path))
     if file.kind == "problem":
         file.source.error(0, "not-a-domain", "this is a problem file, not a domain")
     _raise_errors(file.source)
@@ -69,11 +106,11 @@ def load_problem(domain: Domain, path: str | Path) -> Problem:
         PddlError: with every fault of the file.
         InputError: if the file cannot be read.
     """
-    file = _open(path, missing_ok=False)
+    file = _read(read_source(path))
     if file.kind == "domain":
         file.source.error(0, "not-a-problem", "this is a domain file, not a problem")
-    if file.root is not None and not file.source.has_errors:
-        _read_problem(file, domain)
+    elif file.kind == "problem" and file.root is not None:
+        file.problem = read_problem(file.root, file.source, domain)
     _raise_errors(file.source)
     assert file.problem is not None
     return file.problem
@@ -84,55 +121,84 @@ def _raise_errors(source: Source) -> None:
         raise PddlError(in_order(source.diagnostics))
 
 
-def _open(path: str | Path, missing_ok: bool = True) -> _File:
+def _open(path: str | Path) -> _File:
     try:
-        source = read_source(path)
+        return _read(read_source(path))
     except InputError as error:
-        if not missing_ok:
-            raise
         source = Source(str(path), "")
         source.error(0, error.code, error.message, error.hint)
-    root = None if source.has_errors else read(source)
-    file = _File(source, root, _kind(root, source))
-    if file.kind == "domain" and root is not None:
+        return _File(source, None, "unknown")
+
+
+def _read(source: Source) -> _File:
+    """Return a file with its tree; a domain is read at once, a problem waits for its domain."""
+    root = read(source)
+    kind = "unknown" if root is None else _kind(root)
+    file = _File(source, root, kind)
+    if root is not None and kind == "domain":
         file.domain = read_domain(root, source)
-        conventions.check_domain(file.domain, root, source)
     return file
 
 
-def _kind(root: Group | None, source: Source) -> str:
-    if root is None:
-        return "unknown"
+def _kind(root: Group) -> str:
+    """Return ``domain`` or ``problem``: what the file says, else what its sections suggest."""
     heading = root[1] if len(root) > 1 else None
     head = heading.head if isinstance(heading, Group) else ""
-    if root.head == "define" and head in ("domain", "problem"):
-        return head
-    message = "the file is neither (define (domain …)) nor (define (problem …))"
-    source.error(root.at, "not-pddl", message)
-    return "unknown"
+    if head in ("domain", "problem"):
+        return str(head)
+    sections = {node.head for node in root if isinstance(node, Group)}
+    return "domain" if sections.isdisjoint(_PROBLEM_SECTIONS) else "problem"
 
 
-def _check_problem(file: _File, given: Mapping[str, _File]) -> None:
+class _Domains:
+    """Domains by name: those among the files given, then those found elsewhere."""
+
+    def __init__(self, files: Sequence[_File]) -> None:
+        self.given: dict[str, _File] = {}
+        for file in files:
+            if file.domain is not None:
+                self.given.setdefault(file.domain.name, file)
+        self._opened: dict[Path, _File] = {}
+        self._places: dict[tuple[str, Path], Path | None] = {}
+
+    def find(self, name: str, problem: Path) -> _File | None:
+        """Return the domain file of this name for a problem file, or None."""
+        if name in self.given:
+            return self.given[name]
+        place = (name, problem.parent)
+        if place not in self._places:
+            self._places[place] = library.domain_file_for(name, problem)
+        path = self._places[place]
+        if path is None:
+            return None
+        if path not in self._opened:
+            self._opened[path] = _open(path)
+        return self._opened[path]
+
+    @property
+    def only(self) -> _File | None:
+        """The one domain among the files given, if there is just one."""
+        return next(iter(self.given.values())) if len(self.given) == 1 else None
+
+
+def _check_problem(file: _File, domains: _Domains) -> None:
     assert file.root is not None
     name = named_domain(file.root)
-    if name is None:
+    found = None if name is None else domains.find(str(name), Path(file.source.path))
+    found = found or domains.only  # a wrong name is reported, and the rest is still checked
+    if found is not None and found.domain is not None:
+        file.problem = read_problem(file.root, file.source, found.domain)
+        if found.source.has_errors and found not in domains.given.values():
+            _report_faulty(file, name, found)
+    elif name is None:
         file.source.error(file.root.at, "no-domain", "the problem does not say its (:domain NAME)")
-        return
-    if name in given:
-        domain = given[name].domain
     else:
-        found = library.domain_file_for(str(name), Path(file.source.path))
-        domain = None if found is None else _open(found).domain
-    if domain is None:
         message = f"no domain {quote(name)} among the files given, beside the problem, or shipped"
-        hint = nearest(name, [*given, *library.domain_names()])
+        hint = nearest(name, [*domains.given, *library.domain_names()])
         file.source.error(name.at, "domain-mismatch", message, hint)
-        return
-    _read_problem(file, domain)
 
 
-def _read_problem(file: _File, domain: Domain) -> None:
-    assert file.root is not None
-    file.problem = read_problem(file.root, file.source, domain)
-    if not file.source.has_errors:
-        conventions.check_problem(file.problem, file.root, file.source)
+def _report_faulty(file: _File, name: str | None, found: _File) -> None:
+    at = getattr(name, "at", 0)
+    message = f"the domain of this problem has faults of its own ({found.source.path})"
+    file.source.error(at, "faulty-domain", message, "check that file too")

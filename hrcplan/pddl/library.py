@@ -13,6 +13,9 @@ from hrcplan.errors import InputError
 from hrcplan.pddl.source import nearest
 
 _PACKAGE = Path(__file__).resolve().parent.parent
+_HEADING = 100_000  # characters: comments may come first
+_SPACE = r"(?:\s|;[^\r\n]*(?:[\r\n]|$))*+"
+_DOMAIN = re.compile(rf"{_SPACE}\({_SPACE}define{_SPACE}\({_SPACE}domain{_SPACE}([^\s();]+)")
 
 
 def root() -> Path:
@@ -70,10 +73,7 @@ def domain_file_for(name: str, problem: Path) -> Path | None:
     """Return the file of domain ``name``: beside a problem file, else shipped, else None."""
     beside = [p for p in sorted(problem.parent.glob("*.pddl")) if p != problem]
     shipped = root() / "domains" / f"{name}.pddl"
-    for path in (*beside, shipped):
-        if path.is_file() and _defines(path, name):
-            return path
-    return None
+    return next((p for p in (*beside, shipped) if p.is_file() and _defines(p, name)), None)
 
 
 def _is_path(name: str) -> bool:
@@ -81,6 +81,11 @@ def _is_path(name: str) -> bool:
 
 
 def _defines(path: Path, name: str) -> bool:
-    text = re.sub(r";[^\n]*", "", path.read_text(encoding="utf-8", errors="replace"))
-    found = re.match(r"\s*\(\s*define\s*\(\s*domain\s+([^\s()]+)", text.lower())
+    """Whether the beginning of a file reads ``(define (domain NAME)``."""
+    try:
+        with path.open(encoding="utf-8-sig", errors="replace") as file:
+            text = file.read(_HEADING).lower()
+    except OSError:
+        return False
+    found = _DOMAIN.match(text)
     return found is not None and found[1] == name

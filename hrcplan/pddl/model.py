@@ -226,6 +226,22 @@ class Action:
     durations: tuple[tuple[str, Expr], ...] = ()
 
 
+@dataclass(frozen=True, slots=True)
+class Note:
+    """A ``;; hrcplan:`` comment of a domain: simulation data that PDDL cannot hold.
+
+    ``success ACTION p``: the probability that an interaction has its effect.
+    ``range FUNCTION low high``: the values that a function takes.
+    """
+
+    kind: str
+    name: str
+    numbers: tuple[Number, ...]
+
+    def __str__(self) -> str:
+        return " ".join([self.kind, self.name, *map(number_text, self.numbers)])
+
+
 @dataclass(frozen=True)
 class Domain:
     """A planning domain, with the file it came from and its ``;; hrcplan:`` notes."""
@@ -237,27 +253,40 @@ class Domain:
     predicates: Mapping[str, Signature] = field(default_factory=dict)
     functions: Mapping[str, Signature] = field(default_factory=dict)
     actions: tuple[Action, ...] = ()
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
     path: str = ""
 
     @cached_property
     def _ancestors(self) -> dict[str, frozenset[str]]:
-        found: dict[str, frozenset[str]] = {OBJECT: frozenset([OBJECT])}
+        """Types already asked for, with themselves and all that are above them."""
+        return {}
 
-        def visit(name: str) -> frozenset[str]:
-            if name not in found:
-                found[name] = frozenset([name, OBJECT])  # cuts a cyclic hierarchy
-                above = (visit(parent) for parent in self.types.get(name, ()))
-                found[name] = frozenset([name, OBJECT]).union(*above)
-            return found[name]
-
-        for name in self.types:
-            visit(name)
+    def _above(self, name: str) -> frozenset[str]:
+        found = self._ancestors.get(name)
+        if found is None:
+            seen = {name, OBJECT}
+            waiting = [name]
+            while waiting:
+                new = set(self.types.get(waiting.pop(), ())) - seen
+                seen |= new
+                waiting.extend(new)
+            found = self._ancestors[name] = frozenset(seen)
         return found
 
     def is_a(self, name: str, types: tuple[str, ...]) -> bool:
         """Return whether type ``name`` is one of ``types`` or below one of them."""
-        return not self._ancestors.get(name, frozenset([name, OBJECT])).isdisjoint(types)
+        return not self._above(name).isdisjoint(types)
+
+    def success(self, action: str) -> Number:
+        """Return the probability that an action has its effect: its ``success`` note, else 1."""
+        return next((n.numbers[0] for n in self._notes("success", action)), 1)
+
+    def value_range(self, function: str) -> tuple[Number, Number] | None:
+        """Return the least and greatest value of a function: its ``range`` note, else None."""
+        return next(((n.numbers[0], n.numbers[1]) for n in self._notes("range", function)), None)
+
+    def _notes(self, kind: str, name: str) -> Iterator[Note]:
+        return (note for note in self.notes if (note.kind, note.name) == (kind, name))
 
     @cached_property
     def is_temporal(self) -> bool:

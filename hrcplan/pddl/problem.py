@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from hrcplan.pddl.conventions import check_problem
 from hrcplan.pddl.domain import declared_name, read_objects, sections_of
 from hrcplan.pddl.formulas import read_atom, read_expression, read_formula, read_function
+from hrcplan.pddl.initial_values import check_values
 from hrcplan.pddl.model import (
+    TOTAL_TIME,
     TRUE,
     Domain,
     Expr,
@@ -14,12 +17,14 @@ from hrcplan.pddl.model import (
     Number,
     Problem,
 )
+from hrcplan.pddl.notes import refuse_notes
 from hrcplan.pddl.reader import Group, Node, Word
+from hrcplan.pddl.requirements import check_requirements, read_requirements
 from hrcplan.pddl.scope import Scope, to_number
 from hrcplan.pddl.source import Source, nearest, quote
 
-_UNSUPPORTED = (":constraints", ":length")
-_SECTIONS = (":domain", ":objects", ":init", ":goal", ":metric", ":requirements")
+_SECTIONS = (":domain", ":requirements", ":objects", ":init", ":goal", ":metric")
+_LOGIC = frozenset(["and", "or", "imply", "forall", "exists", "when"])
 
 
 def named_domain(root: Group) -> Word | None:
@@ -32,17 +37,18 @@ def named_domain(root: Group) -> Word | None:
 
 def read_problem(root: Group, source: Source, domain: Domain) -> Problem:
     """Return the problem that a ``(define (problem …) …)`` tree describes."""
-    sections = dict(sections_of(root, source, _SECTIONS, _SECTIONS))
+    name = declared_name(root, "problem", source)
+    sections = dict(sections_of(root, source, _SECTIONS))
     _check_domain(root, source, domain)
-    known = dict(domain.constants)
-    objects = read_objects(sections.get(":objects"), source, list(domain.types), known)
-    scope = Scope(source, domain, {**known, **objects}, {})
+    flags = read_requirements(sections.get(":requirements"), source)
+    objects = read_objects(sections.get(":objects"), source, domain.types, domain.constants)
+    scope = Scope(source, domain, {**domain.constants, **objects}, {})
     init = _Init(scope)
     for node in sections.get(":init", ())[1:]:
         init.take(node)
     metric, maximize = _metric(sections.get(":metric"), scope)
-    return Problem(
-        name=declared_name(root, "problem", source),
+    problem = Problem(
+        name=name,
         domain=domain,
         objects=objects,
         facts=frozenset(init.facts),
@@ -52,6 +58,14 @@ def read_problem(root: Group, source: Source, domain: Domain) -> Problem:
         maximize=maximize,
         path=source.path,
     )
+    if domain.requirements:
+        check_requirements([*domain.requirements, *flags], source)
+    refuse_notes(source)
+    at = sections.get(":init", root).at
+    check_problem(problem, at, source)
+    if not source.has_errors:
+        check_values(problem, at, init.places, source)
+    return problem
 
 
 def _check_domain(root: Group, source: Source, domain: Domain) -> None:
@@ -70,49 +84,59 @@ class _Init:
         self.scope = scope
         self.facts: set[Fact] = set()
         self.values: dict[FluentKey, Number] = {}
+        self.places: dict[FluentKey, int] = {}
 
     def take(self, node: Node) -> None:
         source = self.scope.source
-        if isinstance(node, Word) or not node.head:
-            source.error(node.at, "not-a-fact", "a fact such as (at a b) is expected here")
+        if isinstance(node, Word) or not node.head or node.head in _LOGIC:
+            source.error(node.at, "not-a-fact", "a fact such as (p a b) is expected here")
         elif node.head == "=":
             self._value(node)
         elif node.head == "at" and len(node) == 3 and _is_time(node[1], node[2]):
             source.error(node.at, "unsupported", "timed initial literals are not supported")
         elif node.head == "not":
             self._negated(node)
-        elif node.head == "and":
-            source.error(node.at, "not-a-fact", ":init lists its facts without 'and'")
         else:
-            atom = read_atom(node, self.scope)
-            if atom is not None:
-                self.facts.add((atom.name, *atom.args))
+            self._fact(node)
+
+    def _fact(self, node: Group) -> None:
+        atom = read_atom(node, self.scope)
+        if atom is not None:
+            fact = (atom.name, *atom.args)
+            if fact in self.facts:
+                message = f"{quote(str(atom))} stands twice"
+                self.scope.source.warn(node.at, "duplicate-fact", message)
+            self.facts.add(fact)
 
     def _negated(self, node: Group) -> None:
         inner = node[1] if len(node) == 2 else None
         if isinstance(inner, Group) and inner.head:
             read_atom(inner, self.scope)
         else:
-            self.scope.source.error(node.at, "not-a-fact", "(not (fact)) is expected here")
+            self.scope.source.error(node.at, "not-a-fact", "(not (p a b)) is expected here")
 
     def _value(self, node: Group) -> None:
         source = self.scope.source
-        target = node[1] if len(node) == 3 else None
-        if not isinstance(target, Group) or not target.head:
-            source.error(node.at, "not-a-fact", "(= (function …) NUMBER) is expected here")
+        if len(node) != 3:
+            source.error(node.at, "not-a-fact", "(= (f a) NUMBER) is expected here")
             return
-        function = read_function(target, self.scope)
+        function = read_function(node[1], self.scope)
         spelled = node[2]
         value = to_number(spelled) if isinstance(spelled, Word) else None
         if value is None:
             word = quote(spelled) if isinstance(spelled, Word) else "a group"
             source.error(spelled.at, "bad-number", f"{word} is not a number")
         elif function is not None:
-            key = (function.name, *function.args)
-            if self.values.get(key, value) != value:
-                message = f"{function} gets a second value"
-                source.error(node.at, "duplicate-value", message)
-            self.values[key] = value
+            self._set((function.name, *function.args), value, node.at)
+
+    def _set(self, key: FluentKey, value: Number, at: int) -> None:
+        source, shown = self.scope.source, quote(f"({' '.join(key)})")
+        before = self.values.setdefault(key, value)
+        if before != value:
+            source.error(at, "duplicate-value", f"{shown} gets a second value")
+        elif key in self.places:
+            source.warn(at, "duplicate-fact", f"{shown} is set twice")
+        self.places[key] = at
 
 
 def _is_time(word: Node, what: Node) -> bool:
@@ -125,8 +149,8 @@ def _goal(section: Group | None, root: Group, scope: Scope) -> Formula:
         scope.source.error(at.at, "no-goal", "the problem has no goal", "add (:goal (and …))")
         return TRUE
     if len(section) > 2:
-        message = "a goal is one condition"
-        scope.source.error(section[2].at, "stray-word", message, "put an (and …) around all")
+        hint = "put an (and …) around all"
+        scope.source.error(section[2].at, "stray-word", "a goal is one condition", hint)
     return read_formula(section[1], scope)
 
 
@@ -137,6 +161,4 @@ def _metric(section: Group | None, scope: Scope) -> tuple[Expr | None, bool]:
         message = "(:metric minimize EXPRESSION) is expected here"
         scope.source.error(section.at, "bad-metric", message)
         return None, False
-    return read_expression(section[2], scope), section[1] == "maximize"
-
-
+    return read_expression(section[2], scope.knowing(TOTAL_TIME)), section[1] == "maximize"

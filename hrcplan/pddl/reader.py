@@ -1,23 +1,20 @@
 """Text to tree: words and groups that remember where they stand.
 
-The reader never raises and never recurses. Unbalanced parentheses are reported where they
-went wrong (by sections and by indentation) and repaired, so that the faults behind them are
-found in the same go.
+The reader never raises and never recurses; a fault is noted and mended, so that the faults
+behind it are found in the same go.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
-from hrcplan.pddl.source import Source, quote
+from hrcplan.pddl.parentheses import Token, mend
+from hrcplan.pddl.source import Source
 
-MAX_DEPTH = 300
-SECTIONS = frozenset(
-    ":requirements :types :constants :predicates :functions :action :durative-action :derived "
-    ":process :event :constraints :domain :objects :init :goal :metric :length".split()
-)
-_TOKEN = re.compile(r";[^\n]*|[()]|[^\s();]+")
+MAX_DEPTH = 150  # whatever walks a formula recursively is safe below this
+_TOKEN = re.compile(r"[()]|[^\s();]+|;[^\r\n]*")
+_NOTE = re.compile(r";+[ \t]*hrcplan:[ \t]*([^\r\n]*)", re.IGNORECASE)
 
 
 class Word(str):
@@ -28,15 +25,13 @@ class Word(str):
 
 
 class Group(list["Node"]):
-    """A parenthesised list, the offsets of its parentheses, and its line's indentation."""
+    """A parenthesised list and the offset of its opening parenthesis."""
 
-    __slots__ = ("at", "end", "indent")
+    __slots__ = ("at",)
 
-    def __init__(self, at: int, indent: int = 0) -> None:
+    def __init__(self, at: int) -> None:
         super().__init__()
         self.at = at
-        self.end = at
-        self.indent = indent
 
     @property
     def head(self) -> str:
@@ -49,138 +44,62 @@ Node = Word | Group
 
 def read(source: Source) -> Group | None:
     """Return the one ``(define …)`` group of a file, or None; faults go into ``source``."""
-    reader = _Reader(source)
-    for match in _TOKEN.finditer(source.text):
-        token = match.group()
-        if token[0] != ";":
-            reader.take(token, match.start())
-        if reader.gave_up:
-            return None
-    return reader.finish()
+    nodes = _build(mend(list(_tokens(source.text)), source), source)
+    groups = [node for node in nodes if isinstance(node, Group)]
+    root = next((group for group in groups if group.head == "define"), None)
+    outside = next((node for node in nodes if node is not root), None)
+    if outside is not None:
+        message = "a file holds one (define …) and nothing outside it"
+        source.error(outside.at, "outside-define", message)
+    elif root is None and not source.has_errors:
+        source.error(0, "empty", "the file holds no (define …)")
+    return root
 
 
 def notes(source: Source) -> Iterator[tuple[int, str]]:
     """Yield offset and text of every ``;; hrcplan: …`` comment."""
-    for match in re.finditer(r";+[ \t]*hrcplan:[ \t]*([^\n]*)", source.text):
+    for match in _NOTE.finditer(source.text):
         yield match.start(), match.group(1).strip()
 
 
-class _Reader:
-    """A stack of open groups, and the first sign that one of them lacks its end."""
+def word_at(text: str, at: int) -> Word:
+    """Return a Word that stands at offset ``at``."""
+    word = Word(text.lower())
+    word.at = at
+    return word
 
-    def __init__(self, source: Source) -> None:
-        self.source = source
-        self.stack: list[Group] = []
-        self.root: Group | None = None
-        self.suspect: Group | None = None
-        self.stray: int | None = None  # a ")" too many, if more text follows it
-        self.gave_up = False
-        self.seen = 0
-        self.line_start = 0
-        self.indent = 0
 
-    def take(self, token: str, at: int) -> None:
-        leads = self._begin_line(at)
-        if token == ")":
-            self._close(at, leads)
-            return
-        self._reopen_after_stray(at)
-        if leads:
-            self._suspect_by_indentation(at)
+def _tokens(text: str) -> Iterator[Token]:
+    for match in _TOKEN.finditer(text):
+        token = match.group()
+        if token[0] != ";":
+            yield token, match.start()
+
+
+def _build(tokens: Iterable[Token], source: Source) -> list[Node]:
+    """Return the trees of balanced tokens; a group below the deepest level becomes ``()``."""
+    top = Group(0)
+    stack = [top]
+    skipped = 0  # how deep we are in a group that is left out
+    too_deep: int | None = None
+    for token, at in tokens:
         if token == "(":
-            self._open(at)
+            if skipped or len(stack) > MAX_DEPTH:
+                too_deep = at if too_deep is None else too_deep
+                if not skipped:
+                    stack[-1].append(Group(at))
+                skipped += 1
+                continue
+            group = Group(at)
+            stack[-1].append(group)
+            stack.append(group)
+        elif token != ")":
+            if not skipped:
+                stack[-1].append(word_at(token, at))
+        elif skipped:
+            skipped -= 1
         else:
-            self._word(token, at)
-
-    def finish(self) -> Group | None:
-        if self.stack and not self.gave_up:
-            self._report_unclosed(self.stack[-1])
-            self.root = self.stack[0]
-        elif self.stray is not None:
-            self._report_stray(self.stray)
-        if self.root is None and not self.source.has_errors:
-            self.source.error(0, "empty", "the file holds no (define …)")
-        return self.root
-
-    def _begin_line(self, at: int) -> bool:
-        """Update the indentation; return whether the token at ``at`` is first on its line."""
-        start = self.source.text.rfind("\n", self.seen, at) + 1
-        leads = start > 0 or self.seen == 0
-        if leads:
-            self.line_start = start
-            self.indent = at - start
-        self.seen = at + 1
-        return leads
-
-    def _open(self, at: int) -> None:
-        group = Group(at, self.indent)
-        if self.stack:
-            self.stack[-1].append(group)
-        elif self.root is not None:
-            self.source.error(at, "trailing-text", "there is text after the (define …)")
-        if len(self.stack) >= MAX_DEPTH:
-            self.source.error(at, "too-deep", f"groups are nested deeper than {MAX_DEPTH}")
-            self.gave_up = True
-        self.stack.append(group)
-
-    def _word(self, token: str, at: int) -> None:
-        word = Word(token.lower())
-        word.at = at
-        if not self.stack:
-            self.source.error(at, "stray-word", f"{quote(token)} stands outside (define …)")
-            return
-        group = self.stack[-1]
-        if word in SECTIONS and not group and len(self.stack) > 2:
-            self._report_unclosed(self.stack[-2])
-            self._close_down_to_sections(group)
-        elif word[0] == ":" and group and not group.head.startswith(":"):
-            self.suspect = self.suspect or group
-        self.stack[-1].append(word)
-
-    def _close_down_to_sections(self, section: Group) -> None:
-        self.stack[-2].pop()
-        for group in self.stack[1:-1]:
-            group.end = section.at
-        self.stack[1:] = [section]
-        self.stack[0].append(section)
-
-    def _close(self, at: int, leads: bool) -> None:
-        if not self.stack:
-            if self.stray is None:
-                self.stray = at
-            elif self.stray != at:
-                self._report_stray(self.stray)
-                self.stray = at
-            return
-        if leads and len(self.stack) > 1 and self.indent < self.stack[-1].indent:
-            self.suspect = self.suspect or self.stack[-1]
-        group = self.stack.pop()
-        group.end = at
-        if len(self.stack) == 1:
-            self.suspect = None  # the section ended in order
-        if not self.stack and self.root is None:
-            self.root = group
-
-    def _reopen_after_stray(self, at: int) -> None:
-        """Take back the ")" that closed (define …) although more sections follow."""
-        if self.stack or self.root is None:
-            return
-        if not self.source.text.startswith("(:", at):
-            return
-        self._report_stray(self.root.end if self.stray is None else self.stray)
-        self.stray = None
-        self.stack = [self.root]
-        self.root = None
-
-    def _suspect_by_indentation(self, at: int) -> None:
-        group = self.stack[-1] if len(self.stack) > 1 else None
-        if group is not None and self.indent <= group.indent and group.at < self.line_start:
-            self.suspect = self.suspect or group
-
-    def _report_unclosed(self, group: Group) -> None:
-        group = self.suspect or group
-        self.suspect = None
-        self.source.error(group.at, "unclosed", "this '(' is never closed", "add a ')'")
-
-    def _report_stray(self, at: int) -> None:
-        self.source.error(at, "stray-parenthesis", "this ')' closes nothing", "remove it")
+            stack.pop()
+    if too_deep is not None:
+        source.error(too_deep, "too-deep", f"groups are nested deeper than {MAX_DEPTH}")
+    return list(top)

@@ -10,37 +10,46 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from hrcplan.pddl.model import Domain, Number, Param, Signature
+from hrcplan.pddl.model import OBJECT, TOTAL_TIME, Domain, Number, Param, Signature
 from hrcplan.pddl.reader import Group, Word
-from hrcplan.pddl.source import Source, nearest, quote
+from hrcplan.pddl.source import Source, quote
 
-_NUMBER = re.compile(r"[+-]?(\d{1,30}(\.\d{0,30})?|\.\d{1,30})(e[+-]?\d{1,2})?")
+_NUMBER = re.compile(r"[+-]?([0-9]{1,30}(\.[0-9]{0,30})?|\.[0-9]{1,30})(e[+-]?[0-9]{1,2})?")
 
 
 @dataclass(frozen=True)
 class Scope:
-    """A domain, the objects known so far, and the variables bound here."""
+    """A domain, the objects known so far, and what is bound here.
+
+    ``numbers`` are the special values that only some places know: ``?duration`` in a durative
+    action, ``total-time`` in a metric.
+    """
 
     source: Source
     domain: Domain
     objects: Mapping[str, str]
     variables: Mapping[str, tuple[str, ...]]
+    numbers: frozenset[str] = frozenset()
 
     def binding(self, params: Sequence[Param]) -> Scope:
         """Return this scope with further variables."""
         bound = {**self.variables, **{p.name: p.types for p in params}}
         return replace(self, variables=bound)
 
+    def knowing(self, number: str) -> Scope:
+        """Return this scope with a further special value."""
+        return replace(self, numbers=self.numbers | {number})
+
     def types_of(self, term: Word) -> tuple[str, ...] | None:
         """Return the types of a variable or object; None, with an error, if it is unknown."""
         if term.startswith("?"):
             if term not in self.variables:
                 message = f"variable {quote(term)} is not bound here"
-                self.source.error(term.at, "unbound", message, nearest(term, self.variables))
+                self.source.unknown(term.at, "unbound", message, term, self.variables)
             return self.variables.get(term)
         if term not in self.objects:
             message = f"there is no object {quote(term)}"
-            self.source.error(term.at, "unknown-object", message, nearest(term, self.objects))
+            self.source.unknown(term.at, "unknown-object", message, term, self.objects)
             return None
         return (self.objects[term],)
 
@@ -52,10 +61,8 @@ class Scope:
             self.source.error(inner.at, "not-a-term", "a variable or object is expected here")
             return None
         if len(terms) != len(signature.params):
-            message = (
-                f"{quote(signature.name)} takes {len(signature.params)} arguments, "
-                f"not {len(terms)}"
-            )
+            expected = f"{quote(signature.name)} takes {len(signature.params)} arguments"
+            message = f"{expected}, not {len(terms)}"
             self.source.error(group.at, "wrong-arity", message, f"declared as {signature}")
             return None
         fits = [self._fits(t, p) for t, p in zip(terms, signature.params, strict=True)]
@@ -65,35 +72,48 @@ class Scope:
         types = self.types_of(term)
         if types is None:
             return False
-        if not any(self.domain.is_a(t, param.types) for t in types):
-            have, want = " or ".join(types), " or ".join(param.types)
+        if not any(self.domain.is_a(t, param.types) for t in types) and self._declared(
+            *types, *param.types
+        ):
+            have, want = quote(" or ".join(types)), quote(" or ".join(param.types))
             self.source.error(term.at, "wrong-type", f"{quote(term)} is {have}, not {want}")
             return False
         return True
 
+    def _declared(self, *types: str) -> bool:
+        """Whether all types are known: one that is not has been reported where it is named."""
+        return all(t == OBJECT or t in self.domain.types for t in types)
+
     def signature(self, word: Word, kind: str) -> Signature | None:
         """Return the declared predicate or function; None, with an error, if there is none."""
-        known = self.domain.predicates if kind == "predicate" else self.domain.functions
+        is_predicate = kind == "predicate"
+        known, other = self.domain.predicates, self.domain.functions
+        if not is_predicate:
+            known, other = other, known
         if word in known:
             return known[word]
-        other = self.domain.functions if kind == "predicate" else self.domain.predicates
-        if word in other:
-            wrong = "function" if kind == "predicate" else "predicate"
-            self.source.error(word.at, f"unknown-{kind}", f"{quote(word)} is a {wrong}")
+        code = f"unknown-{kind}"
+        if word == TOTAL_TIME:
+            self.source.error(word.at, code, "total-time is known in the metric only")
+        elif word in other:
+            wrong = "function" if is_predicate else "predicate"
+            self.source.error(word.at, code, f"{quote(word)} is a {wrong}, not a {kind}")
         else:
             message = f"{kind} {quote(word)} is not declared"
-            self.source.error(word.at, f"unknown-{kind}", message, nearest(word, known))
+            self.source.unknown(word.at, code, message, word, known)
         return None
 
 
 def to_number(word: str) -> Number | None:
     """Return the exact number that a word spells, or None.
 
-    >>> to_number("0.5"), to_number("10"), to_number("1.2.3")
-    (Fraction(1, 2), 10, None)
+    >>> to_number("0.5"), to_number("10"), to_number("5."), to_number("1.2.3")
+    (Fraction(1, 2), 10, 5, None)
     """
     if not _NUMBER.fullmatch(word):
         return None
+    if word.isdigit():
+        return int(word)
     value = Fraction(word)
     return int(value) if value.denominator == 1 else value
 

@@ -30,9 +30,9 @@ class Source:
     _lines: list[int] = field(default_factory=list)
 
     def position(self, at: int) -> tuple[int, int]:
-        """Return the 1-based (line, column) of the character at offset ``at``.
+        r"""Return the 1-based (line, column) of the character at offset ``at``.
 
-        >>> Source("x", "ab\\ncd").position(4)
+        >>> Source("x", "ab\ncd").position(4)
         (2, 2)
         """
         if not self._lines:
@@ -71,10 +71,10 @@ class Source:
 
 
 def quote(text: str) -> str:
-    """Return ``text`` in quotes, shortened, and harmless to a terminal.
+    r"""Return ``text`` in quotes, shortened, and harmless to a terminal.
 
-    >>> quote("wp1"), quote("a\\x1b[31m")
-    ("'wp1'", "'a\\\\x1b[31m'")
+    >>> quote("wp1"), quote("a\x1b[31m")
+    ("'wp1'", "'a\\x1b[31m'")
     """
     shown = _cut(text, MAX_QUOTE)
     return f"'{shown}'" if shown.isprintable() else f"'{ascii(shown)[1:-1]}'"

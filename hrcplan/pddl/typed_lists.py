@@ -2,59 +2,64 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 
 from hrcplan.pddl.model import OBJECT, Param
 from hrcplan.pddl.reader import Group, Node, Word
 from hrcplan.pddl.scope import Scope
-from hrcplan.pddl.source import Source, nearest, quote
+from hrcplan.pddl.source import Source, quote
 
-Entry = tuple[Word, tuple[str, ...], Sequence[Word]]
-"""A name, the names of its types, and the words that spelled them (empty if untyped)."""
+Entry = tuple[Word, tuple[str, ...]]
+"""A name and the names of its types."""
 
 
-def read_typed(nodes: Sequence[Node], source: Source) -> Iterator[Entry]:
-    """Yield every name of a typed list with its types (``object`` where none is given)."""
+def read_typed(
+    nodes: Sequence[Node], source: Source, types: Collection[str] | None = None
+) -> Iterator[Entry]:
+    """Yield every name of a typed list with its types (``object`` where none is given).
+
+    A type that is not among ``types`` is an error, unless ``types`` is None.
+    """
     waiting: list[Word] = []
-    index = 0
-    while index < len(nodes):
-        node = nodes[index]
+    rest = iter(nodes)
+    for node in rest:
         if isinstance(node, Group):
             source.error(node.at, "not-a-name", "a name is expected here, not a group")
-        elif node == "-":
+        elif node != "-":
+            waiting.append(node)
+        else:
             if not waiting:
                 source.error(node.at, "bad-typed-list", "no name stands before this '-'")
-            index += 1
-            spelled = _type_words(nodes, index, node, source)
+            spelled = _type_words(next(rest, None), node, source)
+            if types is not None:
+                check_types(spelled, types, source)
+            source.use(":typing", node.at)
             for name in waiting:
-                yield name, tuple(map(str, spelled)) or (OBJECT,), spelled
+                yield name, tuple(map(str, spelled)) or (OBJECT,)
             waiting = []
-        else:
-            waiting.append(node)
-        index += 1
     for name in waiting:
-        yield name, (OBJECT,), ()
+        yield name, (OBJECT,)
 
 
-def _type_words(nodes: Sequence[Node], index: int, dash: Word, source: Source) -> list[Word]:
-    if index >= len(nodes):
+def _type_words(node: Node | None, dash: Word, source: Source) -> list[Word]:
+    if node is None or node == "-":
         source.error(dash.at, "bad-typed-list", "a type is missing after this '-'")
         return []
-    node = nodes[index]
     if isinstance(node, Word):
         return [node]
-    if node.head == "either" and len(node) > 1:
-        return [word for word in node[1:] if isinstance(word, Word)]
+    words = [word for word in node[1:] if isinstance(word, Word)]
+    if node.head == "either" and words and len(words) == len(node) - 1:
+        return words
     source.error(node.at, "bad-typed-list", "a type or (either …) is expected here")
     return []
 
 
-def check_types(words: Sequence[Word], known: Sequence[str], source: Source) -> None:
+def check_types(words: Sequence[Word], known: Collection[str], source: Source) -> None:
     """Report every word that names no declared type."""
     for word in words:
         if word != OBJECT and word not in known:
             message = f"type {quote(word)} is not declared"
-            source.error(word.at, "unknown-type", message, nearest(word, [*known, OBJECT]))
+            source.unknown(word.at, "unknown-type", message, word, [*known, OBJECT])
 
 
 def read_params(node: Node, scope: Scope) -> tuple[Param, ...]:
@@ -62,19 +67,22 @@ def read_params(node: Node, scope: Scope) -> tuple[Param, ...]:
     if isinstance(node, Word):
         scope.source.error(node.at, "not-a-list", "a parameter list in parentheses is expected")
         return ()
-    return params_of(node, scope.source, list(scope.domain.types))
+    return params_of(node, scope.source, scope.domain.types)
 
 
-def params_of(nodes: Sequence[Node], source: Source, types: Sequence[str]) -> tuple[Param, ...]:
-    """Return parameters; a name without ``?``, repeated, or of an unknown type is an error."""
-    found: dict[str, Param] = {}
-    for name, kinds, words in read_typed(nodes, source):
+def params_of(nodes: Sequence[Node], source: Source, types: Collection[str]) -> tuple[Param, ...]:
+    """Return parameters; a name without ``?``, repeated, or of an unknown type is an error.
+
+    A faulty parameter keeps its place, so that arguments are still counted right.
+    """
+    found: list[Param] = []
+    seen: set[str] = set()
+    for name, kinds in read_typed(nodes, source, types):
         if not name.startswith("?") or len(name) == 1:
             source.error(name.at, "not-a-variable", f"{quote(name)} should start with '?'")
-        elif name in found:
+        elif name in seen:
             message = f"parameter {quote(name)} is repeated"
             source.error(name.at, "repeated-parameter", message)
-        else:
-            found[str(name)] = Param(str(name), kinds)
-        check_types(words, types, source)
-    return tuple(found.values())
+        seen.add(name)
+        found.append(Param(f"?{name.lstrip('?')}", kinds))
+    return tuple(found)

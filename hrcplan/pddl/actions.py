@@ -1,0 +1,141 @@
+"""Trees of ``(:action …)`` and ``(:durative-action …)`` to actions."""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator
+
+from hrcplan.pddl.effects import read_effects
+from hrcplan.pddl.formulas import read_conditions, read_expression
+from hrcplan.pddl.model import DURATION, Action, Constant, Expr
+from hrcplan.pddl.parentheses import ACTIONS, PARTS
+from hrcplan.pddl.reader import Group, Node, Word
+from hrcplan.pddl.scope import Scope
+from hrcplan.pddl.semantics import Undefined, evaluate
+from hrcplan.pddl.source import SECTION_SIMILARITY, Source, nearest, nearest_name, quote
+from hrcplan.pddl.typed_lists import read_params
+
+_CLASSICAL = (":parameters", ":precondition", ":effect")
+_DURATIVE = (":parameters", ":duration", ":condition", ":effect")
+
+
+def read_actions(root: Group, scope: Scope) -> Iterator[tuple[Group, Action]]:
+    """Yield the actions of a domain with their trees; of two with one name the first."""
+    seen: set[str] = set()
+    for node in root[2:]:
+        if not isinstance(node, Group) or node.head not in ACTIONS:
+            continue
+        action = _action(node, scope)
+        if action is None:
+            continue
+        if action.name in seen:
+            message = f"action {quote(action.name)} is declared twice"
+            scope.source.error(node[1].at, "duplicate-action", message)
+        else:
+            seen.add(action.name)
+            yield node, action
+
+
+def _action(node: Group, scope: Scope) -> Action | None:
+    source = scope.source
+    if len(node) < 2 or not isinstance(node[1], Word) or node[1].startswith(":"):
+        source.error(node.at, "no-name", "the action has no name")
+        return None
+    durative = node.head == ":durative-action"
+    parts = _parts(node, source, durative)
+    params = read_params(parts[":parameters"], scope) if ":parameters" in parts else ()
+    inner = scope.binding(params)
+    timed = inner.knowing(DURATION) if durative else inner
+    if durative:
+        source.use(":durative-actions", node.at)
+    condition = parts.get(":condition" if durative else ":precondition")
+    effect = parts.get(":effect")
+    if effect is None or (isinstance(effect, Group) and effect[1:] == [] and effect.head in "and"):
+        source.warn(node.at, "no-effect", f"action {quote(node[1])} has no effect")
+    return Action(
+        name=str(node[1]),
+        params=params,
+        conditions=() if condition is None else tuple(read_conditions(condition, inner, durative)),
+        effects=()
+        if effect is None
+        else tuple(read_effects(effect, timed, None if durative else "start")),
+        durative=durative,
+        durations=tuple(_durations(parts.get(":duration"), inner, node)) if durative else (),
+    )
+
+
+def _parts(node: Group, source: Source, durative: bool) -> dict[str, Node]:
+    known = _DURATIVE if durative else _CLASSICAL
+    found: dict[str, Node] = {}
+    rest = deque(node[2:])
+    while rest:
+        key = rest.popleft()
+        if isinstance(key, Group) or not key.startswith(":"):
+            source.error(key.at, "stray-word", "a keyword such as :effect is expected here")
+            continue
+        name = _known_part(key, known, source)
+        if not rest or (isinstance(rest[0], Word) and rest[0].startswith(":")):
+            source.error(key.at, "missing-part", f"nothing follows {quote(key)}")
+            continue
+        value = rest.popleft()
+        if name in found:
+            source.error(key.at, "repeated-section", f"a second {name} in one action")
+        elif name is not None:
+            found[name] = value
+    return found
+
+
+def _known_part(key: Word, known: tuple[str, ...], source: Source) -> str | None:
+    """Return the part that a keyword names; a misspelt one is reported, yet understood."""
+    if key in known:
+        return str(key)
+    message = f"an action has no part {quote(key)}"
+    if key in PARTS:
+        right = ":action" if known is _DURATIVE else ":durative-action"
+        source.error(key.at, "unknown-section", message, f"that belongs into a {right}")
+        return None
+    source.error(key.at, "unknown-section", message, nearest(key, known))
+    return nearest_name(key, known, SECTION_SIMILARITY)
+
+
+def _durations(node: Node | None, scope: Scope, action: Group) -> Iterator[tuple[str, Expr]]:
+    constraints = node[1:] if isinstance(node, Group) and node.head == "and" else [node]
+    if node is None or not constraints:
+        at = action.at if node is None else node.at
+        scope.source.error(at, "no-duration", "a durative action needs a :duration")
+        return
+    for part in constraints:
+        assert part is not None
+        inner = part[2] if _is_timed(part) and isinstance(part, Group) else part
+        if not _is_constraint(inner) or not isinstance(inner, Group):
+            scope.source.error(part.at, "bad-duration", "(= ?duration …) is expected here")
+            continue
+        if inner.head != "=":
+            scope.source.use(":duration-inequalities", inner.at)
+        value = read_expression(inner[2], scope)
+        _check_constant(inner, value, scope.source)
+        yield str(inner.head), value
+
+
+def _is_timed(node: Node) -> bool:
+    return isinstance(node, Group) and len(node) == 3 and node.head == "at"
+
+
+def _is_constraint(node: Node) -> bool:
+    return (
+        isinstance(node, Group)
+        and len(node) == 3
+        and node.head in ("=", "<=", ">=")
+        and node[1] == DURATION
+    )
+
+
+def _check_constant(node: Group, duration: Expr, source: Source) -> None:
+    """Report a duration that is below zero whatever the problem says."""
+    try:
+        value = evaluate(duration, {}, {})
+    except Undefined:
+        return
+    if node.head != ">=" and value < 0:
+        message = f"the action lasts {Constant(value)}: less than nothing"
+        source.error(node.at, "negative-duration", message)

@@ -1,0 +1,116 @@
+"""Trees to the effects of an action; every fault is noted, none stops the reading."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from hrcplan.pddl.formulas import (
+    COMPARISONS,
+    has_parts,
+    is_unsupported,
+    read_atom,
+    read_expression,
+    read_formula,
+    read_function,
+    time_of,
+)
+from hrcplan.pddl.model import TOTAL_COST, TRUE, And, Effect
+from hrcplan.pddl.reader import Group, Node
+from hrcplan.pddl.scope import Scope
+from hrcplan.pddl.source import quote
+from hrcplan.pddl.typed_lists import read_params
+
+ASSIGNMENTS = frozenset(["assign", "increase", "decrease", "scale-up", "scale-down"])
+_NO_EFFECTS = COMPARISONS | {"or", "imply", "exists", "not", "over"}
+
+
+def read_effects(node: Node, scope: Scope, when: str | None) -> Iterator[Effect]:
+    """Yield the effects of an action; ``when`` is None where a durative one must still say it."""
+    if not isinstance(node, Group) or (node and not node.head):
+        scope.source.error(node.at, "not-an-effect", "an effect such as (p ?x) is expected here")
+        return
+    timed = time_of(node) if when is None else None
+    if timed is not None and timed[0] != "all":
+        yield from read_effects(timed[1], scope, timed[0])
+        return
+    match node.head:
+        case "":
+            return
+        case "and":
+            for part in node[1:]:
+                yield from read_effects(part, scope, when)
+        case "forall":
+            yield from _for_all(node, scope, when)
+        case "when":
+            yield from _conditional(node, scope, when)
+        case _ if is_unsupported(node, scope):
+            return
+        case _ if when is None:
+            _report_no_time(node, scope)
+        case head if head in ASSIGNMENTS:
+            yield from _assignment(node, scope, when)
+        case _:
+            yield from _literal(node, scope, when)
+
+
+def _report_no_time(node: Group, scope: Scope) -> None:
+    if node.head in ASSIGNMENTS and _mentions(node, "#t"):
+        scope.source.error(node.at, "unsupported", "continuous effects (#t) are not supported")
+    else:
+        message = "a durative effect needs (at start …) or (at end …)"
+        scope.source.error(node.at, "no-time", message)
+
+
+def _mentions(node: Node, word: str) -> bool:
+    if isinstance(node, Group):
+        return any(_mentions(part, word) for part in node)
+    return node == word
+
+
+def _for_all(node: Group, scope: Scope, when: str | None) -> Iterator[Effect]:
+    if not has_parts(node, 2, scope):
+        return
+    scope.source.use(":conditional-effects", node.at)
+    params = read_params(node[1], scope)
+    for effect in read_effects(node[2], scope.binding(params), when):
+        yield replace(effect, params=params + effect.params)
+
+
+def _conditional(node: Group, scope: Scope, when: str | None) -> Iterator[Effect]:
+    if not has_parts(node, 2, scope):
+        return
+    scope.source.use(":conditional-effects", node.at)
+    if when is None:
+        message = "a condition of a durative effect stands inside (at start …) or (at end …)"
+        scope.source.error(node.at, "unsupported", message)
+        return
+    given = read_formula(node[1], scope)
+    for effect in read_effects(node[2], scope, when):
+        both = given if effect.given == TRUE else And((given, effect.given))
+        yield replace(effect, given=both)
+
+
+def _literal(node: Group, scope: Scope, when: str) -> Iterator[Effect]:
+    inner: Node = node
+    if node.head == "not" and len(node) == 2:
+        inner = node[1]
+    if not isinstance(inner, Group) or not inner.head or inner.head in _NO_EFFECTS:
+        word = f"{quote(inner.head)} cannot be an effect" if isinstance(inner, Group) else ""
+        message = word or "'not' takes one predicate in an effect"
+        scope.source.error(inner.at, "not-an-effect", message)
+        return
+    atom = read_atom(inner, scope)
+    if atom is not None:
+        yield Effect(when, "add" if inner is node else "delete", atom)
+
+
+def _assignment(node: Group, scope: Scope, when: str) -> Iterator[Effect]:
+    if not has_parts(node, 2, scope):
+        return
+    value = read_expression(node[2], scope)
+    function = read_function(node[1], scope)
+    if function is not None:
+        if function.name != TOTAL_COST:
+            scope.source.use(":numeric-fluents", node.at)
+        yield Effect(when, str(node.head), function, value)

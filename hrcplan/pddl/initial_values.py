@@ -1,0 +1,256 @@
+"""Does a problem set every function that its actions can need, and no duration below zero?
+
+An action needs a function only for objects that its parameters can stand for: bindings that the
+types, the facts that no action changes, or an (in)equality rule out are not looked at.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import islice, product
+from math import prod
+
+from hrcplan.pddl.joins import FactIndex, Join, conjuncts, needed_atoms
+from hrcplan.pddl.model import (
+    DURATION,
+    TOTAL_COST,
+    TOTAL_TIME,
+    TRUE,
+    Action,
+    And,
+    Arithmetic,
+    Atom,
+    Compare,
+    Constant,
+    Equal,
+    Expr,
+    FluentKey,
+    Formula,
+    Function,
+    Not,
+    Or,
+    Param,
+    Problem,
+    Quantified,
+    functions_in,
+)
+from hrcplan.pddl.semantics import Binding, State, Undefined, evaluate, ground_key, holds, instances
+from hrcplan.pddl.source import Source, quote
+
+MAX_BINDINGS = 20_000  # per action; beyond that a gap is found when the task is grounded
+MAX_REPORTS = 20
+_SPECIAL = frozenset([DURATION, TOTAL_COST, TOTAL_TIME])
+
+
+def check_values(
+    problem: Problem, at: int, places: Mapping[FluentKey, int], source: Source
+) -> None:
+    """Report functions without a value, and durations below zero.
+
+    ``at`` is the offset of ``:init``; ``places`` says where each value is set.
+    """
+    checker = _Checker(problem)
+    unset = dict(checker.unset())
+    for key, user in islice(unset.items(), MAX_REPORTS):
+        shown = f"({' '.join(key)})"
+        message = f"{quote(shown)} is not set, but {user} needs it"
+        source.error(at, "unset-function", message, f"add (= {shown} NUMBER)")
+    if len(unset) > MAX_REPORTS:
+        message = f"{len(unset) - MAX_REPORTS} more functions are not set"
+        source.error(at, "unset-function", message)
+    for key, user in checker.negative_durations():
+        message = f"{user} lasts less than nothing"
+        source.error(places.get(key, at), "negative-duration", message)
+
+
+@dataclass(frozen=True, slots=True)
+class _Need:
+    """A function that an action reads, for all instances of ``params``, if ``given`` holds."""
+
+    function: Function
+    params: tuple[Param, ...] = ()
+    given: Formula = TRUE
+
+
+class _Checker:
+    """One problem, with what no action changes."""
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
+        effects = [effect for action in problem.domain.actions for effect in action.effects]
+        self.changed = {e.target.name for e in effects if e.value is None}
+        # What an action assigns may be unset until then.
+        self.later = {e.target.name for e in effects if e.kind == "assign"} | _SPECIAL
+
+    @cached_property
+    def static(self) -> FactIndex:
+        return FactIndex(fact for fact in self.problem.facts if fact[0] not in self.changed)
+
+    @cached_property
+    def state(self) -> State:
+        return State(self.static.facts, self.problem.values)
+
+    def unset(self) -> Iterator[tuple[FluentKey, str]]:
+        """Yield functions without a value, and who needs them; some more than once."""
+        values = self.problem.values
+        for action in self.problem.domain.actions:
+            gaps = [need for need in _needs(action) if self._may_be_unset(need, action)]
+            for key in islice(self._keys(action, gaps), MAX_BINDINGS):
+                if key not in values:
+                    yield key, f"action {quote(action.name)}"
+        for user, expression in self._own_expressions():
+            for function in functions_in(expression):
+                key = (function.name, *function.args)
+                if key not in values and function.name not in self.later:
+                    yield key, user
+
+    def negative_durations(self) -> Iterator[tuple[FluentKey, str]]:
+        """Yield a function behind a negative duration, and the first such ground action."""
+        for action in self.problem.domain.actions:
+            for op, duration in action.durations:
+                if op != ">=" and self._may_be_negative(duration):
+                    yield from self._negative(action, duration)
+
+    def _negative(self, action: Action, duration: Expr) -> Iterator[tuple[FluentKey, str]]:
+        functions = list(functions_in(duration))
+        wanted = {arg for function in functions for arg in function.args}
+        for binding in islice(self._bindings(action, wanted), MAX_BINDINGS):
+            try:
+                value = evaluate(duration, self.problem.values, binding)
+            except Undefined:
+                continue
+            if value < 0:
+                words = [action.name, *(binding.get(p.name, p.name) for p in action.params)]
+                yield ground_key(functions[0], binding), quote(f"({' '.join(words)})")
+                return
+
+    def _may_be_negative(self, duration: Expr) -> bool:
+        names = {function.name for function in functions_in(duration)}
+        if not names or names & self.problem.domain.changed_functions:
+            return False
+        values = self.problem.values
+        return _subtracts(duration) or any(v < 0 and k[0] in names for k, v in values.items())
+
+    def _may_be_unset(self, need: _Need, action: Action) -> bool:
+        """Whether any choice of objects that fits the types lacks a value."""
+        function, values = need.function, self.problem.values
+        if function.name in self.later:
+            return False
+        types = {param.name: param.types for param in (*action.params, *need.params)}
+        options = [
+            self.problem.objects_of(types[arg]) if arg in types else (arg,) for arg in function.args
+        ]
+        if prod(map(len, options)) > len(values):
+            return True
+        return any((function.name, *args) not in values for args in product(*options))
+
+    def _keys(self, action: Action, needs: list[_Need]) -> Iterator[FluentKey]:
+        if not needs:
+            return
+        wanted = {arg for need in needs for arg in need.function.args}
+        wanted |= {name for need in needs for name in _variables(need.given)}
+        for binding in self._bindings(action, wanted):
+            for need in needs:
+                for inner in instances(need.params, binding, self.problem):
+                    if not self._is_false(need.given, inner):
+                        yield ground_key(need.function, inner)
+
+    def _bindings(self, action: Action, wanted: set[str]) -> Iterator[Binding]:
+        """Yield bindings of the wanted parameters (and those tied to them) that can occur."""
+        if not all(self.problem.objects_of(param.types) for param in action.params):
+            return
+        atoms = [atom for atom in needed_atoms(action) if atom.name not in self.changed]
+        others = [
+            part
+            for condition in action.conditions
+            for part in conjuncts(condition.formula)
+            if not isinstance(part, Atom) and self._is_static(part)
+        ]
+        names = wanted.union(*(_variables(part) for part in (*atoms, *others)))
+        tied = replace(action, params=tuple(p for p in action.params if p.name in names))
+        for binding in Join(tied, atoms, self.problem).bindings(self.static):
+            if not any(self._is_false(part, binding) for part in others):
+                yield binding
+
+    def _is_false(self, formula: Formula, binding: Binding) -> bool:
+        """Whether a condition is false whatever the actions do."""
+        try:
+            return any(
+                self._is_static(part) and not holds(part, self.state, binding, self.problem)
+                for part in conjuncts(formula)
+            )
+        except Undefined:
+            return False
+
+    def _is_static(self, formula: Formula) -> bool:
+        atoms_fixed = self.changed.isdisjoint(a.name for a in _atoms(formula))
+        changed = self.problem.domain.changed_functions
+        return atoms_fixed and changed.isdisjoint(f.name for f in _compared(formula))
+
+    def _own_expressions(self) -> Iterator[tuple[str, Expr]]:
+        for part in conjuncts(self.problem.goal):
+            if isinstance(part, Compare):
+                yield from (("the goal", part.left), ("the goal", part.right))
+        if self.problem.metric is not None:
+            yield "the metric", self.problem.metric
+
+
+def _needs(action: Action) -> Iterator[_Need]:
+    """Yield the functions whose value the action reads."""
+    for condition in action.conditions:
+        for part in conjuncts(condition.formula):
+            if isinstance(part, Compare):
+                yield from map(_Need, _compared(part))
+    for effect in action.effects:
+        if isinstance(effect.target, Function):
+            read = list(functions_in(effect.value))
+            if effect.kind != "assign":
+                read.append(effect.target)
+            yield from (_Need(function, effect.params, effect.given) for function in read)
+    for _, duration in action.durations:
+        yield from map(_Need, functions_in(duration))
+
+
+def _subtracts(expression: Expr) -> bool:
+    """Whether an expression could be below zero although no function in it is."""
+    if isinstance(expression, Constant):
+        return expression.value < 0
+    if isinstance(expression, Arithmetic):
+        return expression.op == "-" or any(map(_subtracts, expression.parts))
+    return False
+
+
+def _parts(formula: Formula) -> Iterator[Formula]:
+    """Yield a formula and all formulas in it."""
+    yield formula
+    inner: Iterable[Formula] = ()
+    if isinstance(formula, And | Or):
+        inner = formula.parts
+    elif isinstance(formula, Not | Quantified):
+        inner = (formula.body,)
+    for part in inner:
+        yield from _parts(part)
+
+
+def _atoms(formula: Formula) -> Iterator[Atom]:
+    return (part for part in _parts(formula) if isinstance(part, Atom))
+
+
+def _compared(formula: Formula) -> Iterator[Function]:
+    for part in _parts(formula):
+        if isinstance(part, Compare):
+            yield from functions_in(part.left)
+            yield from functions_in(part.right)
+
+
+def _variables(formula: Formula) -> Iterator[str]:
+    """Yield the arguments of a formula, bound ones and objects too."""
+    for part in _parts(formula):
+        if isinstance(part, Atom):
+            yield from part.args
+        elif isinstance(part, Equal):
+            yield from (part.left, part.right)
+    for function in _compared(formula):
+        yield from function.args
