@@ -1,4 +1,13 @@
-"""PDDL-first human-robot collaborative planning."""
+"""PDDL-first human-robot collaborative planning.
+
+>>> import hrcplan
+>>> task = hrcplan.load("transport", "two-boxes")
+>>> found = hrcplan.plan("transport", "two-boxes", planner="exact")
+>>> found.status.value, found.report.cost, len(found.plan.actions)
+('solved-optimally', 24, 8)
+>>> hrcplan.validate("transport", "two-boxes", str(found.plan)).valid
+True
+"""
 
 from __future__ import annotations
 
@@ -7,11 +16,18 @@ from typing import TYPE_CHECKING, Any
 __version__ = "0.1.0"
 
 if TYPE_CHECKING:
-    from hrcplan.facade import load
+    from hrcplan.facade import load, plan, validate
+    from hrcplan.planners.lowering import lower
     from hrcplan.task import Task
 
-_HOMES = {"load": "hrcplan.facade", "Task": "hrcplan.task"}
-__all__ = ["Task", "load"]
+__all__ = ["Task", "load", "lower", "plan", "validate"]
+_HOMES = {
+    "Task": "hrcplan.task",
+    "load": "hrcplan.facade",
+    "lower": "hrcplan.planners.lowering",
+    "plan": "hrcplan.facade",
+    "validate": "hrcplan.facade",
+}
 
 
 def __getattr__(name: str) -> Any:
@@ -21,3 +37,8 @@ def __getattr__(name: str) -> Any:
     from importlib import import_module
 
     return getattr(import_module(_HOMES[name]), name)
+
+
+def __dir__() -> list[str]:
+    """Return the public names too, although they are imported late."""
+    return sorted({*globals(), *__all__})

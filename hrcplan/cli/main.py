@@ -9,6 +9,7 @@ from collections.abc import Callable
 from typing import Any, NoReturn
 
 import rich_click as click
+from click.exceptions import Abort, ClickException, Exit
 
 from hrcplan import __version__
 from hrcplan.cli import output
@@ -43,18 +44,20 @@ class _Commands(click.RichGroup):
 
     def main(self, *args: Any, **kwargs: Any) -> NoReturn:
         """Run a command and exit; errors become messages and exit codes."""
-        sys.exit(_guarded(lambda: super(_Commands, self).main(*args, standalone_mode=False)))
+        run = super().main
+        kwargs["standalone_mode"] = False
+        sys.exit(_guarded(lambda: run(*args, **kwargs)))
 
 
 def _guarded(run: Callable[[], Any]) -> int:
     try:
         result = run()
-    except click.exceptions.Exit as stop:
-        return stop.exit_code
-    except click.ClickException as error:
+    except Exit as stop:
+        return int(stop.exit_code)
+    except ClickException as error:
         error.show()
         return error.exit_code
-    except (KeyboardInterrupt, click.Abort):
+    except (KeyboardInterrupt, Abort):
         output.fail("interrupted", "interrupted")
         return INTERRUPTED
     except PddlError as error:
