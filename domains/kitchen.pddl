@@ -7,11 +7,12 @@
 ;;          that adds it and no recipe's step waits for, or is opened by, a step of another recipe
 ;; time-unit: step (the paper: every step takes the same time, whoever does it)
 ;; abstraction: ingredients are never used up and nothing is washed, emptied or switched off: effects only add
-;;              facts, except that get removes "stored" and every step but serve removes "served". A meal
-;;              counts as served only if nothing was done to it since, so serve can be repeated and comes
-;;              last in every optimal plan. The sink is no object: water is collected in the dish.
-;;              A station is whatever a step is done at, and capacity is how hard that is for an agent: the
-;;              thing to fetch (its place on the shelf), the dish or the appliance. serve is done at no station.
+;;              facts, except that get removes "stored" and every step but serve removes "served". So a meal
+;;              counts as served only if nothing was done after serving; serve is last in every optimal plan.
+;;              One predicate, goes-in, says what may be poured where; the sink is no object, water is collected
+;;              in the dish. A station is whatever a step is done at, and capacity is how hard that is for
+;;              the agent: the thing to fetch (its place on the shelf), the dish, the appliance. serve is done
+;;              at no station.
 
 (define (domain kitchen)
   (:requirements :strips :typing :numeric-fluents :action-costs)
