@@ -31,6 +31,6 @@
     (= (knowledge robot) 1) (= (motivation robot) 1)
     (= (capacity robot wp0) 1) (= (capacity robot wp1) 1) (= (capacity robot wp2) 1)
     (= (capacity robot wp3) 1) (= (capacity robot wp4) 1) (= (capacity robot wp5) 1))
-  (:goal (and (box-at green wp2) (box-at blue wp5) (box-at red wp4) (box-at yellow wp1) 
+  (:goal (and (box-at green wp2) (box-at blue wp5) (box-at red wp4) (box-at yellow wp1)
     (box-at orange wp3) (box-at purple wp2)))
   (:metric minimize (+ (total-cost) (* 0.17 (total-time)))))
