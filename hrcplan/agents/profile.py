@@ -1,0 +1,146 @@
+"""Profiles: how what is sensed becomes what the planner is told, and when that means a replan.
+
+A profile is data (``profiles.toml``, or a file of the user's); this module only reads it.
+"""
+
+from __future__ import annotations
+
+import math
+import tomllib
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, fields, replace
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+from hrcplan.agents.memory import Memory
+from hrcplan.agents.state import AgentModel
+from hrcplan.errors import InputError, UsageError
+from hrcplan.pddl.model import FluentKey, Number
+from hrcplan.pddl.source import nearest
+
+_SHIPPED = Path(__file__).with_name("profiles.toml")
+_PLACES = 100  # function values are rounded to hundredths: planners scale costs to integers
+_CHOICES = {
+    "values": ("sensed", "log"),
+    "replan": ("change", "worse"),
+    "while_draining": ("finish", "cancel"),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Profile:
+    """One profile; the keys are explained in ``profiles.toml``."""
+
+    name: str
+    values: str = "sensed"
+    memory: bool = False
+    replan: str = "change"
+    while_draining: str = "finish"
+    replan_limit: int = 5
+    scale: float = 10.0
+    cap: float = 60.0
+
+    def __post_init__(self) -> None:
+        """Check every key.
+
+        Raises:
+            InputError: naming the first key with a value that is not known.
+        """
+        for key, choices in _CHOICES.items():
+            if getattr(self, key) not in choices:
+                wanted = " or ".join(choices)
+                raise InputError(f"profile '{self.name}': {key} must be {wanted}", code="bad-profile")
+        if self.replan_limit < 0 or self.scale <= 0 or self.cap <= 0:
+            message = f"profile '{self.name}': limits, scale and cap are positive"
+            raise InputError(message, code="bad-profile")
+
+    def told(
+        self, model: AgentModel, sensed: Mapping[FluentKey, Number], memory: Memory
+    ) -> dict[FluentKey, Number]:
+        """Return the function values that the planner is given for a belief about the agents.
+
+        Every element has a value, also those at their low value, so that equal beliefs are equal.
+        """
+        blame = memory.blame() if self.memory else {}
+        return {
+            key: self._value(sensed.get(key, low), low, blame.get(key, 0.0))
+            for key, low in model.low.items()
+        }
+
+    def _value(self, value: Number, low: Number, blame: float) -> Number:
+        p = 0.0 if value <= low else min(1.0, float(value) / 10)
+        if self.values == "sensed" and not blame:
+            return value
+        excess = max(self._excess(p) if self.values == "log" else value - low, self._excess(blame))
+        return low + excess
+
+    def _excess(self, p: float) -> Number:
+        """Return ``-scale * ln(1 - p)``, at most ``cap``, in hundredths."""
+        loss = self.cap if p >= 1 else min(self.cap, -self.scale * math.log1p(-p))
+        exact = Fraction(round(loss * _PLACES), _PLACES)
+        return int(exact) if exact.denominator == 1 else exact
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the profile as a JSON object."""
+        return asdict(self)
+
+    def limited_to(self, replan_limit: int | None) -> Profile:
+        """Return this profile with another replan limit, if one is given."""
+        return self if replan_limit is None else replace(self, replan_limit=replan_limit)
+
+
+def profile_names() -> tuple[str, ...]:
+    """Return the names of the shipped profiles.
+
+    >>> profile_names()
+    ('paper', 'hrcplan')
+    """
+    return tuple(_read(_SHIPPED))
+
+
+def profile(name: str) -> Profile:
+    """Return a shipped profile, or the one (or first) in a ``.toml`` file.
+
+    Raises:
+        UsageError: if there is no profile of this name.
+        InputError: if the file is missing or says something unknown.
+
+    >>> profile("paper").replan_limit
+    5
+    """
+    if name.endswith(".toml"):
+        own = _read(Path(name))
+        if not own:
+            raise InputError("the file holds no [profile]", code="bad-profile", path=name)
+        first = next(iter(own))
+        return profile_of({"name": first, **own[first]}, name)
+    known = _read(_SHIPPED)
+    if name not in known:
+        hint = nearest(name, known) or f"shipped: {', '.join(known)}; or a .toml file"
+        raise UsageError(f"there is no profile '{name}'", code="unknown-profile", hint=hint)
+    return profile_of({"name": name, **known[name]})
+
+
+def profile_of(table: Mapping[str, Any], path: str | None = None) -> Profile:
+    """Return the profile that a table describes.
+
+    Raises:
+        InputError: if a key is unknown or a value has the wrong kind.
+    """
+    known = [field.name for field in fields(Profile)]
+    for key in table:
+        if key not in known:
+            hint = nearest(key, known) or f"keys: {', '.join(known[1:])}"
+            raise InputError(f"a profile has no '{key}'", code="bad-profile", path=path, hint=hint)
+    try:
+        return Profile(**table)
+    except TypeError as error:
+        raise InputError(f"bad profile: {error}", code="bad-profile", path=path) from None
+
+
+def _read(path: Path) -> dict[str, dict[str, Any]]:
+    try:
+        return tomllib.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise InputError(f"cannot read profiles: {error}", code="no-file", path=str(path)) from None

@@ -1,0 +1,133 @@
+"""Agent state, read off the PDDL: which values touch which action, and how likely it then fails.
+
+An *element* of an agent's state is a ground function such as ``("motivation", "human")``: its
+first argument is the agent and it occurs in the cost of an action. A *sensed value* lies in
+[0, 10]; *low* is the problem's initial value, at which the agent contributes.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from fractions import Fraction
+from functools import cached_property
+
+from hrcplan.errors import UsageError
+from hrcplan.pddl.conventions import CONTROLLABLE, ROBOT
+from hrcplan.pddl.model import TOTAL_COST, Action, FluentKey, Number, Problem, functions_in
+from hrcplan.pddl.semantics import ground_key
+from hrcplan.task.numbers import agent_state_functions
+
+LEAST, MOST = 0, 10
+_PLACES = 6  # decimals of a sensed value that are kept, so that journals hold it exactly
+
+
+def robots(problem: Problem) -> frozenset[str]:
+    """Return the agents that take commands: the controllable ones, else the one called robot."""
+    marked = frozenset(a for a in problem.agents if (CONTROLLABLE, a) in problem.facts)
+    return marked or frozenset({ROBOT}.intersection(problem.agents))
+
+
+def sensed_value(value: float | Number) -> Number:
+    """Return a sensed value as an exact number with at most six decimals.
+
+    Raises:
+        UsageError: if it is not a number in [0, 10].
+
+    >>> sensed_value(2.5)
+    Fraction(5, 2)
+    """
+    number = float(value)
+    if not math.isfinite(number) or not LEAST <= number <= MOST:
+        raise UsageError(f"{value} is no value in [{LEAST}, {MOST}]", code="bad-sensed-value")
+    exact = Fraction(f"{number:.{_PLACES}f}")
+    return int(exact) if exact.denominator == 1 else exact
+
+
+def failure_probability(value: Number, low: Number) -> float:
+    """Return how likely an action fails because of one element (0 up to low, then value / 10).
+
+    >>> failure_probability(1, 1), failure_probability(8, 1)
+    (0.0, 0.8)
+    """
+    return 0.0 if value <= low else min(1.0, float(value) / MOST)
+
+
+def combined(probabilities: Iterable[float]) -> float:
+    """Return the probability that any of several independent causes strikes.
+
+    >>> combined([0.5, 0.5])
+    0.75
+    """
+    return 1.0 - math.prod(1.0 - p for p in probabilities)
+
+
+class AgentModel:
+    """The agent state of one problem: its elements, their low values, and what they touch."""
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
+        self.robots = robots(problem)
+        self.functions = agent_state_functions(problem.domain)
+        self._schemas = {action.name: action for action in problem.domain.actions}
+        self._touched: dict[tuple[str, ...], tuple[FluentKey, ...]] = {}
+
+    @cached_property
+    def low(self) -> Mapping[FluentKey, Number]:
+        """Every element with its low value, in the order of the problem."""
+        agents = set(self.problem.agents)
+        return {
+            key: value
+            for key, value in self.problem.values.items()
+            if key[0] in self.functions and key[1] in agents
+        }
+
+    def elements(self, agent: str) -> tuple[FluentKey, ...]:
+        """Return the elements of one agent."""
+        return tuple(key for key in self.low if key[1] == agent)
+
+    def touching(self, name: str, args: tuple[str, ...]) -> tuple[FluentKey, ...]:
+        """Return the elements that the cost of a ground action contains."""
+        known = self._touched.get((name, *args))
+        if known is None:
+            known = tuple(key for key in _cost_keys(self._schemas[name], args) if key in self.low)
+            self._touched[name, *args] = known
+        return known
+
+    def is_interaction(self, name: str) -> bool:
+        """Return whether an action decreases or assigns an agent state."""
+        return name in self._interactions
+
+    @cached_property
+    def _interactions(self) -> frozenset[str]:
+        return frozenset(
+            action.name
+            for action in self.problem.domain.actions
+            for effect in action.effects
+            if effect.target.name in self.functions and effect.kind in ("decrease", "assign")
+        )
+
+    def failure_probability(self, key: FluentKey, values: Mapping[FluentKey, Number]) -> float:
+        """Return how likely one element makes an action fail; unknown values count as low."""
+        low = self.low[key]
+        return failure_probability(values.get(key, low), low)
+
+    def check(self, key: FluentKey, value: float | Number) -> Number:
+        """Return a sensed value as an exact number.
+
+        Raises:
+            UsageError: if the problem has no such element, or the value is not in [0, 10].
+        """
+        if key not in self.low:
+            raise UsageError(f"({' '.join(key)}) is no agent state here", code="bad-sensed-value")
+        return sensed_value(value)
+
+
+def _cost_keys(action: Action, args: tuple[str, ...]) -> list[FluentKey]:
+    binding = {param.name: arg for param, arg in zip(action.params, args, strict=True)}
+    return [
+        ground_key(function, binding)
+        for effect in action.effects
+        if effect.target.name == TOTAL_COST
+        for function in functions_in(effect.value)
+    ]

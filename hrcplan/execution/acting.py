@@ -1,0 +1,167 @@
+"""What actions do while they are carried out: begin, finish, or break off without effect.
+
+States are ``semantics.State``: all facts, and the numbers that actions change apart from
+total-cost and agent state (those are nobody's to execute). It reads the lifted model, so that
+domains which the bit task cannot hold are executed too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from hrcplan.pddl.model import (
+    DURATION,
+    TOTAL_COST,
+    Action,
+    Effect,
+    Fact,
+    FluentKey,
+    Number,
+    Problem,
+    formula_functions,
+)
+from hrcplan.pddl.semantics import Binding, State, Undefined, bind, changes, holds, unmet
+from hrcplan.plans import PlannedAction, lane, occupied
+from hrcplan.task.numbers import agent_state_functions
+
+UNIT_S = 1  # how long a step of a domain without durations lasts
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """A ground action, ready to be carried out; ``agent`` is "" for an action without one."""
+
+    schema: Action
+    binding: Binding
+    agent: str
+    busy: frozenset[str]
+    at_start: tuple[Effect, ...]
+    at_end: tuple[Effect, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Undo:
+    """What the start of an action changed, so that a failed one leaves no trace."""
+
+    added: frozenset[Fact]
+    removed: frozenset[Fact]
+    numbers: Mapping[FluentKey, Number]
+
+
+class Acting:
+    """The actions of one problem as they are carried out; remembers what it has looked up."""
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
+        self._schemas = {action.name: action for action in problem.domain.actions}
+        self._steps: dict[tuple[str, ...], Step] = {}
+        self._agent_state = agent_state_functions(problem.domain)
+        moved = {e.target.name for a in problem.domain.actions for e in a.effects}
+        self.static = frozenset(fact for fact in problem.facts if fact[0] not in moved)
+        self._moving = moved.intersection(problem.domain.functions) - self._agent_state - {TOTAL_COST}
+        self._compares = any(
+            True for a in problem.domain.actions
+            for c in (*(c.formula for c in a.conditions), *(e.given for e in a.effects))
+            for _ in formula_functions(c)
+        ) or bool(self._moving) or any(True for _ in formula_functions(problem.goal))  # fmt: skip
+
+    def initial(self) -> State:
+        """Return the state that the problem describes."""
+        numbers = {k: v for k, v in self.problem.values.items() if k[0] in self._moving}
+        return State(frozenset(self.problem.facts), numbers)
+
+    def changing(self, state: State) -> frozenset[Fact]:
+        """Return the facts of a state that some action could change."""
+        return frozenset(state.facts) - self.static
+
+    def state(self, changing: frozenset[Fact], numbers: Mapping[FluentKey, Number]) -> State:
+        """Return the state with these changing facts and numbers."""
+        return State(changing | self.static, numbers)
+
+    def is_goal(self, state: State) -> bool:
+        """Return whether the goal holds."""
+        return holds(self.problem.goal, self._full(state), {}, self.problem)
+
+    def step(self, action: PlannedAction) -> Step | None:
+        """Return a planned action as a step, or None if the problem has no such action."""
+        key = (action.name, *action.args)
+        found = self._steps.get(key)
+        if found is None:
+            schema = self._schemas.get(action.name)
+            binding = "" if schema is None else bind(schema, action.args, self.problem)
+            if schema is None or isinstance(binding, str):
+                return None
+            found = self._steps[key] = self._make(schema, binding, action)
+        return found
+
+    def _make(self, schema: Action, binding: Binding, action: PlannedAction) -> Step:
+        told = self._agent_state | {TOTAL_COST}
+        effects = [e for e in schema.effects if e.value is None or e.target.name not in told]
+        # A step without duration takes effect when it is finished: only then is its outcome known.
+        return Step(
+            schema,
+            binding,
+            lane(action.args, self.problem) or "",
+            occupied(action, self.problem),
+            tuple(e for e in effects if schema.durative and e.when == "start"),
+            tuple(e for e in effects if not schema.durative or e.when == "end"),
+        )
+
+    def obstacle(self, state: State, step: Step) -> str | None:
+        """Return the first condition that keeps a step from beginning, as ground PDDL, or None."""
+        full = self._full(state)
+        for condition in step.schema.conditions:
+            if condition.when == "start" or not step.schema.durative:
+                missing = self._unmet(condition.formula, full, step)
+                if missing is not None:
+                    return missing
+        begun = self._full(self._changed(state, step, step.at_start, 0))
+        for condition in step.schema.conditions:
+            if condition.when == "all":
+                missing = self._unmet(condition.formula, begun, step)
+                if missing is not None:
+                    return missing
+        return None
+
+    def _unmet(self, formula, state: State, step: Step) -> str | None:  # type: ignore[no-untyped-def]
+        try:
+            return unmet(formula, state, step.binding, self.problem)
+        except Undefined as error:
+            return str(error)
+
+    def begin(self, state: State, step: Step, duration: Number = 0) -> tuple[State, Undo]:
+        """Return the state just after a step has begun, and how to take that back."""
+        after = self._changed(state, step, step.at_start, duration)
+        before_facts, facts = frozenset(state.facts), frozenset(after.facts)
+        old = {k: v for k, v in state.values.items() if after.values.get(k) != v}
+        return after, Undo(facts - before_facts, before_facts - facts, old)
+
+    def finish(self, state: State, step: Step, duration: Number = 0) -> State:
+        """Return the state just after a step has ended well."""
+        return self._changed(state, step, step.at_end, duration)
+
+    def undo(self, state: State, undo: Undo) -> State:
+        """Return the state as if a step that failed had never begun."""
+        facts = frozenset(state.facts) - undo.added | undo.removed
+        return State(facts, {**state.values, **undo.numbers})
+
+    def _changed(
+        self, state: State, step: Step, effects: tuple[Effect, ...], duration: Number
+    ) -> State:
+        if not effects:
+            return state
+        full = self._full(state)
+        if self._compares:
+            full = State(full.facts, {**full.values, (DURATION,): duration})
+        try:
+            return changes(effects, full, step.binding, self.problem).apply(state)
+        except Undefined:  # a number that was never given a value stays as it is
+            plain = [effect for effect in effects if effect.value is None]
+            return changes(plain, full, step.binding, self.problem).apply(state)
+
+    def _full(self, state: State) -> State:
+        """Return the state with the functions that conditions may look at."""
+        if not self._compares:
+            return state
+        return State(state.facts, {**self.problem.values, **state.values})

@@ -1,0 +1,106 @@
+"""The loop around the monitor: world and planner on one side, journal on the other.
+
+Every event is written down before it is acted on, and so is every decision. A run that is
+continued from a journal goes the same way again: recorded events are compared with what the world
+does, recorded plans are used instead of asking a planner, and then the run goes on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Protocol
+
+from hrcplan.execution import events as ev
+from hrcplan.execution.events import Command, Event
+from hrcplan.execution.monitor import Monitor
+from hrcplan.execution.run import Run
+from hrcplan.execution.worlds import World
+
+MAX_STEPS = 100_000  # events of one run; a world that never ends is stopped
+
+
+class Asked(Protocol):
+    """Whatever answers a request for a plan."""
+
+    def answer(self, ask: ev.AskPlan) -> ev.Planned:
+        """Return a plan, or none with the reason."""
+
+
+class Record(Protocol):
+    """Where events and decisions go before they are acted on."""
+
+    def take(self, event: Event) -> Event:
+        """Write an event down and return it as it can be read again."""
+
+    def decided(self, commands: tuple[Command, ...]) -> None:
+        """Write down what the monitor decided."""
+
+    def recorded_plan(self) -> ev.Planned | None:
+        """Return the next event if it is a plan that was recorded before; None if not."""
+
+
+class Nowhere:
+    """A record that is not kept."""
+
+    def take(self, event: Event) -> Event:
+        """Return the event."""
+        return event
+
+    def decided(self, commands: tuple[Command, ...]) -> None:
+        """Forget the decision."""
+
+    def recorded_plan(self) -> ev.Planned | None:
+        """Return None: nothing was recorded."""
+        return None
+
+
+Watch = Callable[[Run, Event, tuple[Command, ...]], None]
+
+
+@dataclass
+class Driver:
+    """Carries one run out until it is over; ``watch`` is told of every step."""
+
+    monitor: Monitor
+    world: World
+    planner: Asked
+    record: Record
+    watch: Watch | None = None
+
+    def run(self) -> Run:
+        """Return the finished run."""
+        run = self.monitor.begin()
+        events: Iterable[Event] = self.world.begin()
+        for _ in range(MAX_STEPS):
+            run = self._instant(run, events)
+            if run.is_over:
+                return run
+            events = self.world.next() or (ev.StopAsked(run.t, "nothing happens any more"),)
+        return self._step(run, ev.StopAsked(run.t, f"more than {MAX_STEPS} instants"))[0]
+
+    def _instant(self, run: Run, events: Iterable[Event]) -> Run:
+        """Return the run after the events of one instant, and what follows at once from them."""
+        t = run.t
+        for event in events:
+            run, asked = self._step(run, event)
+            t = max(t, event.t)
+        run, asked = self._step(run, ev.Settled(t))
+        while asked is not None:
+            run, again = self._step(run, self.record.recorded_plan() or self.planner.answer(asked))
+            run, asked = (run, again) if again is not None else self._step(run, ev.Settled(t))
+        return run
+
+    def _step(self, run: Run, event: Event) -> tuple[Run, ev.AskPlan | None]:
+        event = self.record.take(event)
+        run, commands = self.monitor.step(run, event)
+        self.record.decided(commands)
+        if self.watch is not None:
+            self.watch(run, event, commands)
+        asked = None
+        for command in commands:
+            if isinstance(command, ev.AskPlan):
+                asked = command
+            else:
+                self.world.do(command)
+        return run, asked

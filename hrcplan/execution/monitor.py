@@ -1,0 +1,372 @@
+"""The monitor: from what has happened to what is to be done. Pure, so that it can be replayed.
+
+``Monitor.step(run, event)`` returns the next run and commands. Whoever drives it (simulation,
+terminal, robot link) reports events and carries commands out; nothing here waits, reads a clock,
+draws a random number or calls a planner.
+
+Draining: once a replan is due nothing new begins; the robot's running action ends with its
+effects, a human's is finished or cancelled as the profile says, and whatever else happens
+meanwhile belongs to the same replan.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field, replace
+
+from hrcplan.agents import AgentModel, Profile
+from hrcplan.errors import UsageError
+from hrcplan.execution import events as ev
+from hrcplan.execution.acting import UNIT_S, Acting, Step
+from hrcplan.execution.events import Command, Event
+from hrcplan.execution.order import Waits, rest_of, waits
+from hrcplan.execution.run import Phase, Pursuit, Run, Running, plus
+from hrcplan.pddl.model import FluentKey, Number, Problem, fact_text, number_text
+from hrcplan.pddl.semantics import State
+from hrcplan.planners.solve import objective
+from hrcplan.plans import Plan, PlannedAction
+from hrcplan.validation import validate
+
+MAX_ASKED_AGAIN = 3  # times that one replan may ask anew because something changed meanwhile
+_TIE = 1e-4  # relative; the gaps between printed actions differ by less between plans
+Stepped = tuple[Run, tuple[Command, ...]]
+
+
+@dataclass(frozen=True)
+class Monitor:
+    """One problem and one profile; ``sensing`` false means that sensed values are not used."""
+
+    problem: Problem
+    profile: Profile
+    sensing: bool = True
+    agents: AgentModel = field(init=False)
+    acting: Acting = field(init=False)
+    _orders: dict[Plan, Waits] = field(init=False, default_factory=dict, repr=False)
+
+    def __post_init__(self) -> None:
+        """Look up what depends on the problem alone."""
+        object.__setattr__(self, "agents", AgentModel(self.problem))
+        object.__setattr__(self, "acting", Acting(self.problem))
+
+    def begin(self) -> Run:
+        """Return a run at time 0, in the problem's initial state, before its first plan."""
+        return Run(self.acting.initial())
+
+    def step(self, run: Run, event: Event) -> Stepped:
+        """Return the run after an event, and what is to be done, in order."""
+        if run.is_over:
+            return run, ()
+        handle: Callable[[Run, Event], Stepped] = getattr(self, f"_{type(event).__name__.lower()}")
+        return handle(replace(run, t=max(run.t, event.t)), event)
+
+    # Events that change what is believed; decisions wait until the instant has settled.
+
+    def _ended(self, run: Run, event: ev.Ended) -> Stepped:
+        action = run.find(event.number)
+        if action is None:
+            known = 0 <= event.number < run.n_dispatched
+            what = "has ended before" if known else "was never dispatched"
+            return run, (ev.Tell(run.t, "unknown-action", f"action {event.number} {what}"),)
+        if event.outcome not in ev.OUTCOMES:
+            return run, (ev.Tell(run.t, "unknown-outcome", f"no outcome '{event.outcome}'"),)
+        if event.outcome == ev.DONE:
+            return self._done(run, action), ()
+        return self._undone(run, action, event.outcome), ()
+
+    def _done(self, run: Run, action: Running) -> Run:
+        assert run.pursuit is not None
+        pursuit = replace(run.pursuit, ended=run.pursuit.ended | {action.index})
+        n_interactions = run.tally.interactions + self.agents.is_interaction(action.step.schema.name)
+        tally = replace(
+            run.tally, done=plus(run.tally.done, [action.step.agent]), last_end_s=run.t,
+            interactions=n_interactions,
+        )  # fmt: skip
+        return replace(
+            run, running=run.without(action), pursuit=pursuit, tally=tally,
+            state=self.acting.finish(run.state, action.step, _number(action.duration_s)),
+            memory=run.memory.went_well(self._touching(action.step)),
+        )  # fmt: skip
+
+    def _undone(self, run: Run, action: Running, outcome: str) -> Run:
+        """Take a failed or cancelled action back: no effect, the time is used up."""
+        agent, tally = action.step.agent, run.tally
+        assert run.pursuit is not None
+        begun = {i: t for i, t in run.pursuit.begun.items() if i != action.index}
+        run = replace(
+            run, running=run.without(action), pursuit=replace(run.pursuit, begun=begun),
+            state=self.acting.undo(run.state, action.undo),
+        )  # fmt: skip
+        if outcome == ev.CANCELLED:
+            tally = replace(tally, cancelled=plus(tally.cancelled, [agent]), last_end_s=run.t)
+            return replace(run, tally=tally)
+        tally = replace(tally, failed=plus(tally.failed, [agent]), last_end_s=run.t)
+        memory = run.memory.failed(self._suspects(run, action.step))
+        text = f"{_shown(action.step)} failed"
+        return replace(run, tally=tally, memory=memory).because(ev.FAILURE, text)
+
+    def _suspects(self, run: Run, step: Step) -> Iterable[FluentKey]:
+        """Return the elements that can have made an action fail: those sensed high, if any."""
+        touched = self._touching(step)
+        if not self.sensing:
+            return touched
+        high = [key for key in touched if self.agents.failure_probability(key, run.sensed) > 0]
+        return high or touched
+
+    def _touching(self, step: Step) -> tuple[FluentKey, ...]:
+        return self.agents.touching(step.schema.name, tuple(step.binding.values()))
+
+    def _overdue(self, run: Run, event: ev.Overdue) -> Stepped:
+        action = run.find(event.number)
+        if action is None:
+            return run, ()
+        return self._undone(run, action, ev.FAILED), (ev.Cancel(run.t, event.number),)
+
+    def _observed(self, run: Run, event: ev.Observed) -> Stepped:
+        numbers = run.state.values if event.numbers is None else event.numbers
+        return replace(run, observed=self.acting.state(event.facts, numbers)), ()  # type: ignore[arg-type]
+
+    def _sensed(self, run: Run, event: ev.Sensed) -> Stepped:
+        """Take good values in; a bad one is rejected and the last good value stays."""
+        told: list[Command] = []
+        for key, value in event.values.items():
+            try:
+                exact = self.agents.check(key, value)
+            except UsageError as error:
+                message = f"sensed {' '.join(key)} = {value}: {error.message}"
+                told.append(ev.Tell(run.t, "bad-sensed-value", message))
+                continue
+            run = self._updated(run, key, exact)
+        return run, tuple(told)
+
+    def _updated(self, run: Run, key: FluentKey, value: Number) -> Run:
+        before = run.sensed.get(key, self.agents.low[key])
+        if not self.sensing or value == before:
+            return run
+        run = replace(run, sensed={**run.sensed, key: value}, memory=run.memory.sensed(key))
+        if run.phase is Phase.IDLE:
+            return run  # known before the first plan
+        text = f"{fact_text(key)} {number_text(before)} → {number_text(value)}"
+        return run.because(ev.CHANGE, text)
+
+    def _stopasked(self, run: Run, event: ev.StopAsked) -> Stepped:
+        return self._finish(run, ev.STOPPED, event.why)
+
+    # Decisions: the instant has settled, or a planner has answered.
+
+    def _settled(self, run: Run, event: ev.Settled) -> Stepped:
+        run = self._compared(run)
+        if run.phase is Phase.IDLE:
+            return self._ask(run)
+        if run.phase is Phase.PLANNING:
+            return run, ()
+        if self.acting.is_goal(run.state):
+            if run.running:
+                return replace(run, phase=Phase.DRAINING), ()
+            return self._finish(run, ev.GOAL, "")
+        if run.reasons or run.phase is Phase.DRAINING:
+            return self._drain(run)
+        return self._dispatch(run)
+
+    def _compared(self, run: Run) -> Run:
+        """Hold the observed state against the expected one; what is observed is believed."""
+        seen = run.observed
+        if seen is None:
+            return run
+        run = replace(run, observed=None)
+        if seen.facts == run.state.facts and seen.values == run.state.values:
+            return run
+        text = _difference(run.state, seen)
+        return replace(run, state=seen).because(ev.DEVIATION, text)
+
+    def _drain(self, run: Run) -> Stepped:
+        cancels: tuple[Command, ...] = ()
+        if run.phase is not Phase.DRAINING and self.profile.while_draining == "cancel":
+            cancels = tuple(
+                ev.Cancel(run.t, r.number)
+                for r in run.running
+                if r.step.agent and r.step.agent not in self.agents.robots
+            )
+        run = replace(run, phase=Phase.DRAINING)
+        if run.running:
+            return run, cancels
+        if not run.reasons:  # the goal held for a moment and does no more
+            run = run.because(ev.DEVIATION, "the goal does not hold any more")
+        return self._replan(run)
+
+    def _replan(self, run: Run) -> Stepped:
+        if run.tally.n_replans < self.profile.replan_limit:
+            return self._ask(run)
+        why = "; ".join(r.text for r in run.reasons)
+        if any(r.kind != ev.CHANGE for r in run.reasons):
+            return self._finish(run, ev.REPLAN_LIMIT, why)
+        told = ev.Tell(run.t, "replan-limit", f"no replan left, the plan goes on: {why}")
+        run, commands = self._dispatch(replace(run, reasons=(), phase=Phase.EXECUTING))
+        return run, (told, *commands)
+
+    def _ask(self, run: Run) -> Stepped:
+        run = replace(run, phase=Phase.PLANNING, n_asked=len(run.reasons))
+        return run, (
+            ev.AskPlan(
+                run.t, self.acting.changing(run.state), run.state.values, self.told(run),
+                tuple(f"{r.kind}: {r.text}" for r in run.reasons),
+            ),
+        )  # fmt: skip
+
+    def told(self, run: Run) -> dict[FluentKey, Number]:
+        """Return the agent-state values that a planner is given now: the knowledge base."""
+        return self.profile.told(self.agents, run.sensed, run.memory)
+
+    def _planned(self, run: Run, event: ev.Planned) -> Stepped:
+        if run.phase is not Phase.PLANNING:
+            return run, (ev.Tell(run.t, "unasked-plan", "a plan that nobody asked for"),)
+        if len(run.reasons) > run.n_asked and len(run.reasons) <= MAX_ASKED_AGAIN + run.n_asked:
+            return self._ask(run)  # something changed while the planner thought: the same replan
+        rest = self._rest(run)
+        kind = _counted([r.kind for r in run.reasons])
+        if event.plan is None:
+            return self._without_plan(run, event, rest, kind)
+        if rest is None or not _no_worse(rest[1], event.metric):
+            return self._adopt(run, event.plan, kind)
+        if self._may_confirm(run, kind):
+            return self._confirm(run, "the plan stays the best")
+        # Equally good plans differ in who does what: people are not asked to swap for nothing.
+        return self._adopt(run, rest[0], kind)
+
+    def _may_confirm(self, run: Run, kind: str | None) -> bool:
+        """Whether the running plan may be confirmed: never after a failure, once per instant."""
+        worse_only = self.profile.replan == "worse"
+        return worse_only and kind != ev.FAILURE and run.confirmed_s != run.t
+
+    def _without_plan(
+        self, run: Run, event: ev.Planned, rest: tuple[Plan, Number] | None, kind: str | None
+    ) -> Stepped:
+        """Go on with the running plan if it can still be followed, else end the run."""
+        if rest is None:
+            return self._finish(run, ev.NO_PLAN, event.note)
+        if kind == ev.CHANGE:
+            return self._confirm(run, f"no new plan ({event.note})")
+        return self._adopt(run, rest[0], kind)
+
+    def _confirm(self, run: Run, why: str) -> Stepped:
+        tally = replace(run.tally, plans_confirmed=run.tally.plans_confirmed + 1)
+        run = replace(run, phase=Phase.EXECUTING, reasons=(), tally=tally, confirmed_s=run.t)
+        return run, (ev.Tell(run.t, "plan-confirmed", why),)
+
+    def _adopt(self, run: Run, plan: Plan, kind: str | None) -> Stepped:
+        steps = [self.acting.step(action) for action in plan.actions]
+        if any(step is None for step in steps):
+            return self._finish(run, ev.NO_PLAN, "the plan has an action that the domain has not")
+        tally = replace(run.tally, assigned=plus(run.tally.assigned, [s.agent for s in steps if s]))
+        if kind is not None:
+            tally = replace(tally, replans=plus(tally.replans, [kind]))
+        why = "; ".join(f"{r.kind}: {r.text}" for r in run.reasons)
+        pursuit = Pursuit(plan, self._order(plan))
+        run = replace(run, phase=Phase.EXECUTING, pursuit=pursuit, tally=tally, reasons=())
+        return run, (ev.Adopt(run.t, plan, why),)
+
+    def _order(self, plan: Plan) -> Waits:
+        if plan not in self._orders:
+            self._orders[plan] = waits(self.problem, plan)
+        return self._orders[plan]
+
+    def _rest(self, run: Run) -> tuple[Plan, Number] | None:
+        """Return what is left of the running plan and its metric now; None if it cannot go on."""
+        pursuit = run.pursuit
+        if pursuit is None:
+            return None
+        rest = rest_of(pursuit.plan, pursuit.order, pursuit.ended, self.problem.domain.is_temporal)
+        report = validate(self.now(run), rest)
+        value = objective(report)
+        return None if not report.valid or value is None else (rest, value)
+
+    def now(self, run: Run) -> Problem:
+        """Return the problem from here on, as it is believed to be."""
+        values = {**self.problem.values, **run.state.values, **self.told(run)}
+        return replace(self.problem, facts=frozenset(run.state.facts), values=values)
+
+    # Dispatch: every action whose turn has come, if it still can be done.
+
+    def _dispatch(self, run: Run) -> Stepped:
+        pursuit = run.pursuit
+        assert pursuit is not None
+        commands: list[Command] = []
+        for index, planned in enumerate(pursuit.plan.actions):
+            if index in pursuit.begun or not self._is_free(run, planned):
+                continue
+            ready = run.pursuit.ready_s(index) if run.pursuit else None
+            if ready is None:
+                continue
+            if ready > run.t + ev.INSTANT_S:
+                commands.append(ev.Wake(run.t, ready))
+                continue
+            run, command = self._start(run, index, planned)
+            if command is None:
+                drained, more = self._drain(run)
+                return drained, (*commands, *more)
+            commands.append(command)
+        if not run.running and not commands:
+            return self._drain(run.because(ev.DEVIATION, "the plan has ended without the goal"))
+        return run, tuple(commands)
+
+    def _is_free(self, run: Run, planned: PlannedAction) -> bool:
+        step = self.acting.step(planned)
+        return step is not None and not any(step.busy & r.step.busy for r in run.running)
+
+    def _start(
+        self, run: Run, index: int, planned: PlannedAction
+    ) -> tuple[Run, ev.Dispatch | None]:
+        """Begin one action, or note as a deviation that it cannot begin."""
+        step = self.acting.step(planned)
+        assert step is not None and run.pursuit is not None
+        obstacle = self.acting.obstacle(run.state, step)
+        if obstacle is not None:
+            return run.because(ev.DEVIATION, f"{planned} needs {obstacle}"), None
+        duration = planned.duration_s if step.schema.durative else None
+        lasts = float(UNIT_S if duration is None else duration)
+        state, undo = self.acting.begin(run.state, step, duration or 0)
+        action = Running(run.n_dispatched, index, step, run.t, lasts, undo)
+        pursuit = replace(run.pursuit, begun={**run.pursuit.begun, index: run.t})
+        run = replace(
+            run, state=state, running=(*run.running, action), pursuit=pursuit,
+            n_dispatched=run.n_dispatched + 1,
+        )  # fmt: skip
+        return run, ev.Dispatch(
+            run.t, action.number, step.agent, planned.name, planned.args, lasts
+        )
+
+    def _finish(self, run: Run, ending: str, why: str) -> Stepped:
+        run = replace(run, phase=Phase.OVER, ending=ending, why=why)
+        return run, (ev.Finish(run.t, ending, why),)
+
+
+def _counted(kinds: list[str]) -> str | None:
+    """Return what one replan is counted as: the worst of its reasons; None for the first plan."""
+    for kind in (ev.FAILURE, ev.DEVIATION, ev.CHANGE):
+        if kind in kinds:
+            return kind
+    return None
+
+
+def _no_worse(mine: Number, theirs: Number | None) -> bool:
+    return theirs is not None and float(mine) <= float(theirs) + _TIE * max(1.0, abs(float(theirs)))
+
+
+def _number(seconds: float) -> Number:
+    return int(seconds) if seconds == int(seconds) else ev.exact(seconds)  # type: ignore[return-value]
+
+
+def _shown(step: Step) -> str:
+    return fact_text((step.schema.name, *step.binding.values()))
+
+
+def _difference(expected: State, seen: State) -> str:
+    missing = sorted(frozenset(expected.facts) - frozenset(seen.facts))
+    extra = sorted(frozenset(seen.facts) - frozenset(expected.facts))
+    words = [f"{fact_text(fact)} does not hold" for fact in missing]
+    words += [f"{fact_text(fact)} holds" for fact in extra]
+    words += [
+        f"{fact_text(key)} is {number_text(seen.values[key])}"
+        for key in sorted(seen.values)
+        if expected.values.get(key) != seen.values[key]
+    ]
+    return ", ".join(words)

@@ -1,0 +1,112 @@
+"""What a run comes to: one typed row, and the percentages of Table I made of it.
+
+The paper's percentages are means over runs of each run's own percentage, and "assigned" counts
+all actions of all plans of a run, the replanned ones too: read so, rows 1a and 2a of its Table I
+come out to the last digit (see the tests).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from hrcplan.execution import events as ev
+from hrcplan.execution.run import Run
+
+MEASURES = (
+    "success_pct", "replans", "failed_pct", "assigned_human_pct", "assigned_robot_pct",
+    "successful_human_pct", "successful_robot_pct", "makespan_s", "interactions",
+)  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One run. Humans are all agents that take no commands; actions without agent are the robot's.
+
+    ``executed`` counts actions that ended well. ``makespan_s`` is the end of the last action.
+    """
+
+    success: bool
+    ending: str
+    replans_change: int = 0
+    replans_failure: int = 0
+    replans_deviation: int = 0
+    plans_confirmed: int = 0
+    assigned_human: int = 0
+    assigned_robot: int = 0
+    executed_human: int = 0
+    executed_robot: int = 0
+    failed_human: int = 0
+    failed_robot: int = 0
+    cancelled_human: int = 0
+    cancelled_robot: int = 0
+    interactions: int = 0
+    makespan_s: float = 0.0
+
+    @property
+    def replans(self) -> int:
+        """All replans, for whatever reason."""
+        return self.replans_change + self.replans_failure + self.replans_deviation
+
+    def measures(self) -> dict[str, float]:
+        """Return the measures of this run, percentages in [0, 100]; 0 where nothing was done.
+
+        >>> Row(True, "goal reached", executed_human=1, executed_robot=3).measures()["failed_pct"]
+        0.0
+        """
+        executed = self.executed_human + self.executed_robot
+        failed = self.failed_human + self.failed_robot
+        assigned = self.assigned_human + self.assigned_robot
+        return dict(zip(MEASURES, (
+            100.0 * self.success,
+            float(self.replans),
+            _percent(failed, failed + executed),
+            _percent(self.assigned_human, assigned),
+            _percent(self.assigned_robot, assigned),
+            _percent(self.executed_human, executed),
+            _percent(self.executed_robot, executed),
+            self.makespan_s,
+            float(self.interactions),
+        ), strict=True))  # fmt: skip
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the row as a JSON object."""
+        return asdict(self)
+
+
+def row_of(run: Run, robots: frozenset[str]) -> Row:
+    """Return the row of a run; of an unfinished one as far as it has come."""
+    tally = run.tally
+
+    def split(counts: Mapping[str, int]) -> tuple[int, int]:
+        robot = sum(n for agent, n in counts.items() if agent in robots or not agent)
+        return sum(counts.values()) - robot, robot
+
+    assigned, done = split(tally.assigned), split(tally.done)
+    failed, cancelled = split(tally.failed), split(tally.cancelled)
+    return Row(
+        run.ending == ev.GOAL, run.ending or "unfinished",
+        *(tally.replans.get(kind, 0) for kind in ev.REASONS), tally.plans_confirmed,
+        *assigned, *done, *failed, *cancelled, tally.interactions, round(tally.last_end_s, 6),
+    )  # fmt: skip
+
+
+def means(rows: Sequence[Row]) -> dict[str, tuple[float, float]]:
+    """Return mean and standard error of every measure over runs; (0, 0) without runs."""
+    tables = [row.measures() for row in rows]
+    return {name: _mean([table[name] for table in tables]) for name in MEASURES}
+
+
+def _mean(values: Iterable[float]) -> tuple[float, float]:
+    numbers = list(values)
+    n = len(numbers)
+    if not n:
+        return 0.0, 0.0
+    mean = sum(numbers) / n
+    variance = sum((x - mean) ** 2 for x in numbers) / (n - 1) if n > 1 else 0.0
+    return mean, (variance / n) ** 0.5
+
+
+def _percent(part: int, whole: int) -> float:
+    return 100.0 * part / whole if whole else 0.0

@@ -1,0 +1,141 @@
+"""The state of a run: what is believed, what is running, what was counted. Values only."""
+
+from __future__ import annotations
+
+import enum
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+
+from hrcplan.agents.memory import Memory
+from hrcplan.execution.acting import Step, Undo
+from hrcplan.execution.order import Waits
+from hrcplan.pddl.model import FluentKey, Number
+from hrcplan.pddl.semantics import State
+from hrcplan.plans import Plan
+
+
+class Phase(enum.Enum):
+    """Where a run is: ``draining`` lets running actions end before a replan."""
+
+    IDLE = "idle"
+    PLANNING = "planning"
+    EXECUTING = "executing"
+    DRAINING = "draining"
+    OVER = "over"
+
+
+@dataclass(frozen=True, slots=True)
+class Running:
+    """One dispatched action that has not ended; ``index`` is its place in the plan."""
+
+    number: int
+    index: int
+    step: Step
+    begun_s: float
+    duration_s: float
+    undo: Undo
+
+
+@dataclass(frozen=True, slots=True)
+class Pursuit:
+    """A plan that is being followed: which of its actions have begun, and which have ended."""
+
+    plan: Plan
+    order: Waits
+    begun: Mapping[int, float] = field(default_factory=dict)
+    ended: frozenset[int] = frozenset()
+
+    @property
+    def is_done(self) -> bool:
+        """Whether every action has ended."""
+        return len(self.ended) == len(self.plan.actions)
+
+    def ready_s(self, index: int) -> float | None:
+        """Return from when an action may begin; None while it waits for something unfinished."""
+        earliest = 0.0
+        for wait in self.order[index]:
+            if wait.for_end:
+                if wait.index not in self.ended:
+                    return None
+            elif wait.index not in self.begun:
+                return None
+            else:
+                earliest = max(earliest, self.begun[wait.index] + float(wait.offset_s))
+        return earliest
+
+
+@dataclass(frozen=True, slots=True)
+class Reason:
+    """Why a replan is due: ``change``, ``failure`` or ``deviation``, and what happened."""
+
+    kind: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Tally:
+    """What was counted so far: replans by reason, and actions by outcome and agent."""
+
+    replans: Mapping[str, int] = field(default_factory=dict)
+    plans_confirmed: int = 0
+    assigned: Mapping[str, int] = field(default_factory=dict)
+    done: Mapping[str, int] = field(default_factory=dict)
+    failed: Mapping[str, int] = field(default_factory=dict)
+    cancelled: Mapping[str, int] = field(default_factory=dict)
+    interactions: int = 0
+    last_end_s: float = 0.0
+
+    @property
+    def n_replans(self) -> int:
+        """Return all replans, for whatever reason."""
+        return sum(self.replans.values())
+
+
+def plus(counts: Mapping[str, int], names: Iterable[str]) -> Mapping[str, int]:
+    """Return counts with one more for each name.
+
+    >>> plus({"a": 1}, ["a", "b"])
+    {'a': 2, 'b': 1}
+    """
+    found = dict(counts)
+    for name in names:
+        found[name] = found.get(name, 0) + 1
+    return found
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """Everything the monitor knows; the next one follows from it and one event."""
+
+    state: State
+    phase: Phase = Phase.IDLE
+    t: float = 0.0
+    sensed: Mapping[FluentKey, Number] = field(default_factory=dict)
+    memory: Memory = Memory()
+    pursuit: Pursuit | None = None
+    running: tuple[Running, ...] = ()
+    n_dispatched: int = 0
+    reasons: tuple[Reason, ...] = ()
+    observed: State | None = None
+    n_asked: int = 0
+    confirmed_s: float | None = None
+    tally: Tally = Tally()
+    ending: str | None = None
+    why: str = ""
+
+    @property
+    def is_over(self) -> bool:
+        """Whether the run has ended."""
+        return self.phase is Phase.OVER
+
+    def find(self, number: int) -> Running | None:
+        """Return the running action with this dispatch number."""
+        return next((r for r in self.running if r.number == number), None)
+
+    def without(self, action: Running) -> tuple[Running, ...]:
+        """Return the running actions but one."""
+        return tuple(r for r in self.running if r.number != action.number)
+
+    def because(self, kind: str, text: str) -> Run:
+        """Return this run with one more reason to replan."""
+        return replace(self, reasons=(*self.reasons, Reason(kind, text)))

@@ -1,0 +1,182 @@
+"""One simulated run from a specification: what studies are made of.
+
+``simulate(spec)`` returns the row of one run. Everything random follows from ``spec.seed``, and
+nothing else of the specification changes it, so that runs with one seed are paired.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+from hrcplan.agents import Profile, profile
+from hrcplan.errors import UsageError
+from hrcplan.execution import events as ev
+from hrcplan.execution.driver import Driver, Nowhere, Record, Watch
+from hrcplan.execution.monitor import Monitor
+from hrcplan.execution.replanner import Replanner
+from hrcplan.execution.row import Row, row_of
+from hrcplan.execution.run import Run
+from hrcplan.execution.worlds import chance
+from hrcplan.execution.worlds.simulated import (
+    DRAWS,
+    DURING,
+    ONCE,
+    SENSED,
+    FactChange,
+    Nature,
+    SimulatedWorld,
+    StateChange,
+)
+from hrcplan.facade import load_problem
+from hrcplan.pddl.model import FluentKey, Number, Problem
+
+CASES = (0, 1, 2)
+LEVELS = (5, 10)
+START, RANDOM = "start", "random"
+
+
+@dataclass(frozen=True, slots=True)
+class Spec:
+    """One simulated run.
+
+    ``case``: 0 nothing changes, 1 the human does not contribute (value 10), 2 a value drawn from
+    the integers ``levels``. ``model``: sensed values are used. ``when`` the change happens: at the
+    ``start``, or just before a ``random`` one of the human's actions. ``sensed``, ``draws`` and
+    ``can_fail`` are those of ``Nature``; ``values`` are put into the initial state. ``planner`` is
+    a name, or several with commas, asked in turn.
+    """
+
+    domain: str = "transport"
+    problem: str = "two-boxes"
+    case: int = 1
+    model: bool = True
+    profile: str = "paper"
+    seed: str | int = 0
+    when: str = START
+    sensed: str = DURING
+    draws: str = ONCE
+    can_fail: tuple[str, ...] | None = None
+    levels: tuple[int, int] = LEVELS
+    values: tuple[tuple[FluentKey, Number], ...] = ()
+    replan_limit: int | None = None
+    planner: str = "auto"
+
+    def __post_init__(self) -> None:
+        """Check what has a few choices only.
+
+        Raises:
+            UsageError: naming the first field that is wrong.
+        """
+        for name, choices in (("case", CASES), ("when", (START, RANDOM)), ("sensed", SENSED),
+                              ("draws", DRAWS)):  # fmt: skip
+            if getattr(self, name) not in choices:
+                wanted = ", ".join(map(str, choices))
+                raise UsageError(f"{name} is one of {wanted}, not {getattr(self, name)!r}")
+
+
+@dataclass(frozen=True)
+class Engine:
+    """What runs of one problem and profile share: monitor, and planner with its cached plans."""
+
+    monitor: Monitor
+    planner: Replanner
+
+    def run(
+        self, nature: Nature, record: Record | None = None, watch: Watch | None = None
+    ) -> Run:
+        """Return one finished run in a simulated world."""
+        problem, monitor = self.monitor.problem, self.monitor
+        world = SimulatedWorld(problem, nature, monitor.acting, monitor.agents)
+        return Driver(monitor, world, self.planner, record or Nowhere(), watch).run()
+
+    def row(self, run: Run) -> Row:
+        """Return the row of a run."""
+        return row_of(run, self.monitor.agents.robots)
+
+
+def simulate(spec: Spec) -> Row:
+    """Return the row of one simulated run.
+
+    Raises:
+        InputError: if domain, problem or profile cannot be read.
+    """
+    engine = engine_for(spec)
+    return engine.row(engine.run(nature_of(spec, engine)))
+
+
+def engine_for(spec: Spec) -> Engine:
+    """Return the engine of a specification; those that differ only in chance share one."""
+    return _engine(spec.domain, spec.problem, spec.values, spec.planner, spec.profile, spec.model,
+                   spec.replan_limit)  # fmt: skip
+
+
+@lru_cache(maxsize=64)
+def _engine(
+    domain: str, problem: str, values: tuple[tuple[FluentKey, Number], ...], planner: str,
+    profile_name: str, model: bool, replan_limit: int | None,
+) -> Engine:  # fmt: skip
+    shared = _replanner(domain, problem, values, planner)
+    chosen = profile(profile_name).limited_to(replan_limit)
+    return make_engine(shared.problem, chosen, model, shared)
+
+
+@lru_cache(maxsize=16)
+def _replanner(
+    domain: str, problem: str, values: tuple[tuple[FluentKey, Number], ...], planner: str
+) -> Replanner:
+    loaded = load_problem(domain, problem).with_values(dict(values))
+    return Replanner(loaded, tuple(planner.split(",")))
+
+
+def make_engine(
+    problem: Problem, chosen: Profile, model: bool = True, planner: Replanner | None = None
+) -> Engine:
+    """Return the engine for a problem and a profile; ``model`` false leaves sensing unused."""
+    return Engine(Monitor(problem, chosen, model), planner or Replanner(problem))
+
+
+def nature_of(spec: Spec, engine: Engine) -> Nature:
+    """Return the world's behavior in one run: everything that chance decides, drawn from the seed."""
+    can_fail = None if spec.can_fail is None else frozenset(spec.can_fail)
+    changes: tuple[StateChange, ...] = ()
+    accidents: tuple[FactChange, ...] = ()
+    if spec.case:
+        key = cause_of(spec, engine)
+        changes = (StateChange(_change_time(spec, engine), {key: _level(spec)}),)
+    return Nature(spec.seed, changes, accidents, spec.sensed, spec.draws, can_fail)
+
+
+def cause_of(spec: Spec, engine: Engine) -> FluentKey:
+    """Return the element that changes: any function, then any of a human's elements of it."""
+    agents = engine.monitor.agents
+    keys = [key for key in agents.low if key[1] not in agents.robots]
+    if not keys:
+        raise UsageError("nobody in this problem has a state that could change", code="no-human")
+    names = list(dict.fromkeys(key[0] for key in keys))
+    name = chance.choice(names, spec.seed, "cause")
+    return chance.choice([key for key in keys if key[0] == name], spec.seed, "where")
+
+
+def _level(spec: Spec) -> int:
+    if spec.case == 1:
+        return 10
+    low, high = spec.levels
+    return chance.choice(range(low, high + 1), spec.seed, "level")
+
+
+def _change_time(spec: Spec, engine: Engine) -> float:
+    """Return when the change happens: 0, or the planned start of one of the human's actions."""
+    if spec.when == START:
+        return 0.0
+    run, commands = engine.monitor.step(engine.monitor.begin(), ev.Settled(0.0))
+    ask = next(c for c in commands if isinstance(c, ev.AskPlan))
+    plan = engine.planner.answer(ask).plan
+    steps = [] if plan is None else [(engine.monitor.acting.step(a), a) for a in plan.actions]
+    agents = engine.monitor.agents
+    starts = [
+        float(action.start_s or 0)
+        for step, action in steps
+        if step is not None and step.agent and step.agent not in agents.robots
+    ]
+    return chance.choice(starts, spec.seed, "when") if starts else 0.0

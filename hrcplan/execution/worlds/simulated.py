@@ -1,0 +1,221 @@
+"""A simulated world on one clock: it alone knows the truth.
+
+Actions take their durations; a human's action fails because of the true agent state, whether or
+not anybody has sensed it. Robots do not fail. Nothing is drawn here but from ``chance``.
+"""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from hrcplan.agents import AgentModel
+from hrcplan.execution import events as ev
+from hrcplan.execution.acting import Acting, Step, Undo
+from hrcplan.execution.events import Command, Event
+from hrcplan.execution.worlds import chance
+from hrcplan.pddl.model import Fact, FluentKey, Number, Problem
+from hrcplan.pddl.semantics import State
+
+BEFORE, DURING, AFTER = "before", "during", "after"
+SENSED = (BEFORE, DURING, AFTER)
+ONCE, ATTEMPT = "once", "attempt"
+DRAWS = (ONCE, ATTEMPT)
+
+
+@dataclass(frozen=True, slots=True)
+class StateChange:
+    """At a time, elements of an agent's state take other values (the truth, not yet sensed)."""
+
+    t: float
+    values: Mapping[FluentKey, Number]
+
+
+@dataclass(frozen=True, slots=True)
+class FactChange:
+    """At a time, facts begin or cease to hold though no agent of the plan did it."""
+
+    t: float
+    adds: frozenset[Fact] = frozenset()
+    deletes: frozenset[Fact] = frozenset()
+
+
+@dataclass(frozen=True, slots=True)
+class Nature:
+    """How a simulated world behaves.
+
+    ``sensed``: a change is sensed when it happens (``before`` the next action), in the middle of
+    the human's first action under it (``during``), or when that action has ended (``after``).
+    ``draws``: whether an element makes actions fail is drawn ``once`` per simulation or anew at
+    every ``attempt``. ``can_fail``: the actions that can fail, None for all.
+    """
+
+    seed: object = 0
+    changes: tuple[StateChange, ...] = ()
+    accidents: tuple[FactChange, ...] = ()
+    sensed: str = DURING
+    draws: str = ONCE
+    can_fail: frozenset[str] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class _Acted:
+    """One action under way."""
+
+    step: Step
+    duration: Number
+    end_s: float
+    undo: Undo
+
+
+_END, _ACCIDENT, _CHANGE, _SENSE, _WAKE = range(5)
+"""Kinds of entries on the clock; in one instant they happen in this order."""
+
+
+class SimulatedWorld:
+    """Carries actions out as the PDDL says, with the failures and changes that nature holds."""
+
+    def __init__(
+        self, problem: Problem, nature: Nature, acting: Acting | None = None,
+        agents: AgentModel | None = None,
+    ) -> None:  # fmt: skip
+        self.nature = nature
+        self.acting = acting or Acting(problem)
+        self.agents = agents or AgentModel(problem)
+        self.state: State = self.acting.initial()
+        self.values: dict[FluentKey, Number] = dict(self.agents.low)
+        self._acted: dict[int, _Acted] = {}
+        self._unsensed: dict[FluentKey, Number] = {}
+        self._n_attempts: dict[str, int] = {}
+        self._clock: list[tuple[float, int, int, object]] = []
+        self._n_entries = 0
+        self._now = 0.0
+        for change in nature.changes:
+            self._at(change.t, _CHANGE, change)
+        for accident in nature.accidents:
+            self._at(accident.t, _ACCIDENT, accident)
+
+    def _at(self, t: float, kind: int, what: object) -> None:
+        self._n_entries += 1
+        heapq.heappush(self._clock, (t, kind, self._n_entries, what))
+
+    def begin(self) -> tuple[Event, ...]:
+        """Return what is there at time 0; a change that is sensed at once is known already."""
+        if self.nature.sensed == BEFORE and self._clock and self._clock[0][0] < ev.INSTANT_S:
+            return self.next()
+        return (self._observation(),)
+
+    def do(self, command: Command) -> None:
+        """Begin or break off an action."""
+        match command:
+            case ev.Dispatch():
+                self._begin(command)
+            case ev.Cancel(_, number):
+                self._cancel(number)
+            case ev.Wake(_, at_s):
+                self._at(at_s, _WAKE, None)
+
+    def _begin(self, command: ev.Dispatch) -> None:
+        step = self.acting.step(ev.planned(command))
+        assert step is not None
+        duration = ev.exact(command.duration_s)
+        self.state, undo = self.acting.begin(self.state, step, duration)  # type: ignore[arg-type]
+        end_s = command.t + command.duration_s
+        self._acted[command.number] = _Acted(step, duration, end_s, undo)  # type: ignore[arg-type]
+        self._at(end_s, _END, command.number)
+        if self._unsensed and self._is_human(step):
+            self._schedule_sensing(command.t, end_s)
+
+    def _cancel(self, number: int) -> None:
+        """Break an action off in this instant; it leaves no effect."""
+        action = self._acted.pop(number, None)
+        if action is not None:
+            self.state = self.acting.undo(self.state, action.undo)
+            self._at(self._now, _END, ev.Ended(self._now, number, ev.CANCELLED))
+
+    def _is_human(self, step: Step) -> bool:
+        return bool(step.agent) and step.agent not in self.agents.robots
+
+    def next(self) -> tuple[Event, ...]:
+        """Return the events of the next instant: outcomes, then changes, then what is sensed."""
+        while self._clock:
+            self._now = t = self._clock[0][0]
+            found: list[Event] = []
+            instant: list[tuple[int, int, object]] = []
+            while self._pull(t, instant):
+                kind, _, what = heapq.heappop(instant)
+                found += self._happen(t, kind, what)
+            if found:
+                found.append(self._observation())
+                return tuple(sorted(found, key=lambda e: ev.RANK[type(e)]))
+        return ()
+
+    def _pull(self, t: float, instant: list[tuple[int, int, object]]) -> bool:
+        """Move what belongs to an instant from the clock; return whether anything is left of it."""
+        while self._clock and self._clock[0][0] < t + ev.INSTANT_S:
+            _, kind, n, what = heapq.heappop(self._clock)
+            heapq.heappush(instant, (kind, n, what))
+        return bool(instant)
+
+    def _happen(self, t: float, kind: int, what: object) -> Sequence[Event]:
+        if isinstance(what, ev.Ended):
+            return [what]
+        if kind == _END:
+            return self._end(t, what)  # type: ignore[arg-type]
+        if isinstance(what, FactChange):
+            facts = frozenset(self.state.facts) - what.deletes | what.adds
+            self.state = State(facts, self.state.values)
+            return [self._observation()]
+        if isinstance(what, StateChange):
+            self._change(t, what.values)
+            return []
+        if kind == _SENSE:
+            return self._sense(t)
+        return [self._observation()]
+
+    def _end(self, t: float, number: int) -> Sequence[Event]:
+        action = self._acted.pop(number, None)
+        if action is None:
+            return []  # it was cancelled
+        if not self._succeeds(number, action):
+            self.state = self.acting.undo(self.state, action.undo)
+            return [ev.Ended(t, number, ev.FAILED)]
+        self.state = self.acting.finish(self.state, action.step, action.duration)
+        return [ev.Ended(t, number, ev.DONE)]
+
+    def _succeeds(self, number: int, action: _Acted) -> bool:
+        """Return the outcome of an action, from the true agent state and what was drawn for it."""
+        name = action.step.schema.name
+        if not self._is_human(action.step) or name not in (self.nature.can_fail or {name}):
+            return True
+        agent = action.step.agent
+        attempt = self._n_attempts[agent] = self._n_attempts.get(agent, 0) + 1
+        about = () if self.nature.draws == ONCE else (attempt,)
+        return not any(
+            chance.uniform(self.nature.seed, "outcome", *key, *about) < p
+            for key in self.agents.touching(name, tuple(action.step.binding.values()))
+            if (p := self.agents.failure_probability(key, self.values)) > 0
+        )
+
+    def _change(self, t: float, values: Mapping[FluentKey, Number]) -> None:
+        self.values.update(values)
+        self._unsensed.update(values)
+        if self.nature.sensed == BEFORE:
+            self._at(t, _SENSE, None)
+            return
+        ends = [a.end_s for a in self._acted.values() if self._is_human(a.step)]
+        if ends:
+            self._schedule_sensing(t, min(ends))
+
+    def _schedule_sensing(self, begun_s: float, end_s: float) -> None:
+        if self.nature.sensed != BEFORE:
+            middle = (begun_s + end_s) / 2
+            self._at(middle if self.nature.sensed == DURING else end_s, _SENSE, None)
+
+    def _sense(self, t: float) -> Sequence[Event]:
+        values, self._unsensed = self._unsensed, {}
+        return [ev.Sensed(t, values)] if values else []
+
+    def _observation(self) -> ev.Observed:
+        return ev.Observed(self._now, self.acting.changing(self.state), self.state.values)
