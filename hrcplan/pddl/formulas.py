@@ -74,6 +74,10 @@ def read_atom(node: Group, scope: Scope) -> Atom | None:
     """Return a predicate with its arguments, or None if anything about it is wrong."""
     if is_unsupported(node, scope):
         return None
+    if time_of(node) is not None:
+        message = "only a durative action says 'at start', 'over all' or 'at end', and only once"
+        scope.source.error(node.at, "unexpected-time", message)
+        return None
     head = node[0]
     assert isinstance(head, Word)
     signature = scope.signature(head, "predicate")

@@ -12,6 +12,7 @@ from hrcplan.errors import Diagnostic, InputError
 
 MAX_QUOTE = 60  # characters of a file that a message repeats at a time
 MAX_MESSAGE = 160  # a message and its hint are each cut here, whatever they repeat
+MAX_FAULTS = 1000  # errors, and as many warnings: beyond that the file is something else
 MAX_HINTS = 100  # a file of nonsense is not worth a search among its names for every word
 SECTION_SIMILARITY = 0.75  # a misspelt section or keyword this close is read as what was meant
 
@@ -27,6 +28,7 @@ class Source:
     text: str
     diagnostics: list[Diagnostic] = field(default_factory=list)
     uses: dict[str, int] = field(default_factory=dict)
+    _counts: dict[str, int] = field(default_factory=dict)
     _lines: list[int] = field(default_factory=list)
 
     def position(self, at: int) -> tuple[int, int]:
@@ -58,6 +60,11 @@ class Source:
         self.uses.setdefault(requirement, at)
 
     def _note(self, at: int, severity: str, code: str, message: str, hint: str | None) -> None:
+        count = self._counts[severity] = self._counts.get(severity, 0) + 1
+        if count > MAX_FAULTS:
+            return
+        if count == MAX_FAULTS:
+            code, message, hint = "too-many", f"there are more {severity}s than are shown", None
         line, column = self.position(at)
         hint = None if hint is None else _cut(hint, MAX_MESSAGE)
         self.diagnostics.append(
@@ -67,7 +74,7 @@ class Source:
     @property
     def has_errors(self) -> bool:
         """Whether any fault so far is an error."""
-        return any(d.severity == "error" for d in self.diagnostics)
+        return "error" in self._counts
 
 
 def quote(text: str) -> str:
