@@ -60,7 +60,8 @@ def check_values(
     if len(unset) > MAX_REPORTS:
         message = f"{len(unset) - MAX_REPORTS} more functions are not set"
         source.error(at, "unset-function", message)
-    for key, user in checker.negative_durations():
+    negative = dict(checker.negative_durations())
+    for key, user in islice(negative.items(), MAX_REPORTS):
         message = f"{user} lasts less than nothing"
         source.error(places.get(key, at), "negative-duration", message)
 
@@ -107,7 +108,7 @@ class _Checker:
                     yield key, user
 
     def negative_durations(self) -> Iterator[tuple[FluentKey, str]]:
-        """Yield a function behind a negative duration, and the first such ground action."""
+        """Yield a function behind a negative duration, and such a ground action."""
         for action in self.problem.domain.actions:
             for op, duration in action.durations:
                 if op != ">=" and self._may_be_negative(duration):
@@ -122,9 +123,9 @@ class _Checker:
             except Undefined:
                 continue
             if value < 0:
-                words = [action.name, *(binding.get(p.name, p.name) for p in action.params)]
+                full = next(instances(_unbound(action, binding), binding, self.problem))
+                words = [action.name, *(full[param.name] for param in action.params)]
                 yield ground_key(functions[0], binding), quote(f"({' '.join(words)})")
-                return
 
     def _may_be_negative(self, duration: Expr) -> bool:
         names = {function.name for function in functions_in(duration)}
@@ -195,6 +196,10 @@ class _Checker:
                 yield from (("the goal", part.left), ("the goal", part.right))
         if self.problem.metric is not None:
             yield "the metric", self.problem.metric
+
+
+def _unbound(action: Action, binding: Binding) -> tuple[Param, ...]:
+    return tuple(param for param in action.params if param.name not in binding)
 
 
 def _needs(action: Action) -> Iterator[_Need]:

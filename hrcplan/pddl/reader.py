@@ -14,7 +14,7 @@ from hrcplan.pddl.source import Source
 
 MAX_DEPTH = 150  # whatever walks a formula recursively is safe below this
 _TOKEN = re.compile(r"[()]|[^\s();]+|;[^\r\n]*")
-_NOTE = re.compile(r";+[ \t]*hrcplan:[ \t]*([^\r\n]*)", re.IGNORECASE)
+_NOTE = re.compile(r";+[ \t]*hrcplan:[ \t]*([^\r\n;]*)", re.IGNORECASE)
 
 
 class Word(str):

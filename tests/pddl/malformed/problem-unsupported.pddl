@@ -1,5 +1,4 @@
-;; expect next: bad-note
-;; hrcplan: success ask 0.5
+;; hrcplan: success ask 0.5  ;; expect: bad-note
 (define (problem p)
   (:domain courier)
   (:objects robot - agent)

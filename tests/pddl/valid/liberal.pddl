@@ -1,4 +1,4 @@
-;; What planners accept without a word: no requirements, untyped names, either, (), bare total-cost.
+;; What planners accept without a word: no requirements, untyped names, either, no condition, bare total-cost.
 (define (domain liberal)
   (:types crate pallet - surface surface robot)
   (:constants ground)
