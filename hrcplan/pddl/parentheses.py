@@ -113,10 +113,10 @@ def _stretches(tokens: Sequence[Token]) -> Iterator[_Stretch]:
 
 def _landmarks(tokens: Sequence[Token]) -> Iterator[tuple[int, int, int]]:
     """Yield index, depth before it, and depth of completed content, of every landmark."""
-    in_action = False
+    in_define = in_action = False
     previous = ""
     for index, (text, _) in enumerate(tokens):
-        if text[0] == ":":
+        if text[0] == ":" and in_define:
             word = text.lower()
             if previous != "(":
                 if in_action:
@@ -126,7 +126,7 @@ def _landmarks(tokens: Sequence[Token]) -> Iterator[tuple[int, int, int]]:
                 in_action = word in ACTIONS
         elif previous == "(" and text.lower() == "define":
             yield index - 1, 0, 0
-            in_action = False
+            in_define, in_action = True, False
         previous = text
 
 
