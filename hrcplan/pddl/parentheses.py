@@ -90,14 +90,15 @@ class _Open:
 def mend(tokens: Sequence[Token], source: Source) -> list[Token]:
     """Return the tokens with every ``(`` closed and no ``)`` too many; faults go to ``source``."""
     mended: list[Token] = []
-    around: list[int] = []  # offsets of the groups that are open across landmarks
+    around: list[_Open] = []  # groups that are open across landmarks
     for stretch in _stretches(tokens):
         if stretch.is_even:
             mended += stretch.tokens
         else:
             mended += _Repair(stretch, around, source).run()
         if stretch.end > stretch.start:
-            around.append(stretch.tokens[0][1])
+            at = stretch.tokens[0][1]
+            around.append(_Open(at, *source.position(at)))
         del around[stretch.end :]
     return mended
 
@@ -133,7 +134,7 @@ def _landmarks(tokens: Sequence[Token]) -> Iterator[tuple[int, int, int]]:
 class _Repair:
     """One stretch that does not come out even, token by token."""
 
-    def __init__(self, stretch: _Stretch, around: Sequence[int], source: Source) -> None:
+    def __init__(self, stretch: _Stretch, around: Sequence[_Open], source: Source) -> None:
         self.stretch = stretch
         self.around = around
         self.source = source
@@ -177,7 +178,7 @@ class _Repair:
         self.out.append(("(", at))
 
     def _close(self, at: int, leads: bool, more_follows: bool) -> None:
-        while self.missing > 0 and leads and self._inner and self.indent < self._inner.indent:
+        while self.missing > 0 and leads and self._is_left_of_innermost:
             self._report_unclosed()
         early = self.missing < 0 and more_follows and self.depth - 1 <= self.stretch.content
         if early or self.depth - 1 < self.stretch.end:
@@ -197,22 +198,24 @@ class _Repair:
             self.opened[-1].take(text.lower())
 
     @property
-    def _inner(self) -> _Open | None:
-        """The innermost open group, unless it is the section or part itself."""
-        if not self.opened or self.opened[-1].head.startswith(":"):
-            return None
-        return self.opened[-1]
+    def _innermost(self) -> _Open:
+        return self.opened[-1] if self.opened else self.around[self.depth - 1]
+
+    @property
+    def _is_left_of_innermost(self) -> bool:
+        return self.depth > self.stretch.end and self.indent < self._innermost.indent
 
     def _next_cannot_belong(self, leads: bool) -> bool:
-        group = self._inner
-        if group is None:
-            return False
+        """Whether the group that begins here is not part of the innermost one."""
+        if not self.opened or self.opened[-1].head.startswith(":"):
+            return False  # anything may stand in a section or an action's part
+        group = self.opened[-1]
         base = self.opened[0].indent
         outdented = leads and group.line < self.line and base < group.indent >= self.indent
         return group.is_full or outdented
 
     def _report_unclosed(self) -> None:
-        at = self.opened[-1].at if self.opened else self.around[self.depth - 1]
+        at = self._innermost.at
         message = f"this '(' is never closed; its ')' is missing at or before line {self.line}"
         self.source.error(at, "unclosed", message, "add a ')'")
         self.missing -= 1

@@ -87,6 +87,15 @@ def quote(text: str) -> str:
     return f"'{shown}'" if shown.isprintable() else f"'{ascii(shown)[1:-1]}'"
 
 
+def plural(n: int, word: str) -> str:
+    """Return ``n`` and the word, with an ``s`` unless there is one.
+
+    >>> plural(1, "part"), plural(2, "part")
+    ('1 part', '2 parts')
+    """
+    return f"{n} {word}" if n == 1 else f"{n} {word}s"
+
+
 def _cut(text: str, limit: int) -> str:
     return text if len(text) <= limit else f"{text[: limit - 1]}…"
 
