@@ -92,15 +92,18 @@ def validate(problem: Problem, plan: Plan) -> Report:
     if missing is not None:
         return Report(False, reason=f"the goal {missing} does not hold at the end",
                       state=frozenset(end.facts), step_costs=costs)  # fmt: skip
-    makespan = max((e.time for e in events), default=0) if _has_time(problem, plan) else None
+    makespan = _makespan(problem, plan, events)
     return Report(
         True, _cost(problem, end, plan), makespan, _metric(problem, end, makespan),
         state=frozenset(end.facts), step_costs=costs,
     )  # fmt: skip
 
 
-def _has_time(problem: Problem, plan: Plan) -> bool:
-    return plan.is_schedule or problem.domain.is_temporal
+def _makespan(problem: Problem, plan: Plan, events: Sequence[_Event]) -> Number | None:
+    """Return the end of the last action; steps of a classical problem last what lanes give them."""
+    if problem.domain.is_temporal:
+        return max((event.time for event in events), default=0)
+    return plan.makespan_s
 
 
 def _initial_state(problem: Problem) -> State:
