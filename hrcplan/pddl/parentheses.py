@@ -144,6 +144,7 @@ class _Repair:
         self.out: list[Token] = []
         self.line = 0
         self.indent = 0
+        self.next_line = 0
 
     def run(self) -> list[Token]:
         tokens = self.stretch.tokens
@@ -163,11 +164,11 @@ class _Repair:
 
     def _move_to(self, at: int) -> bool:
         """Keep line and indentation; return whether the token at ``at`` leads its line."""
-        line, column = self.source.position(at)
-        leads = line > self.line
-        if leads:
-            self.line, self.indent = line, column
-        return leads
+        if at < self.next_line:
+            return False
+        self.line, self.indent = self.source.position(at)
+        self.next_line = self.source.line_end(at)
+        return True
 
     def _open(self, at: int, leads: bool) -> None:
         while self.missing > 0 and self._next_cannot_belong(leads):

@@ -37,10 +37,18 @@ class Source:
         >>> Source("x", "ab\ncd").position(4)
         (2, 2)
         """
+        line = self._line(at)
+        return line, at - self._lines[line - 1] + 1
+
+    def line_end(self, at: int) -> int:
+        """Return the offset at which the line after the one of ``at`` begins, or the text ends."""
+        line = self._line(at)
+        return self._lines[line] if line < len(self._lines) else len(self.text)
+
+    def _line(self, at: int) -> int:
         if not self._lines:
             self._lines = [0, *(match.end() for match in _NEWLINE.finditer(self.text))]
-        line = bisect_right(self._lines, at)
-        return line, at - self._lines[line - 1] + 1
+        return bisect_right(self._lines, at)
 
     def error(self, at: int, code: str, message: str, hint: str | None = None) -> None:
         """Note an error at offset ``at``."""

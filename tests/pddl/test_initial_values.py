@@ -116,6 +116,25 @@ def test_many_gaps_are_told_in_a_few_lines(tmp_path: Path) -> None:
     assert any("more functions are not set" in d.message for d in found)
 
 
+@pytest.mark.parametrize(
+    "body",
+    [
+        f":precondition (and (not (= ?r ?r)) (not (road ?a ?b))) {LENGTH}",
+        ":effect (forall (?p ?q ?s - place) (when (and (road ?p ?q) (road ?p ?p))"
+        " (increase (total-cost) (length ?q ?s))))",
+    ],
+)
+def test_conditions_that_never_hold_are_given_up_in_time(body: str, tmp_path: Path) -> None:
+    places = " ".join(f"place-{i}" for i in range(300))
+    domain, problem = tmp_path / "d.pddl", tmp_path / "p.pddl"
+    domain.write_text(DOMAIN.format(body=body, kind=""))
+    text = PROBLEM.format(init="", goal="(open)", metric="")
+    problem.write_text(text.replace("(:objects", f"(:objects {places} - place"))
+    started = time.perf_counter()
+    assert check_files([domain, problem]) == ()
+    assert time.perf_counter() - started < 3
+
+
 DURATION = (
     ":duration (= ?duration {}) :condition (over all (road ?a ?b)) :effect (at end (at ?r ?b))"
 )
