@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import rich_click as click
 
 from hrcplan.cli import output
+
+if TYPE_CHECKING:
+    from hrcplan.pddl.check import CheckReport
 
 
 @click.command("check")
@@ -18,5 +23,18 @@ def command(files: tuple[str, ...]) -> int:
     if output.JSON:
         output.document(report.to_json())
     else:
-        output.result("\n".join(report.lines()))
+        for line in report.lines():
+            output.result(line)
+        output.result(_summary(report))
     return 3 if report.has_errors else 0
+
+
+def _summary(report: CheckReport) -> str:
+    n_errors = sum(d.severity == "error" for d in report.diagnostics)
+    counts = [
+        (report.n_files, "file"),
+        (n_errors, "error"),
+        (len(report.diagnostics) - n_errors, "warning"),
+    ]
+    files, errors, warnings = (f"{n} {word}{'' if n == 1 else 's'}" for n, word in counts)
+    return f"{files}: {f'{errors}, {warnings}' if report.diagnostics else 'no faults'}"
