@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import rich_click as click
 
@@ -12,7 +12,6 @@ from hrcplan.errors import UsageError
 
 if TYPE_CHECKING:
     from hrcplan.execution.humans import Change
-    from hrcplan.execution.journal import Setting, Writer
     from hrcplan.pddl.model import Problem
 
 WORLDS = ("simulated",)
@@ -49,48 +48,29 @@ def command(
     replan_limit: int | None, seed: int, journal: Path | None, resume: bool, speed: float | None,
 ) -> int:
     """Carry out DOMAIN PROBLEM with a simulated human, and replan before actions fail."""
-    from hrcplan.agents import profile
     from hrcplan.cli.arguments import problem_of, split_names
-    from hrcplan.execution.humans import nature_for, spec_of
-    from hrcplan.execution.journal import Setting
-    from hrcplan.execution.replanner import Replanner
-    from hrcplan.execution.simulate import Spec, make_engine
+    from hrcplan.cli.live import Live
+    from hrcplan.execution.execute import carry_out, make_setting
 
-    if resume and journal is None:
-        raise UsageError("--resume needs --journal FILE")
     domain, name, _ = split_names(names, 0)
     problem = problem_of(domain, name, settings)
-    chosen = profile(profile_name).limited_to(replan_limit)
-    engine = make_engine(problem, chosen, not no_model,
-                         Replanner(problem, (planner,), timeout))
-    spec = spec_of(human, Spec(domain, name, seed=seed, model=not no_model))
-    nature = nature_for(spec, engine, [_change(text, problem) for text in changes])
-    setting = Setting(problem, chosen, not no_model, nature, (planner,))
-    setting, writer = _journal(journal, resume, setting)
-    return _carry_out(setting, writer, Replanner(setting.problem, setting.planners, timeout), speed)
-
-
-def _journal(
-    path: Path | None, resume: bool, setting: Setting
-) -> tuple[Setting, Writer | None]:
-    """Return the setting of the run (a resumed one brings its own) and its journal."""
-    from hrcplan.execution.journal import Writer, read_journal
-
-    if path is None:
-        return setting, None
-    if not resume or not path.exists():
-        return setting, Writer.begin(path, setting)
-    known = read_journal(path)
-    if known.is_empty:
-        path.unlink()  # killed before the first line was complete
-        return setting, Writer.begin(path, setting)
-    found = known.setting()
-    if (found.problem.name, found.problem.domain.name) != (
-        setting.problem.name, setting.problem.domain.name,
-    ):  # fmt: skip
-        message = f"the journal is of {found.problem.domain.name}/{found.problem.name}"
-        raise UsageError(message, path=str(path))
-    return found, Writer.resume(known)
+    setting = make_setting(
+        problem, profile=profile_name, human=human, model=not no_model, planner=planner, seed=seed,
+        changes=[_change(text, problem) for text in changes], replan_limit=replan_limit,
+        timeout_s=timeout,
+    )  # fmt: skip
+    live = Live(problem, speed)
+    done = carry_out(setting, journal=journal, resume=resume, timeout_s=timeout,
+                     watch=None if output.JSON else live.watch)  # fmt: skip
+    if output.JSON:
+        row = done.row
+        output.document({
+            "success": row.success, "ending": row.ending, "why": done.run.why or None,
+            "row": row.to_json(), "measures": row.measures(), **done.timeline.to_json(),
+        })  # fmt: skip
+    else:
+        live.finish(done.run, done.row)
+    return 0 if done.row.success else 1
 
 
 def _change(text: str, problem: Problem) -> Change:
@@ -126,32 +106,3 @@ def _check_fact(fact: tuple[str, ...], problem: Problem) -> None:
         if word not in problem.objects_of(param.types):
             raise UsageError(f"'{word}' is no object for {param}", code="bad-change")
 
-
-def _carry_out(
-    setting: Setting, writer: Writer | None, replanner: Any, speed: float | None
-) -> int:
-    from hrcplan.cli.live import Live
-    from hrcplan.execution.simulate import make_engine
-    from hrcplan.execution.timeline import Timeline
-
-    engine = make_engine(setting.problem, setting.profile, setting.sensing, replanner)
-    timeline = Timeline()
-    live = Live(setting.problem, engine.monitor.agents.robots, speed)
-
-    def watch(run: Any, event: Any, commands: Any) -> None:
-        timeline.watch(run, event, commands)
-        if not output.JSON:
-            live.watch(run, event, commands, repeated=writer is not None and writer.is_repeating)
-
-    run = engine.run(setting.nature, writer, watch)
-    row = engine.row(run)
-    if writer is not None:
-        writer.close(row)
-    if output.JSON:
-        output.document({
-            "success": row.success, "ending": row.ending, "why": run.why or None,
-            "row": row.to_json(), "measures": row.measures(), **timeline.to_json(),
-        })  # fmt: skip
-    else:
-        live.finish(run, row)
-    return 0 if row.success else 1

@@ -6,15 +6,17 @@ import shutil
 import time
 from dataclasses import dataclass, field
 
+from hrcplan.agents.state import robots
 from hrcplan.cli import output
 from hrcplan.execution import events as ev
 from hrcplan.execution.events import Command, Event
 from hrcplan.execution.row import Row
 from hrcplan.execution.run import Run, Running
 from hrcplan.pddl.model import Problem, fact_text, number_text
+from hrcplan.pddl.source import plural
 from hrcplan.plans import lane
 
-_BEGUN, _MARK = "▶", {ev.DONE: "✓", ev.FAILED: "✗", ev.CANCELLED: "–"}
+_BEGUN, _MARK = "▶", {ev.DONE: "✓", ev.FAILED: "✗", ev.CANCELLED: "·"}
 _WIDTH = (14, 34)
 
 
@@ -23,7 +25,6 @@ class Live:
     """Prints a line per instant; ``speed`` simulated seconds take one second (None: no wait)."""
 
     problem: Problem
-    robots: frozenset[str]
     speed: float | None = None
     _cells: dict[str, str] = field(default_factory=dict)
     _notes: list[str] = field(default_factory=list)
@@ -32,25 +33,23 @@ class Live:
     _shown_s: float = 0.0
     _is_headed: bool = False
 
-    def watch(
-        self, run: Run, event: Event, commands: tuple[Command, ...], repeated: bool = False
-    ) -> None:
-        """Show one step of the monitor; what is repeated from a journal is not waited for."""
+    def watch(self, run: Run, event: Event, commands: tuple[Command, ...]) -> None:
+        """Show one step of the monitor."""
         if isinstance(event, ev.Ended) and event.number in self._running:
             step = self._running.pop(event.number).step
-            words = fact_text((step.schema.name, *step.binding.values()))
-            self._cell(step.agent, f"{_MARK.get(event.outcome, '?')} {self._short(words, step.agent)}")
+            words = self._short(fact_text((step.schema.name, *step.binding.values())), step.agent)
+            self._cell(step.agent, f"{_MARK.get(event.outcome, '?')} {words}")
         if isinstance(event, ev.Sensed):
             shown = (f"{fact_text(k)} = {_value(v)}" for k, v in event.values.items())
             self._notes.append(f"sensed {', '.join(shown)}")
         is_complete = isinstance(event, (ev.Settled, ev.Planned))
         if is_complete:
-            self._flush(run, repeated)
+            self._flush(run)
         for command in commands:
             self._take(command)
         self._running = {r.number: r for r in run.running}
         if is_complete:
-            self._flush(run, repeated)
+            self._flush(run)
 
     def _take(self, command: Command) -> None:
         match command:
@@ -60,8 +59,8 @@ class Live:
                 self._n_plans += 1
                 name = f"replan {self._n_plans - 1}" if self._n_plans > 1 else "plan"
                 lanes = [lane(a.args, self.problem) or "" for a in plan.actions]
-                shares = ", ".join(f"{a} {lanes.count(a)}" for a in self._agents if a)
-                self._notes.append(f"{name}: {len(lanes)} actions{f' ({shares})' if shares else ''}")
+                shares = ", ".join(f"{a} {lanes.count(a)}" for a in self._agents)
+                self._notes.append(f"{name}: {plural(len(lanes), 'action')} ({shares.strip()})")
             case ev.Dispatch():
                 self._cell(command.agent, f"{_BEGUN} {self._short(str(command), command.agent)}")
             case ev.Tell(_, _, message):
@@ -69,7 +68,8 @@ class Live:
 
     @property
     def _agents(self) -> list[str]:
-        return sorted(self.problem.agents, key=lambda a: a not in self.robots) or [""]
+        taking = robots(self.problem)
+        return sorted(self.problem.agents, key=lambda a: a not in taking) or [""]
 
     def _cell(self, agent: str, text: str) -> None:
         if agent in self._cells:
@@ -82,14 +82,16 @@ class Live:
             inner.remove(agent)
         return " ".join(inner)
 
-    def _flush(self, run: Run, repeated: bool) -> None:
+    def _flush(self, run: Run) -> None:
         """Print what has come together, after the time that has passed."""
         if not (self._cells or self._notes):
             return
-        if self.speed is not None and not repeated:
+        if self.speed is not None:
             time.sleep(max(0.0, run.t - self._shown_s) / self.speed)
         self._shown_s = run.t
-        when = f"{run.t:7.0f} s"
+        when = f"{run.t:g} s"
+        if not self.problem.domain.is_temporal:
+            when = f"{run.t:g}"
         if self._cells:
             self._print_cells(when, self._progress(run))
         for note in self._notes:
@@ -130,8 +132,8 @@ class Live:
         shown = ", ".join(f"{n} {kind}" for kind, n in reasons.items() if n)
         failed = row.failed_human + row.failed_robot
         output.result(
-            f"\n{row.ending}{why}: {row.makespan_s:g}{unit}, {row.replans} replans"
-            f"{f' ({shown})' if shown else ''}, {row.plans_confirmed} plans confirmed, "
+            f"\n{row.ending}{why}: {row.makespan_s:g}{unit}, {plural(row.replans, 'replan')}"
+            f"{f' ({shown})' if shown else ''}, {plural(row.plans_confirmed, 'plan')} confirmed, "
             f"{row.executed_human} human and {row.executed_robot} robot actions, {failed} failed"
         )
 

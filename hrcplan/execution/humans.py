@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from importlib import import_module
+from typing import Protocol
 
 from hrcplan.errors import UsageError
 from hrcplan.execution.simulate import RANDOM, Engine, Spec, nature_of
@@ -15,6 +17,7 @@ from hrcplan.execution.worlds.simulated import (
     Nature,
     StateChange,
 )
+from hrcplan.pddl.model import Problem
 from hrcplan.pddl.source import nearest
 
 STEADY = "steady"
@@ -48,15 +51,26 @@ def spec_of(text: str, spec: Spec) -> Spec:
     return spec
 
 
-def nature_for(spec: Spec, engine: Engine, changes: Sequence[Change] = ()) -> Nature:
-    """Return the nature that a specification draws, with more changes at given times.
+class Human(Protocol):
+    """A human of somebody's own, named as ``module:Class``."""
+
+    def nature(self, problem: Problem, seed: object) -> Nature:
+        """Return how the world behaves with this human."""
+
+
+def nature_for(text: str, spec: Spec, engine: Engine, changes: Sequence[Change] = ()) -> Nature:
+    """Return the nature that a human brings along, with more changes at given times.
 
     A change of agent state is checked as a sensed value is.
 
     Raises:
-        UsageError: if a changed element is unknown or its value not in [0, 10].
+        UsageError: if there is no such human, a changed element is unknown, or its value is not
+            in [0, 10].
     """
-    nature = nature_of(spec, engine)
+    if ":" in text:
+        nature = _load(text).nature(engine.monitor.problem, spec.seed)
+    else:
+        nature = nature_of(spec_of(text, spec), engine)
     agents = engine.monitor.agents
     checked = tuple(
         StateChange(c.t, {key: agents.check(key, value) for key, value in c.values.items()})
@@ -67,3 +81,13 @@ def nature_for(spec: Spec, engine: Engine, changes: Sequence[Change] = ()) -> Na
     return replace(
         nature, changes=(*nature.changes, *checked), accidents=(*nature.accidents, *accidents)
     )
+
+
+def _load(text: str) -> Human:
+    module, _, name = text.partition(":")
+    try:
+        human: Human = getattr(import_module(module), name)()
+    except (ImportError, AttributeError, TypeError) as error:
+        message = f"human '{text}' cannot be loaded: {error}"
+        raise UsageError(message, code="unknown-human") from error
+    return human
