@@ -15,6 +15,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 
 from hrcplan.agents import AgentModel, Profile
+from hrcplan.agents.state import LEAST, MOST
 from hrcplan.errors import UsageError
 from hrcplan.execution import events as ev
 from hrcplan.execution.acting import UNIT_S, Acting, Step
@@ -81,11 +82,21 @@ class Monitor:
             tally, done=plus(tally.done, [step.agent]), last_end_s=run.t,
             interactions=tally.interactions + self.agents.is_interaction(step.schema.name),
         )  # fmt: skip
-        return replace(
+        run = replace(
             run, running=run.without(action), pursuit=pursuit, tally=tally,
-            state=self.acting.finish(run.state, action.step, _number(action.duration_s)),
-            memory=run.memory.went_well(self._touching(action.step)),
+            state=self.acting.finish(run.state, step, _number(action.duration_s)),
+            memory=run.memory.went_well(self._touching(step)),
         )  # fmt: skip
+        return self._influenced(run, step)
+
+    def _influenced(self, run: Run, step: Step) -> Run:
+        """Expect an interaction to have its effect; what is sensed next says whether it had."""
+        for key, value in self.acting.influence(step, run.sensed).items():
+            if key in self.agents.low:
+                expected = min(max(value, LEAST), MOST)
+                memory = run.memory.sensed(key)
+                run = replace(run, sensed={**run.sensed, key: expected}, memory=memory)
+        return run
 
     def _undone(self, run: Run, action: Running, outcome: str) -> Run:
         """Take a failed or cancelled action back: no effect, the time is used up."""

@@ -1,4 +1,4 @@
-"""The simulated world: real durations, failures from the truth, sensing at the time that is asked."""
+"""The simulated world: real durations, failures from the truth, sensing when it is asked for."""
 
 import pytest
 
