@@ -10,8 +10,8 @@ UNTOUCHED = Row(True, "goal reached", assigned_human=4, assigned_robot=4, execut
                 executed_robot=4)  # fmt: skip
 AT_FIRST = Row(False, "replan limit", replans_failure=5, assigned_human=6 * 4,
                assigned_robot=4 + 3 + 2 + 1, executed_robot=4, failed_human=6)  # fmt: skip
-AT_THIRD = Row(False, "replan limit", replans_failure=5, assigned_human=4 + 5 * 2,
-               assigned_robot=4 + 1, executed_human=2, executed_robot=4, failed_human=6)  # fmt: skip
+AT_THIRD = Row(False, "replan limit", replans_failure=5, assigned_human=4 + 10,
+               assigned_robot=5, executed_human=2, executed_robot=4, failed_human=6)  # fmt: skip
 
 
 @pytest.mark.parametrize(
