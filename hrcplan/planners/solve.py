@@ -74,8 +74,8 @@ def _gaps(problem: Problem, plan: Plan) -> Number:
     if problem.metric is None:
         return gaps
     values = {**problem.values, (TOTAL_COST,): 0}
-    late, early = (evaluate(problem.metric, {**values, (TOTAL_TIME,): t}, {}) for t in (gaps, 0))
-    return abs(late - early)
+    late = evaluate(problem.metric, {**values, (TOTAL_TIME,): gaps}, {})
+    return abs(late - evaluate(problem.metric, {**values, (TOTAL_TIME,): 0}, {}))
 
 
 def solve(
@@ -216,7 +216,7 @@ def _attempt(planner: Planner, request: Request, lanes: bool, why: str) -> Resul
 def _checked(
     found: Result, planner: Planner, problem: Problem, answer: Answer, lanes: bool
 ) -> Result:
-    """Return ``found`` with the plan of an answer: guarded, laid into lanes if need be, replayed."""
+    """Return ``found`` with an answer's plan: guarded, laid into lanes if need be, replayed."""
     check_answer(planner, problem, answer)
     plan, shortest = answer.plan, None
     assert plan is not None
