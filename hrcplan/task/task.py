@@ -7,7 +7,7 @@ from dataclasses import replace
 from functools import cached_property
 
 from hrcplan.errors import UnsupportedError
-from hrcplan.pddl.model import TOTAL_COST, Fact, FluentKey, Number, Problem
+from hrcplan.pddl.model import TOTAL_COST, Fact, FluentKey, Formula, Number, Problem
 from hrcplan.pddl.semantics import evaluate, ground_key
 from hrcplan.task.actions import Builder, Change, GroundAction, value_fact
 from hrcplan.task.conditions import Grounder, Test
@@ -233,6 +233,19 @@ class Task:
         other.__dict__.update(self.__dict__)
         other.__dict__.pop("costs", None)
         other.problem = problem
+        return other
+
+    def with_goal(self, goal: Formula) -> Task:
+        """Return this task with another goal, without grounding anything anew.
+
+        Raises:
+            UnsupportedError: if bits cannot hold the goal.
+        """
+        other = object.__new__(Task)
+        other.__dict__.update(self.__dict__)
+        other.problem = replace(self.problem, goal=goal)
+        other._grounder = replace(self._grounder, problem=other.problem)
+        other.goal = other._goal()
         return other
 
     @cached_property

@@ -1,0 +1,16 @@
+"""Policy banks: every valid plan of every goal, as graphs that are counted exactly.
+
+The short way: ``build_bank("kitchen")``. A `Bank` has `Goals` (names, task, goal tests), a
+`StepTable` (the steps, numbered alike for all goals) and a `PlanGraph` for each goal.
+"""
+
+from hrcplan.bank.bank import Bank, Recipe, build, build_bank
+from hrcplan.bank.goals import Goals, from_problems, read_goals
+from hrcplan.bank.graph import PlanGraph
+from hrcplan.bank.search import Limits
+from hrcplan.bank.steps import Step, StepTable
+
+__all__ = [
+    "Bank", "Goals", "Limits", "PlanGraph", "Recipe", "Step", "StepTable",
+    "build", "build_bank", "from_problems", "read_goals",
+]  # fmt: skip

@@ -1,0 +1,1 @@
+def is_folder(p): return False
