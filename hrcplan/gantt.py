@@ -29,9 +29,7 @@ def draw(problem: Problem, plan: Plan, form: str) -> bytes:
 
     lanes = _lanes(problem, plan)
     span = float(plan.makespan_s or 1)
-    longest = max((len(_label(a)) * span / float(a.duration_s or 1) for a in plan.actions), default=0)
-    width = min(40.0, max(7.0, 1.2 + longest * _CHARACTER_INCH))
-    figure = Figure(figsize=(width, 1.1 + 0.62 * len(lanes)), layout="constrained")
+    figure = Figure(figsize=(_width(plan, span), 1.1 + 0.62 * len(lanes)), layout="constrained")
     axes = figure.add_subplot()
     names = sorted({a.name for a in plan.actions})
     colors = {name: COLORS[i % len(COLORS)] for i, name in enumerate(names)}
@@ -52,6 +50,15 @@ def draw(problem: Problem, plan: Plan, form: str) -> bytes:
     metadata = {"Date": None} if form == "svg" else {"Software": None}
     figure.savefig(buffer, format=form, dpi=150, metadata=metadata)
     return buffer.getvalue()
+
+
+def _width(plan: Plan, span: float) -> float:
+    """Return a width in inches at which every label fits into its bar."""
+    needed = (
+        max(map(len, _label(action).split("\n"))) * span / float(action.duration_s or 1)
+        for action in plan.actions
+    )
+    return min(40.0, max(7.0, 1.2 + max(needed, default=0) * _CHARACTER_INCH))
 
 
 def _lanes(problem: Problem, plan: Plan) -> list[str]:

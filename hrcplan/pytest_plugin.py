@@ -75,7 +75,9 @@ class _Item(pytest.Item):
         """Return where the case comes from."""
         return self.path, 0, f"{self.path.parent.name}/{self.path.stem}: {self.name}"
 
-    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: object = None) -> str:
+    def repr_failure(
+        self, excinfo: pytest.ExceptionInfo[BaseException], style: object = None
+    ) -> str:
         """Return the message without a traceback: the file is at fault, not the code."""
         return str(excinfo.value)
 

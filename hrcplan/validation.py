@@ -50,7 +50,7 @@ class Report:
     step_costs: tuple[Number, ...] = ()
 
 
-class _Broken(Exception):
+class _BrokenError(Exception):
     """The replay stops here: which action, and why."""
 
     def __init__(self, step: int | None, reason: str, state: State) -> None:
@@ -85,22 +85,25 @@ def validate(problem: Problem, plan: Plan) -> Report:
     try:
         events = list(_events(problem, plan, start))
         end, costs = _replay(problem, events, len(plan.actions), start)
-    except _Broken as broken:
+    except _BrokenError as broken:
         return Report(False, failed_step=broken.step, reason=str(broken),
                       state=frozenset(broken.state.facts))  # fmt: skip
     missing = unmet(problem.goal, end, {}, problem)
     if missing is not None:
         return Report(False, reason=f"the goal {missing} does not hold at the end",
                       state=frozenset(end.facts), step_costs=costs)  # fmt: skip
-    makespan = max((e.time for e in events), default=0) if _has_time(problem, plan) else None
+    makespan = _makespan(problem, plan, events)
     return Report(
         True, _cost(problem, end, plan), makespan, _metric(problem, end, makespan),
         state=frozenset(end.facts), step_costs=costs,
     )  # fmt: skip
 
 
-def _has_time(problem: Problem, plan: Plan) -> bool:
-    return plan.is_schedule or problem.domain.is_temporal
+def _makespan(problem: Problem, plan: Plan, events: Sequence[_Event]) -> Number | None:
+    """Return the end of the last action; steps of a classical problem last what lanes give them."""
+    if problem.domain.is_temporal:
+        return max((event.time for event in events), default=0)
+    return plan.makespan_s
 
 
 def _initial_state(problem: Problem) -> State:
@@ -140,10 +143,10 @@ def _resolve(
 ) -> tuple[Action, Binding]:
     action = next((a for a in problem.domain.actions if a.name == planned.name), None)
     if action is None:
-        raise _Broken(step, f"there is no action '{planned.name}'", state)
+        raise _BrokenError(step, f"there is no action '{planned.name}'", state)
     binding = bind(action, planned.args, problem)
     if isinstance(binding, str):
-        raise _Broken(step, binding, state)
+        raise _BrokenError(step, binding, state)
     return action, binding
 
 
@@ -161,8 +164,8 @@ def _duration(
             try:
                 return evaluate(expression, state.values, binding)
             except Undefined as error:
-                raise _Broken(step, str(error), state) from None
-    raise _Broken(step, f"{planned} needs a duration in brackets", state)
+                raise _BrokenError(step, str(error), state) from None
+    raise _BrokenError(step, f"{planned} needs a duration in brackets", state)
 
 
 def _replay(
@@ -199,7 +202,9 @@ def _check_interference(problem: Problem, ordered: Sequence[_Event], state: Stat
         for other, theirs in near:
             about = clash(mine, theirs) if other.step != event.step else None
             if about is not None:
-                raise _Broken(max(event.step, other.step), _too_close(event, other, about), state)
+                raise _BrokenError(
+                    max(event.step, other.step), _too_close(event, other, about), state
+                )
         near.append((event, mine))
 
 
@@ -210,9 +215,7 @@ def _too_close(event: _Event, other: _Event, about: Fact) -> str:
     )
 
 
-def _happen(
-    problem: Problem, group: Sequence[_Event], state: State, costs: list[Number]
-) -> State:
+def _happen(problem: Problem, group: Sequence[_Event], state: State, costs: list[Number]) -> State:
     """Return the state after events of one instant; all of them read the state before it."""
     after = state
     for event in group:
@@ -223,7 +226,7 @@ def _happen(
         try:
             change = changes(effects, timed, event.binding, problem)
         except Undefined as error:
-            raise _Broken(event.step, str(error), state) from None
+            raise _BrokenError(event.step, str(error), state) from None
         if COST in change.values:
             costs[event.step] += change.values[COST] - state.values[COST]
         # Increases of one instant add up; assignments do not share an instant (interference).
@@ -252,9 +255,9 @@ def _demand(problem: Problem, event: _Event, formula: Formula, state: State, whe
     try:
         missing = unmet(formula, state, event.binding, problem)
     except Undefined as error:
-        raise _Broken(event.step, str(error), state) from None
+        raise _BrokenError(event.step, str(error), state) from None
     if missing is not None:
-        raise _Broken(event.step, f"{_shown(event)} needs {missing}{where}", state)
+        raise _BrokenError(event.step, f"{_shown(event)} needs {missing}{where}", state)
 
 
 def _where(event: _Event, when: str) -> str:
@@ -270,14 +273,14 @@ def _check_duration(event: _Event, state: State) -> None:
         try:
             wanted = evaluate(expression, state.values, event.binding)
         except Undefined as error:
-            raise _Broken(event.step, str(error), state) from None
+            raise _BrokenError(event.step, str(error), state) from None
         # Durations are printed with three decimals: a difference below a gap is rounding.
         over = event.duration - wanted
         too_long = op != ">=" and over >= EPSILON_S
         too_short = op != "<=" and -over >= EPSILON_S
         if too_long or too_short:
             lasts = f"lasts {op} {number_text(wanted)} s, not {number_text(event.duration)} s"
-            raise _Broken(event.step, f"{_shown(event)} {lasts}", state)
+            raise _BrokenError(event.step, f"{_shown(event)} {lasts}", state)
 
 
 def _shown(event: _Event) -> str:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
+from typing import TYPE_CHECKING
 
 import rich_click as click
 
 from hrcplan.cli import output
+
+if TYPE_CHECKING:
+    from hrcplan.pddl.check import CheckReport
 
 
 @click.command("check")
@@ -14,22 +17,24 @@ from hrcplan.cli import output
 @output.common_options
 def command(files: tuple[str, ...]) -> int:
     """Report every fault of domain and problem FILEs; exit 3 if any is an error."""
-    from hrcplan.pddl.check import check_files
+    from hrcplan.pddl.check import check
 
-    found = check_files(files)
-    n_errors = sum(d.severity == "error" for d in found)
+    report = check(files)
     if output.JSON:
-        output.document({"files": len(files), "diagnostics": [asdict(d) for d in found]})
+        output.document(report.to_json())
     else:
-        for diagnostic in found:
-            output.result(str(diagnostic))
-        output.result(_summary(len(files), n_errors, len(found) - n_errors))
-    return 3 if n_errors else 0
+        for line in report.lines():
+            output.result(line)
+        output.result(_summary(report))
+    return 3 if report.has_errors else 0
 
 
-def _summary(n_files: int, n_errors: int, n_warnings: int) -> str:
-    def count(n: int, word: str) -> str:
-        return f"{n} {word}{'' if n == 1 else 's'}"
-
-    faults = f"{count(n_errors, 'error')}, {count(n_warnings, 'warning')}"
-    return f"{count(n_files, 'file')}: {'no faults' if not n_errors + n_warnings else faults}"
+def _summary(report: CheckReport) -> str:
+    n_errors = sum(d.severity == "error" for d in report.diagnostics)
+    counts = [
+        (report.n_files, "file"),
+        (n_errors, "error"),
+        (len(report.diagnostics) - n_errors, "warning"),
+    ]
+    files, errors, warnings = (f"{n} {word}{'' if n == 1 else 's'}" for n, word in counts)
+    return f"{files}: {f'{errors}, {warnings}' if report.diagnostics else 'no faults'}"

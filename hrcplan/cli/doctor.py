@@ -17,7 +17,7 @@ PACKAGES = ("unified-planning", "up-fast-downward", "up-enhsp", "kairos-planner"
 @click.command("doctor")
 @output.common_options
 def command() -> int:
-    """Say what is installed and what is not, and what to install; exit 5 if a planner is missing."""
+    """Say what is installed and what to install; exit 5 if a planner is missing."""
     from hrcplan.planners import registry
 
     versions = {name: _version(name) for name in PACKAGES}

@@ -73,7 +73,8 @@ def _tried(found: Result) -> str:
 
 def _figures(problem: Problem, found: Result) -> str:
     report = found.report
-    assert report is not None and found.plan is not None
+    assert report is not None
+    assert found.plan is not None
     lines: list[str] = []
     if report.metric is not None:
         lines.append(f"metric    {_short(report.metric)}   minimize {problem.metric}")
@@ -102,7 +103,9 @@ def _table(problem: Problem, plan: Plan) -> list[str]:
         agent = lane(action.args, problem) or ""
         rows.setdefault(when, {})[agent] = _cell(action, agent)
     head = "step" if not plan.is_schedule else "time (s)" if problem.domain.is_temporal else "time"
-    table = [[head, *lanes]] + [[when, *(row.get(a, "") for a in lanes)] for when, row in rows.items()]
+    table = [[head, *lanes]] + [
+        [when, *(row.get(a, "") for a in lanes)] for when, row in rows.items()
+    ]
     widths = [max(len(line[i]) for line in table) for i in range(len(lanes) + 1)]
     rule = ["─" * width for width in widths]
     return [_line(line, widths) for line in (table[0], rule, *table[1:])]

@@ -76,7 +76,9 @@ def _guarded(run: Callable[[], Any]) -> int:
         if output.DEBUG:
             traceback.print_exc()
         what = f"{type(error).__name__}: {error}"
-        output.fail("internal", f"internal error: {what}", hint="run again with --debug, and tell us")
+        output.fail(
+            "internal", f"internal error: {what}", hint="run again with --debug, and tell us"
+        )
         return INTERNAL_ERROR
     return result if isinstance(result, int) else 0
 

@@ -15,10 +15,21 @@ from hrcplan.errors import UsageError
 @click.option("--from", "origin", required=True, metavar="PROBLEM", help="Problem to start from.")
 @click.option("--goal", required=True, metavar="'(and …)'", help="The new goal, in PDDL.")
 @click.option("--name", required=True, metavar="N", help="The new problem's name.")
-@click.option("--set", "settings", multiple=True, metavar="'F OBJ…=N'",
-              help="Change a value of the initial state.")
-@click.option("-o", "--output", "target", type=click.Path(path_type=Path), metavar="FILE",
-              help="Where to write it; on stdout if not given.")
+@click.option(
+    "--set",
+    "settings",
+    multiple=True,
+    metavar="'F OBJ…=N'",
+    help="Change a value of the initial state.",
+)
+@click.option(
+    "-o",
+    "--output",
+    "target",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Where to write it; on stdout if not given.",
+)
 @output.common_options
 def command(
     domain: str, origin: str, goal: str, name: str, settings: tuple[str, ...], target: Path | None
@@ -37,7 +48,9 @@ def command(
     if target is not None:
         output.write_atomically(target, text)
     if output.JSON:
-        output.document({"name": name.lower(), "path": str(target) if target else None, "text": text})
+        output.document(
+            {"name": name.lower(), "path": str(target) if target else None, "text": text}
+        )
     elif target is None:
         output.result(text.rstrip("\n"))
     else:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import sys
 import tempfile
 from collections.abc import Callable, Mapping
 from pathlib import Path
@@ -41,23 +40,23 @@ def common_options(function: F) -> F:
 
 def document(value: Mapping[str, Any]) -> None:
     """Print one JSON document on stdout."""
-    print(json.dumps(value, indent=2, ensure_ascii=False))
+    click.echo(json.dumps(value, indent=2, ensure_ascii=False))
 
 
 def result(text: str) -> None:
     """Print a result in words on stdout."""
-    print(text)
+    click.echo(text)
 
 
 def say(text: str) -> None:
     """Print progress on stderr if it was asked for."""
     if VERBOSE:
-        print(text, file=sys.stderr)
+        click.echo(text, err=True)
 
 
 def warn(text: str) -> None:
     """Print a warning on stderr."""
-    print(f"warning: {text}", file=sys.stderr)
+    click.echo(f"warning: {text}", err=True)
 
 
 def fail(
@@ -70,9 +69,9 @@ def fail(
         document({"error": fault})
         return
     place = "" if path is None or path in message else f"{path}:{line}: " if line else f"{path}: "
-    print(f"error: {place}{message}", file=sys.stderr)
+    click.echo(f"error: {place}{message}", err=True)
     if hint:
-        print(f"  hint: {hint}", file=sys.stderr)
+        click.echo(f"  hint: {hint}", err=True)
 
 
 def fail_pddl(error: PddlError) -> None:
@@ -81,7 +80,7 @@ def fail_pddl(error: PddlError) -> None:
         fail(error.code, error.message, error.path, error.line, error.hint)
         return
     for diagnostic in error.diagnostics:
-        print(diagnostic, file=sys.stderr)
+        click.echo(diagnostic, err=True)
 
 
 def number(value: Number | None) -> int | float | None:

@@ -15,22 +15,54 @@ STATUS_EXIT = {"solved-optimally": 0, "solved": 0, "unsolvable": 1, "unsolved": 
 
 @click.command("plan")
 @click.argument("names", nargs=-1, required=True, metavar="DOMAIN PROBLEM")
-@click.option("--planner", default="auto", show_default=True, metavar="NAME",
-              help="auto, one of `hrcplan planners`, up:NAME, or 'cmd:PROGRAM {domain} {problem}'.")
-@click.option("--timeout", type=click.FloatRange(0, min_open=True), default=60.0,
-              show_default=True, metavar="S", help="Seconds for all planners together.")
-@click.option("--set", "settings", multiple=True, metavar="'F OBJ…=N'",
-              help="Change a value of the initial state, as in 'motivation human=8'.")
+@click.option(
+    "--planner",
+    default="auto",
+    show_default=True,
+    metavar="NAME",
+    help="auto, one of `hrcplan planners`, up:NAME, or 'cmd:PROGRAM {domain} {problem}'.",
+)
+@click.option(
+    "--timeout",
+    type=click.FloatRange(0, min_open=True),
+    default=60.0,
+    show_default=True,
+    metavar="S",
+    help="Seconds for all planners together.",
+)
+@click.option(
+    "--set",
+    "settings",
+    multiple=True,
+    metavar="'F OBJ…=N'",
+    help="Change a value of the initial state, as in 'motivation human=8'.",
+)
 @click.option("--any", "any_plan", is_flag=True, help="The first valid plan is enough.")
 @click.option("--lanes", is_flag=True, help="Lay a sequential plan out in lanes.")
-@click.option("--gantt", type=click.Path(path_type=Path), metavar="FILE",
-              help="Draw the lanes into a .png or .svg file.")
-@click.option("-o", "--output", "target", type=click.Path(path_type=Path), metavar="PLAN",
-              help="Write the plan in IPC format.")
+@click.option(
+    "--gantt",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Draw the lanes into a .png or .svg file.",
+)
+@click.option(
+    "-o",
+    "--output",
+    "target",
+    type=click.Path(path_type=Path),
+    metavar="PLAN",
+    help="Write the plan in IPC format.",
+)
 @output.common_options
 def command(
-    names: tuple[str, ...], planner: str, timeout: float, settings: tuple[str, ...],
-    any_plan: bool, lanes: bool, gantt: Path | None, target: Path | None,
+    names: tuple[str, ...],
+    planner: str,
+    timeout: float,
+    settings: tuple[str, ...],
+    any_plan: bool,
+    lanes: bool,
+    gantt: Path | None,
+    target: Path | None,
 ) -> int:
     """Find a plan for DOMAIN PROBLEM (paths, or shipped names such as transport/two-boxes).
 
@@ -42,8 +74,9 @@ def command(
     _check_targets(gantt, target)
     domain, name, _ = split_names(names, 0)
     problem = problem_of(domain, name, settings)
-    found = solve(problem, planner, timeout_s=timeout, any_plan=any_plan,
-                  lanes=lanes or gantt is not None)
+    found = solve(
+        problem, planner, timeout_s=timeout, any_plan=any_plan, lanes=lanes or gantt is not None
+    )
     for attempt in found.attempts:
         output.say(f"{attempt.planner}: {attempt.outcome} ({attempt.wall_s:.2f} s)")
     if found.plan is not None and target is not None:
@@ -56,7 +89,6 @@ def command(
         output.write_atomically(gantt, draw(problem, found.plan, gantt.suffix[1:].lower()))
     _print(problem, found)
     return STATUS_EXIT[found.status.value]
-
 
 
 def _check_targets(gantt: Path | None, target: Path | None) -> None:

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import rich_click as click
 
 from hrcplan.cli import output
+
+if TYPE_CHECKING:
+    from hrcplan.validation import Report
 
 
 @click.command("validate")
@@ -31,10 +36,15 @@ def command(names: tuple[str, ...]) -> int:
             "reason": report.reason,
         })  # fmt: skip
     elif report.valid:
-        figures = [("cost", report.cost), ("makespan", report.makespan_s), ("metric", report.metric)]
-        shown = [f"{label} {output.number(v):g}" for label, v in figures if v is not None]
-        output.result(f"valid: {len(plan.actions)} actions, {', '.join(shown)}")
+        output.result(f"valid: {len(plan.actions)} actions{_figures(report)}")
     else:
         step = "" if report.failed_step is None else f"step {report.failed_step + 1}: "
         output.result(f"invalid: {step}{report.reason}")
     return 0 if report.valid else 1
+
+
+def _figures(report: Report) -> str:
+    from hrcplan.pddl.model import number_text
+
+    figures = {"cost": report.cost, "makespan": report.makespan_s, "metric": report.metric}
+    return "".join(f", {name} {number_text(n)}" for name, n in figures.items() if n is not None)

@@ -15,6 +15,7 @@ from hrcplan.pddl.semantics import Undefined, evaluate
 from hrcplan.pddl.source import SECTION_SIMILARITY, Source, nearest, nearest_name, quote
 from hrcplan.pddl.typed_lists import read_params
 
+_CLOSE = SECTION_SIMILARITY
 _CLASSICAL = (":parameters", ":precondition", ":effect")
 _DURATIVE = (":parameters", ":duration", ":condition", ":effect")
 
@@ -70,7 +71,7 @@ def _parts(node: Group, source: Source, durative: bool) -> dict[str, Node]:
     rest = deque(node[2:])
     while rest:
         key = rest.popleft()
-        if isinstance(key, Group) or not key.startswith(":"):
+        if isinstance(key, Group) or not (key[0] == ":" or nearest_name(key, known, _CLOSE)):
             source.error(key.at, "stray-word", "a keyword such as :effect is expected here")
             continue
         name = _known_part(key, known, source)
@@ -95,7 +96,7 @@ def _known_part(key: Word, known: tuple[str, ...], source: Source) -> str | None
         source.error(key.at, "unknown-section", message, f"that belongs into a {right}")
         return None
     source.error(key.at, "unknown-section", message, nearest(key, known))
-    return nearest_name(key, known, SECTION_SIMILARITY)
+    return nearest_name(key, known, _CLOSE)
 
 
 def _durations(node: Node | None, scope: Scope, action: Group) -> Iterator[tuple[str, Expr]]:

@@ -207,7 +207,7 @@ def _check_problem(file: _File, domains: _Domains) -> None:
     if found is not None and found.domain is not None:
         file.problem = read_problem(file.root, file.source, found.domain)
         if found.source.has_errors and found not in domains.given.values():
-            _report_faulty(file, name, found)
+            _report_faulty(file, file.root.at if name is None else name.at, found)
     elif name is None:
         file.source.error(file.root.at, "no-domain", "the problem does not say its (:domain NAME)")
     else:
@@ -216,7 +216,6 @@ def _check_problem(file: _File, domains: _Domains) -> None:
         file.source.error(name.at, "domain-mismatch", message, hint)
 
 
-def _report_faulty(file: _File, name: str | None, found: _File) -> None:
-    at = getattr(name, "at", 0)
+def _report_faulty(file: _File, at: int, found: _File) -> None:
     message = f"the domain of this problem has faults of its own ({found.source.path})"
     file.source.error(at, "faulty-domain", message, "check that file too")

@@ -23,7 +23,7 @@ from hrcplan.pddl.model import (
 )
 from hrcplan.pddl.reader import Group, Node, Word
 from hrcplan.pddl.scope import Scope, looks_numeric, to_number
-from hrcplan.pddl.source import quote
+from hrcplan.pddl.source import plural, quote
 from hrcplan.pddl.typed_lists import read_params
 
 COMPARISONS = frozenset(["<", "<=", "=", ">=", ">"])
@@ -73,6 +73,10 @@ def read_formula(node: Node, scope: Scope) -> Formula:
 def read_atom(node: Group, scope: Scope) -> Atom | None:
     """Return a predicate with its arguments, or None if anything about it is wrong."""
     if is_unsupported(node, scope):
+        return None
+    if time_of(node) is not None:
+        message = "only a durative action says 'at start', 'over all' or 'at end', and only once"
+        scope.source.error(node.at, "unexpected-time", message)
         return None
     head = node[0]
     assert isinstance(head, Word)
@@ -126,9 +130,7 @@ def read_expression(node: Node, scope: Scope) -> Expr:
     if isinstance(node, Word):
         return _number_or_name(node, scope)
     if node.head in ARITHMETIC and node.head:
-        if len(node) < 2:
-            scope.source.error(node.at, "wrong-arity", f"{quote(node.head)} needs operands")
-        return Arithmetic(str(node.head), tuple(read_expression(part, scope) for part in node[1:]))
+        return _arithmetic(node, scope)
     if node.head in scope.numbers and len(node) == 1:
         return Function(str(node.head))
     if node.head:
@@ -160,11 +162,20 @@ def read_function(node: Node, scope: Scope) -> Function | None:
     return None if args is None else Function(str(head), args)
 
 
+def _arithmetic(node: Group, scope: Scope) -> Expr:
+    parts = tuple(read_expression(part, scope) for part in node[1:])
+    if not parts:
+        scope.source.error(node.at, "wrong-arity", f"{quote(node.head)} needs operands")
+    elif node.head == "/" and any(isinstance(n, Word) and to_number(n) == 0 for n in node[2:]):
+        scope.source.error(node.at, "bad-number", "division by zero")
+    return Arithmetic(str(node.head), parts)
+
+
 def has_parts(node: Group, n_parts: int, scope: Scope) -> bool:
     """Whether a group has ``n_parts`` elements after its head; if not, that is an error."""
     if len(node) == n_parts + 1:
         return True
-    message = f"{quote(node.head)} takes {n_parts} parts, not {len(node) - 1}"
+    message = f"{quote(node.head)} takes {plural(n_parts, 'part')}, not {len(node) - 1}"
     scope.source.error(node.at, "wrong-arity", message)
     return False
 

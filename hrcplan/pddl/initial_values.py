@@ -34,12 +34,13 @@ from hrcplan.pddl.model import (
     Param,
     Problem,
     Quantified,
+    formula_functions,
     functions_in,
 )
 from hrcplan.pddl.semantics import Binding, State, Undefined, evaluate, ground_key, holds, instances
 from hrcplan.pddl.source import Source, quote
 
-MAX_BINDINGS = 20_000  # per action; beyond that a gap is found when the task is grounded
+MAX_BINDINGS = 20_000  # looked at per action; beyond that a gap is found when the task is grounded
 MAX_REPORTS = 20
 _SPECIAL = frozenset([DURATION, TOTAL_COST, TOTAL_TIME])
 
@@ -60,7 +61,8 @@ def check_values(
     if len(unset) > MAX_REPORTS:
         message = f"{len(unset) - MAX_REPORTS} more functions are not set"
         source.error(at, "unset-function", message)
-    for key, user in checker.negative_durations():
+    negative = dict(checker.negative_durations())
+    for key, user in islice(negative.items(), MAX_REPORTS):
         message = f"{user} lasts less than nothing"
         source.error(places.get(key, at), "negative-duration", message)
 
@@ -97,7 +99,7 @@ class _Checker:
         values = self.problem.values
         for action in self.problem.domain.actions:
             gaps = [need for need in _needs(action) if self._may_be_unset(need, action)]
-            for key in islice(self._keys(action, gaps), MAX_BINDINGS):
+            for key in self._keys(action, gaps):
                 if key not in values:
                     yield key, f"action {quote(action.name)}"
         for user, expression in self._own_expressions():
@@ -107,7 +109,7 @@ class _Checker:
                     yield key, user
 
     def negative_durations(self) -> Iterator[tuple[FluentKey, str]]:
-        """Yield a function behind a negative duration, and the first such ground action."""
+        """Yield a function behind a negative duration, and such a ground action."""
         for action in self.problem.domain.actions:
             for op, duration in action.durations:
                 if op != ">=" and self._may_be_negative(duration):
@@ -116,15 +118,15 @@ class _Checker:
     def _negative(self, action: Action, duration: Expr) -> Iterator[tuple[FluentKey, str]]:
         functions = list(functions_in(duration))
         wanted = {arg for function in functions for arg in function.args}
-        for binding in islice(self._bindings(action, wanted), MAX_BINDINGS):
+        for binding in self._bindings(action, wanted):
             try:
                 value = evaluate(duration, self.problem.values, binding)
             except Undefined:
                 continue
             if value < 0:
-                words = [action.name, *(binding.get(p.name, p.name) for p in action.params)]
+                full = next(instances(_unbound(action, binding), binding, self.problem))
+                words = [action.name, *(full[param.name] for param in action.params)]
                 yield ground_key(functions[0], binding), quote(f"({' '.join(words)})")
-                return
 
     def _may_be_negative(self, duration: Expr) -> bool:
         names = {function.name for function in functions_in(duration)}
@@ -151,11 +153,15 @@ class _Checker:
             return
         wanted = {arg for need in needs for arg in need.function.args}
         wanted |= {name for need in needs for name in _variables(need.given)}
-        for binding in self._bindings(action, wanted):
-            for need in needs:
-                for inner in instances(need.params, binding, self.problem):
-                    if not self._is_false(need.given, inner):
-                        yield ground_key(need.function, inner)
+        readings = (
+            (need, inner)
+            for binding in self._bindings(action, wanted)
+            for need in needs
+            for inner in instances(need.params, binding, self.problem)
+        )
+        for need, inner in islice(readings, MAX_BINDINGS):
+            if not self._is_false(need.given, inner):
+                yield ground_key(need.function, inner)
 
     def _bindings(self, action: Action, wanted: set[str]) -> Iterator[Binding]:
         """Yield bindings of the wanted parameters (and those tied to them) that can occur."""
@@ -170,7 +176,8 @@ class _Checker:
         ]
         names = wanted.union(*(_variables(part) for part in (*atoms, *others)))
         tied = replace(action, params=tuple(p for p in action.params if p.name in names))
-        for binding in Join(tied, atoms, self.problem).bindings(self.static):
+        supported = Join(tied, atoms, self.problem).bindings(self.static)
+        for binding in islice(supported, MAX_BINDINGS):
             if not any(self._is_false(part, binding) for part in others):
                 yield binding
 
@@ -187,7 +194,7 @@ class _Checker:
     def _is_static(self, formula: Formula) -> bool:
         atoms_fixed = self.changed.isdisjoint(a.name for a in _atoms(formula))
         changed = self.problem.domain.changed_functions
-        return atoms_fixed and changed.isdisjoint(f.name for f in _compared(formula))
+        return atoms_fixed and changed.isdisjoint(f.name for f in formula_functions(formula))
 
     def _own_expressions(self) -> Iterator[tuple[str, Expr]]:
         for part in conjuncts(self.problem.goal):
@@ -197,12 +204,16 @@ class _Checker:
             yield "the metric", self.problem.metric
 
 
+def _unbound(action: Action, binding: Binding) -> tuple[Param, ...]:
+    return tuple(param for param in action.params if param.name not in binding)
+
+
 def _needs(action: Action) -> Iterator[_Need]:
     """Yield the functions whose value the action reads."""
     for condition in action.conditions:
         for part in conjuncts(condition.formula):
             if isinstance(part, Compare):
-                yield from map(_Need, _compared(part))
+                yield from map(_Need, formula_functions(part))
     for effect in action.effects:
         if isinstance(effect.target, Function):
             read = list(functions_in(effect.value))
@@ -238,13 +249,6 @@ def _atoms(formula: Formula) -> Iterator[Atom]:
     return (part for part in _parts(formula) if isinstance(part, Atom))
 
 
-def _compared(formula: Formula) -> Iterator[Function]:
-    for part in _parts(formula):
-        if isinstance(part, Compare):
-            yield from functions_in(part.left)
-            yield from functions_in(part.right)
-
-
 def _variables(formula: Formula) -> Iterator[str]:
     """Yield the arguments of a formula, bound ones and objects too."""
     for part in _parts(formula):
@@ -252,5 +256,5 @@ def _variables(formula: Formula) -> Iterator[str]:
             yield from part.args
         elif isinstance(part, Equal):
             yield from (part.left, part.right)
-    for function in _compared(formula):
+    for function in formula_functions(formula):
         yield from function.args

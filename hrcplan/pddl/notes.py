@@ -1,6 +1,7 @@
 """``;; hrcplan:`` comments of a domain: simulation data that PDDL cannot hold.
 
-The grammar is two forms, with names in any case and numbers as in PDDL::
+The grammar is two forms, with names in any case and numbers as in PDDL; a further ``;`` begins
+an ordinary comment::
 
     ;; hrcplan: success ACTION PROBABILITY
     ;; hrcplan: range FUNCTION LOW HIGH

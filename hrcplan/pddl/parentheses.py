@@ -90,14 +90,15 @@ class _Open:
 def mend(tokens: Sequence[Token], source: Source) -> list[Token]:
     """Return the tokens with every ``(`` closed and no ``)`` too many; faults go to ``source``."""
     mended: list[Token] = []
-    around: list[int] = []  # offsets of the groups that are open across landmarks
+    around: list[_Open] = []  # groups that are open across landmarks
     for stretch in _stretches(tokens):
         if stretch.is_even:
             mended += stretch.tokens
         else:
             mended += _Repair(stretch, around, source).run()
         if stretch.end > stretch.start:
-            around.append(stretch.tokens[0][1])
+            at = stretch.tokens[0][1]
+            around.append(_Open(at, *source.position(at)))
         del around[stretch.end :]
     return mended
 
@@ -113,10 +114,10 @@ def _stretches(tokens: Sequence[Token]) -> Iterator[_Stretch]:
 
 def _landmarks(tokens: Sequence[Token]) -> Iterator[tuple[int, int, int]]:
     """Yield index, depth before it, and depth of completed content, of every landmark."""
-    in_action = False
+    in_define = in_action = False
     previous = ""
     for index, (text, _) in enumerate(tokens):
-        if text[0] == ":":
+        if text[0] == ":" and in_define:
             word = text.lower()
             if previous != "(":
                 if in_action:
@@ -126,14 +127,14 @@ def _landmarks(tokens: Sequence[Token]) -> Iterator[tuple[int, int, int]]:
                 in_action = word in ACTIONS
         elif previous == "(" and text.lower() == "define":
             yield index - 1, 0, 0
-            in_action = False
+            in_define, in_action = True, False
         previous = text
 
 
 class _Repair:
     """One stretch that does not come out even, token by token."""
 
-    def __init__(self, stretch: _Stretch, around: Sequence[int], source: Source) -> None:
+    def __init__(self, stretch: _Stretch, around: Sequence[_Open], source: Source) -> None:
         self.stretch = stretch
         self.around = around
         self.source = source
@@ -143,6 +144,7 @@ class _Repair:
         self.out: list[Token] = []
         self.line = 0
         self.indent = 0
+        self.next_line = 0
 
     def run(self) -> list[Token]:
         tokens = self.stretch.tokens
@@ -162,11 +164,11 @@ class _Repair:
 
     def _move_to(self, at: int) -> bool:
         """Keep line and indentation; return whether the token at ``at`` leads its line."""
-        line, column = self.source.position(at)
-        leads = line > self.line
-        if leads:
-            self.line, self.indent = line, column
-        return leads
+        if at < self.next_line:
+            return False
+        self.line, self.indent = self.source.position(at)
+        self.next_line = self.source.line_end(at)
+        return True
 
     def _open(self, at: int, leads: bool) -> None:
         while self.missing > 0 and self._next_cannot_belong(leads):
@@ -177,7 +179,7 @@ class _Repair:
         self.out.append(("(", at))
 
     def _close(self, at: int, leads: bool, more_follows: bool) -> None:
-        while self.missing > 0 and leads and self._inner and self.indent < self._inner.indent:
+        while self.missing > 0 and leads and self._is_left_of_innermost:
             self._report_unclosed()
         early = self.missing < 0 and more_follows and self.depth - 1 <= self.stretch.content
         if early or self.depth - 1 < self.stretch.end:
@@ -197,22 +199,24 @@ class _Repair:
             self.opened[-1].take(text.lower())
 
     @property
-    def _inner(self) -> _Open | None:
-        """The innermost open group, unless it is the section or part itself."""
-        if not self.opened or self.opened[-1].head.startswith(":"):
-            return None
-        return self.opened[-1]
+    def _innermost(self) -> _Open:
+        return self.opened[-1] if self.opened else self.around[self.depth - 1]
+
+    @property
+    def _is_left_of_innermost(self) -> bool:
+        return self.depth > self.stretch.end and self.indent < self._innermost.indent
 
     def _next_cannot_belong(self, leads: bool) -> bool:
-        group = self._inner
-        if group is None:
-            return False
+        """Whether the group that begins here is not part of the innermost one."""
+        if not self.opened or self.opened[-1].head.startswith(":"):
+            return False  # anything may stand in a section or an action's part
+        group = self.opened[-1]
         base = self.opened[0].indent
         outdented = leads and group.line < self.line and base < group.indent >= self.indent
         return group.is_full or outdented
 
     def _report_unclosed(self) -> None:
-        at = self.opened[-1].at if self.opened else self.around[self.depth - 1]
+        at = self._innermost.at
         message = f"this '(' is never closed; its ')' is missing at or before line {self.line}"
         self.source.error(at, "unclosed", message, "add a ')'")
         self.missing -= 1

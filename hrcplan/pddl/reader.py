@@ -14,7 +14,7 @@ from hrcplan.pddl.source import Source
 
 MAX_DEPTH = 150  # whatever walks a formula recursively is safe below this
 _TOKEN = re.compile(r"[()]|[^\s();]+|;[^\r\n]*")
-_NOTE = re.compile(r";+[ \t]*hrcplan:[ \t]*([^\r\n]*)", re.IGNORECASE)
+_NOTE = re.compile(r";+[ \t]*hrcplan:[ \t]*([^\r\n;]*)", re.IGNORECASE)
 
 
 class Word(str):
@@ -30,7 +30,6 @@ class Group(list["Node"]):
     __slots__ = ("at",)
 
     def __init__(self, at: int) -> None:
-        super().__init__()
         self.at = at
 
     @property
@@ -44,7 +43,7 @@ Node = Word | Group
 
 def read(source: Source) -> Group | None:
     """Return the one ``(define …)`` group of a file, or None; faults go into ``source``."""
-    nodes = _build(mend(list(_tokens(source.text)), source), source)
+    nodes = _build(mend(_tokens(source.text), source), source)
     groups = [node for node in nodes if isinstance(node, Group)]
     root = next((group for group in groups if group.head == "define"), None)
     outside = next((node for node in nodes if node is not root), None)
@@ -69,11 +68,9 @@ def word_at(text: str, at: int) -> Word:
     return word
 
 
-def _tokens(text: str) -> Iterator[Token]:
-    for match in _TOKEN.finditer(text):
-        token = match.group()
-        if token[0] != ";":
-            yield token, match.start()
+def _tokens(text: str) -> list[Token]:
+    found = ((match.group(), match.start()) for match in _TOKEN.finditer(text))
+    return [token for token in found if token[0][0] != ";"]
 
 
 def _build(tokens: Iterable[Token], source: Source) -> list[Node]:

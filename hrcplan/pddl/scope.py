@@ -12,9 +12,9 @@ from fractions import Fraction
 
 from hrcplan.pddl.model import OBJECT, TOTAL_TIME, Domain, Number, Param, Signature
 from hrcplan.pddl.reader import Group, Word
-from hrcplan.pddl.source import Source, quote
+from hrcplan.pddl.source import Source, plural, quote
 
-_NUMBER = re.compile(r"[+-]?([0-9]{1,30}(\.[0-9]{0,30})?|\.[0-9]{1,30})(e[+-]?[0-9]{1,2})?")
+_NUMBER = re.compile(r"[+-]?([0-9]{1,150}(\.[0-9]{0,30})?|\.[0-9]{1,30})(e[+-]?[0-9]{1,2})?")
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ class Scope:
             self.source.error(inner.at, "not-a-term", "a variable or object is expected here")
             return None
         if len(terms) != len(signature.params):
-            expected = f"{quote(signature.name)} takes {len(signature.params)} arguments"
+            expected = f"{quote(signature.name)} takes {plural(len(signature.params), 'argument')}"
             message = f"{expected}, not {len(terms)}"
             self.source.error(group.at, "wrong-arity", message, f"declared as {signature}")
             return None

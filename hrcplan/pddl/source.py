@@ -12,6 +12,7 @@ from hrcplan.errors import Diagnostic, InputError
 
 MAX_QUOTE = 60  # characters of a file that a message repeats at a time
 MAX_MESSAGE = 160  # a message and its hint are each cut here, whatever they repeat
+MAX_FAULTS = 1000  # errors, and as many warnings: beyond that the file is something else
 MAX_HINTS = 100  # a file of nonsense is not worth a search among its names for every word
 SECTION_SIMILARITY = 0.75  # a misspelt section or keyword this close is read as what was meant
 
@@ -27,6 +28,7 @@ class Source:
     text: str
     diagnostics: list[Diagnostic] = field(default_factory=list)
     uses: dict[str, int] = field(default_factory=dict)
+    _counts: dict[str, int] = field(default_factory=dict)
     _lines: list[int] = field(default_factory=list)
 
     def position(self, at: int) -> tuple[int, int]:
@@ -35,10 +37,18 @@ class Source:
         >>> Source("x", "ab\ncd").position(4)
         (2, 2)
         """
+        line = self._line(at)
+        return line, at - self._lines[line - 1] + 1
+
+    def line_end(self, at: int) -> int:
+        """Return the offset at which the line after the one of ``at`` begins, or the text ends."""
+        line = self._line(at)
+        return self._lines[line] if line < len(self._lines) else len(self.text)
+
+    def _line(self, at: int) -> int:
         if not self._lines:
             self._lines = [0, *(match.end() for match in _NEWLINE.finditer(self.text))]
-        line = bisect_right(self._lines, at)
-        return line, at - self._lines[line - 1] + 1
+        return bisect_right(self._lines, at)
 
     def error(self, at: int, code: str, message: str, hint: str | None = None) -> None:
         """Note an error at offset ``at``."""
@@ -58,6 +68,11 @@ class Source:
         self.uses.setdefault(requirement, at)
 
     def _note(self, at: int, severity: str, code: str, message: str, hint: str | None) -> None:
+        count = self._counts[severity] = self._counts.get(severity, 0) + 1
+        if count > MAX_FAULTS:
+            return
+        if count == MAX_FAULTS:
+            code, message, hint = "too-many", f"there are more {severity}s than are shown", None
         line, column = self.position(at)
         hint = None if hint is None else _cut(hint, MAX_MESSAGE)
         self.diagnostics.append(
@@ -67,7 +82,7 @@ class Source:
     @property
     def has_errors(self) -> bool:
         """Whether any fault so far is an error."""
-        return any(d.severity == "error" for d in self.diagnostics)
+        return "error" in self._counts
 
 
 def quote(text: str) -> str:
@@ -78,6 +93,15 @@ def quote(text: str) -> str:
     """
     shown = _cut(text, MAX_QUOTE)
     return f"'{shown}'" if shown.isprintable() else f"'{ascii(shown)[1:-1]}'"
+
+
+def plural(n: int, word: str) -> str:
+    """Return ``n`` and the word, with an ``s`` unless there is one.
+
+    >>> plural(1, "part"), plural(2, "part")
+    ('1 part', '2 parts')
+    """
+    return f"{n} {word}" if n == 1 else f"{n} {word}s"
 
 
 def _cut(text: str, limit: int) -> str:

@@ -116,5 +116,3 @@ class Planner(Protocol):
 
     def solve(self, request: Request) -> Answer:
         """Return the planner's answer, at the latest shortly after the deadline."""
-
-

@@ -12,9 +12,12 @@ from dataclasses import dataclass, replace
 
 from hrcplan.pddl.interference import Access, access, clash
 from hrcplan.pddl.model import Action, Number, Problem
-from hrcplan.pddl.semantics import bind
+from hrcplan.pddl.semantics import bind, evaluate
 from hrcplan.plans import EPSILON_S, Plan, PlannedAction, occupied
 from hrcplan.task import Task
+
+_Option = tuple[PlannedAction, frozenset[str]]
+"""A step done by one agent, and the agents that it keeps busy."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,7 +27,7 @@ class _Job:
     action: PlannedAction
     duration: Number
     after: tuple[int, ...]
-    options: tuple[tuple[PlannedAction, frozenset[str]], ...]
+    options: tuple[_Option, ...]
 
 
 def schedule(problem: Problem, plan: Plan) -> tuple[Plan, bool]:
@@ -88,8 +91,6 @@ def _duration(problem: Problem, schema: Action, action: PlannedAction) -> Number
         return 1
     if action.duration_s is not None:
         return action.duration_s
-    from hrcplan.pddl.semantics import evaluate
-
     binding = _binding(schema, action, problem)
     fixed = [expression for op, expression in schema.durations if op in ("=", ">=")]
     return evaluate(fixed[0], problem.values, binding)
@@ -109,7 +110,7 @@ def _touched(problem: Problem, schema: Action, action: PlannedAction) -> Access:
     return Access(*(a | b | c for a, b, c in zip(start, over, end, strict=True)))
 
 
-def _options(problem: Problem, plan: Plan) -> list[tuple[tuple[PlannedAction, frozenset[str]], ...]]:
+def _options(problem: Problem, plan: Plan) -> list[tuple[_Option, ...]]:
     own = [((action, occupied(action, problem)),) for action in plan.actions]
     if len(problem.agents) < 2 or problem.domain.is_temporal:
         return list(own)
@@ -119,7 +120,7 @@ def _options(problem: Problem, plan: Plan) -> list[tuple[tuple[PlannedAction, fr
     by_step: dict[tuple[str, ...], list[int]] = {}
     for ground in task.actions:
         by_step.setdefault(ground.step, []).append(ground.index)
-    found: list[tuple[tuple[PlannedAction, frozenset[str]], ...]] = []
+    found: list[tuple[_Option, ...]] = []
     for action, kept in zip(plan.actions, own, strict=True):
         mine = task.find(action.name, action.args)
         alike = [

@@ -7,8 +7,8 @@ from importlib import import_module
 from importlib.metadata import EntryPoint, entry_points
 
 from hrcplan.errors import MissingPlannerError, UsageError
-from hrcplan.planners.answer import Planner
 from hrcplan.pddl.source import nearest
+from hrcplan.planners.answer import Planner
 
 GROUP = "hrcplan.planners"
 BUILT_IN = {

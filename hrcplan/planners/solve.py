@@ -132,9 +132,7 @@ def replace_deadline(request: Request, deadline: float) -> Request:
     return other
 
 
-def _turn(
-    planner: Planner, outcome: str, begun: float, inner: Sequence[Attempt] = ()
-) -> Attempt:
+def _turn(planner: Planner, outcome: str, begun: float, inner: Sequence[Attempt] = ()) -> Attempt:
     note = "".join(f": {a.outcome}" for a in inner if a.outcome != outcome)
     return Attempt(planner.card.name, outcome + note, time.monotonic() - begun)
 

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
 
 from hrcplan.facade import load_problem
-from hrcplan.pddl.check import load_domain, load_problem as read_problem
+from hrcplan.pddl.check import load_domain
+from hrcplan.pddl.check import load_problem as read_problem
 from hrcplan.pddl.model import Problem
 from hrcplan.planners.lanes import schedule
 from hrcplan.plans import Plan, PlannedAction, occupied, parse_plan
@@ -44,7 +46,7 @@ def chains(tmp_path: Path) -> Problem:
 def no_overlap(problem: Problem, plan: Plan) -> None:
     for agent in problem.agents:
         mine = [a for a in plan.actions if agent in occupied(a, problem)]
-        for earlier, later in zip(mine, mine[1:], strict=False):
+        for earlier, later in pairwise(mine):
             assert earlier.end_s is not None
             assert later.start_s is not None
             assert earlier.end_s <= later.start_s, (earlier, later)

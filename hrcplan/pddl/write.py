@@ -1,0 +1,250 @@
+"""Domains and problems to PDDL text: what is read back is what was written.
+
+Every planner is fed by this writer. unified-planning's drops domain constants that occur only in
+costs, and ENHSP then "proves" a solvable task unsolvable.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from itertools import groupby
+
+from hrcplan.pddl.dialect import symbolic, without_numbers
+from hrcplan.pddl.model import (
+    OBJECT,
+    TRUE,
+    Action,
+    And,
+    Arithmetic,
+    Compare,
+    Constant,
+    Domain,
+    Effect,
+    Expr,
+    Fact,
+    FluentKey,
+    Formula,
+    Not,
+    Number,
+    Or,
+    Param,
+    Problem,
+    Quantified,
+    Signature,
+    fact_text,
+    number_text,
+)
+
+WIDTH = 100
+MAX_DECIMALS = 30  # our reader takes no more
+_TIMES = {"start": "at start", "end": "at end", "all": "over all"}
+
+
+def decimal_text(value: Number) -> str:
+    """Return a number as PDDL text: exact up to 30 decimals, else rounded to twelve.
+
+    >>> from fractions import Fraction
+    >>> decimal_text(Fraction(1, 2**20)), decimal_text(Fraction(1, 3))
+    ('0.00000095367431640625', '0.333333333333')
+    """
+    scaled = value * 10**MAX_DECIMALS
+    if isinstance(value, int) or value.denominator == 1 or scaled.denominator != 1:
+        return number_text(value)
+    whole, decimals = divmod(abs(int(scaled)), 10**MAX_DECIMALS)
+    sign = "-" if value < 0 else ""
+    return f"{sign}{whole}.{decimals:0{MAX_DECIMALS}}".rstrip("0")
+
+
+def domain_text(domain: Domain, *, strip_costs: bool = False) -> str:
+    """Return a domain as PDDL text.
+
+    Args:
+        domain: What to write; reading the text gives an equal domain, but for its path.
+        strip_costs: Leave out all numbers, for readers of purely classical PDDL.
+
+    Raises:
+        UnsupportedError: if a condition or duration needs the numbers that are to be left out.
+    """
+    if strip_costs:
+        domain = symbolic(domain)
+    return "".join(f"{line}\n" for line in _domain_lines(domain))
+
+
+def problem_text(problem: Problem, *, strip_costs: bool = False) -> str:
+    """Return a problem as PDDL text, with its current function values.
+
+    Args:
+        problem: What to write; reading the text against the problem's domain gives an equal
+            problem, but for its path and for numbers without an exact decimal.
+        strip_costs: Leave out function values and metric.
+
+    Raises:
+        UnsupportedError: if the goal or the domain needs the numbers that are to be left out.
+    """
+    if strip_costs:
+        problem = without_numbers(problem)
+    return "".join(f"{line}\n" for line in _problem_lines(problem))
+
+
+def _domain_lines(domain: Domain) -> Iterator[str]:
+    for note in domain.notes:
+        yield f";; hrcplan: {note.kind} {note.name} {' '.join(map(decimal_text, note.numbers))}"
+    yield f"(define (domain {domain.name})"
+    if domain.requirements:
+        yield f"  (:requirements {' '.join(domain.requirements)})"
+    yield from _section("types", _typed((n, parents) for n, parents in domain.types.items()))
+    yield from _section("constants", _typed((n, (t,)) for n, t in domain.constants.items()))
+    yield from _section("predicates", map(_signature, domain.predicates.values()))
+    yield from _section("functions", map(_signature, domain.functions.values()))
+    for action in domain.actions:
+        yield ""
+        yield from _durative_lines(action) if action.durative else _action_lines(action)
+    yield ")"
+
+
+def _problem_lines(problem: Problem) -> Iterator[str]:
+    yield f"(define (problem {problem.name})"
+    yield f"  (:domain {problem.domain.name})"
+    yield from _section("objects", _typed((n, (t,)) for n, t in problem.objects.items()))
+    yield "  (:init"
+    yield from _init_lines(problem)
+    yield "  )"
+    yield f"  (:goal {_formula(problem.goal)})"
+    if problem.metric is not None:
+        sense = "maximize" if problem.maximize else "minimize"
+        yield f"  (:metric {sense} {_expression(problem.metric)})"
+    yield ")"
+
+
+def _section(name: str, entries: Iterable[str]) -> Iterator[str]:
+    lines = [f"    {entry}" for entry in entries]
+    if lines:
+        yield f"  (:{name}"
+        yield from lines
+        yield "  )"
+
+
+def _typed(pairs: Iterable[tuple[str, tuple[str, ...]]]) -> Iterator[str]:
+    """Yield ``a b - type`` for neighbors of one type; their order stays as it is."""
+    for types, group in groupby(pairs, key=lambda pair: pair[1]):
+        yield f"{' '.join(name for name, _ in group)} - {_types(types)}"
+
+
+def _types(types: Sequence[str]) -> str:
+    return types[0] if len(types) == 1 else f"(either {' '.join(types)})"
+
+
+def _params(params: Sequence[Param]) -> str:
+    return " ".join(_typed((p.name, p.types) for p in params))
+
+
+def _signature(signature: Signature) -> str:
+    untyped = all(p.types == (OBJECT,) for p in signature.params)
+    listed = " ".join(p.name for p in signature.params) if untyped else _params(signature.params)
+    return f"({signature.name} {listed})" if listed else f"({signature.name})"
+
+
+def _init_lines(problem: Problem) -> Iterator[str]:
+    """Yield facts and values, by predicate as declared and then by objects as declared."""
+    domain = problem.domain
+    rank = {name: i for i, name in enumerate(problem.all_objects)}
+
+    def place(order: Mapping[str, int], key: Fact | FluentKey) -> tuple[int, list[int]]:
+        return order[key[0]], [rank[arg] for arg in key[1:]]
+
+    predicates = {name: i for i, name in enumerate(domain.predicates)}
+    facts = sorted(problem.facts, key=lambda fact: place(predicates, fact))
+    for _, group in groupby(facts, key=lambda fact: fact[0]):
+        yield from _wrapped(fact_text(fact) for fact in group)
+    functions = {name: i for i, name in enumerate(domain.functions)}
+    keys = sorted(problem.values, key=lambda key: place(functions, key))
+    for _, group in groupby(keys, key=lambda key: key[0]):
+        yield from _wrapped(
+            f"(= {fact_text(key)} {decimal_text(problem.values[key])})" for key in group
+        )
+
+
+def _wrapped(entries: Iterable[str]) -> Iterator[str]:
+    line = "   "
+    for entry in entries:
+        if len(line) + len(entry) >= WIDTH and line.strip():
+            yield line
+            line = "   "
+        line += f" {entry}"
+    yield line
+
+
+def _action_lines(action: Action) -> Iterator[str]:
+    yield f"  (:action {action.name}"
+    yield f"    :parameters ({_params(action.params)})"
+    if len(action.conditions) == 1:
+        yield f"    :precondition {_formula(action.conditions[0].formula)}"
+    elif action.conditions:
+        parts = (_formula(c.formula) for c in action.conditions)
+        yield f"    :precondition {_group('and', parts)}"
+    yield from _part("effect", (_effect(effect) for effect in action.effects))
+    yield "  )"
+
+
+def _durative_lines(action: Action) -> Iterator[str]:
+    yield f"  (:durative-action {action.name}"
+    yield f"    :parameters ({_params(action.params)})"
+    limits = [f"({op} ?duration {_expression(expr)})" for op, expr in action.durations]
+    yield f"    :duration {limits[0] if len(limits) == 1 else _group('and', limits)}"
+    conditions = (f"({_TIMES[c.when]} {_formula(c.formula)})" for c in action.conditions)
+    yield from _part("condition", conditions)
+    yield from _part("effect", (_timed_effect(effect) for effect in action.effects))
+    yield "  )"
+
+
+def _part(keyword: str, entries: Iterable[str]) -> Iterator[str]:
+    lines = [f"      {entry}" for entry in entries]
+    yield f"    :{keyword} (and"
+    yield from lines
+    yield "    )"
+
+
+def _timed_effect(effect: Effect) -> str:
+    inner = f"({_TIMES[effect.when]} {_effect(replace(effect, params=()))})"
+    return f"(forall ({_params(effect.params)}) {inner})" if effect.params else inner
+
+
+def _effect(effect: Effect) -> str:
+    if effect.value is not None:
+        text = f"({effect.kind} {effect.target} {_expression(effect.value)})"
+    else:
+        text = str(effect.target) if effect.kind == "add" else f"(not {effect.target})"
+    if effect.given != TRUE:
+        text = f"(when {_formula(effect.given)} {text})"
+    return f"(forall ({_params(effect.params)}) {text})" if effect.params else text
+
+
+def _formula(formula: Formula) -> str:
+    """Return a condition as PDDL; like ``str()``, but with exact numbers."""
+    match formula:
+        case Compare(op, left, right):
+            return f"({op} {_expression(left)} {_expression(right)})"
+        case Not(body):
+            return f"(not {_formula(body)})"
+        case And(parts) | Or(parts):
+            word = "and" if isinstance(formula, And) else "or"
+            return _group(word, map(_formula, parts))
+        case Quantified(universal, params, body):
+            return f"({'forall' if universal else 'exists'} ({_params(params)}) {_formula(body)})"
+        case _:
+            return str(formula)
+
+
+def _expression(expression: Expr) -> str:
+    match expression:
+        case Constant(value):
+            return decimal_text(value)
+        case Arithmetic(op, parts):
+            return _group(op, map(_expression, parts))
+        case _:
+            return str(expression)
+
+
+def _group(word: str, parts: Iterable[str]) -> str:
+    return f"({' '.join([word, *parts])})"

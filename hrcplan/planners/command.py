@@ -1,0 +1,148 @@
+"""Any program as a planner: ``cmd:popf {domain} {problem}``.
+
+Its standard output, and the plan file if the command names ``{plan}``, are searched for plans in
+IPC or POPF format. Anytime planners print several; the best valid one counts.
+"""
+
+from __future__ import annotations
+
+import re
+import shlex
+import shutil
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from hrcplan.errors import MissingPlannerError, PlanFormatError, PlannerError, UsageError
+from hrcplan.pddl.model import Number, Problem
+from hrcplan.pddl.write import domain_text, problem_text
+from hrcplan.planners.answer import Answer, Card, Request, Status
+from hrcplan.planners.process import Ended, Finished, Limits, run
+from hrcplan.plans import Plan, PlannedAction, parse_plan
+from hrcplan.validation import validate
+
+# Also as LPG prints it: "0.0003: (MOVE …) [D:50.00; C:0.10]", "0.0003: (MOVE …) [50.0000])".
+_LINE = re.compile(
+    r"\s*(?P<start>[^\s:()]+\s*:)?\s*(?P<action>\([^()]+\))"
+    r"\s*(\[\s*(d:)?\s*(?P<duration>[^\s;\]]+)[^\]]*\]\)?)?\s*(;.*)?",
+    re.IGNORECASE,
+)
+_CRASHED = (1, 2, 126, 127)  # other exit codes are a planner's way to say why it has no plan
+
+
+class Command:
+    """A command line with ``{domain}`` and ``{problem}``, perhaps ``{plan}`` and ``{timeout}``."""
+
+    def __init__(self, command: str) -> None:
+        try:
+            self._words = shlex.split(command)
+        except ValueError as error:
+            raise UsageError(f"cmd:{command} is no command line: {error}") from None
+        if not all(any(part in w for w in self._words) for part in ("{domain}", "{problem}")):
+            hint = "for example cmd:popf {domain} {problem}"
+            raise UsageError(f"cmd:{command} needs {{domain}} and {{problem}}", hint=hint)
+        self.card = Card(
+            f"cmd:{command}",
+            "a program of your own",
+            temporal=True,
+            numeric=True,
+            metric="none",
+            needs=self._words[0],
+            licence="the program's own",
+        )
+
+    def missing(self) -> str | None:
+        """Return that the program is not there; None if it is."""
+        if shutil.which(self._words[0]) is None:
+            return f"there is no program '{self._words[0]}'"
+        return None
+
+    def solve(self, request: Request) -> Answer:
+        """Return the best valid plan that the program prints, also if its time runs out.
+
+        Raises:
+            MissingPlannerError: if there is no such program.
+            PlannerError: if it crashes without a plan.
+        """
+        missing = self.missing()
+        if missing is not None:
+            raise MissingPlannerError(f"{self.card.name}: {missing}")
+        problem = request.problem
+        with TemporaryDirectory(prefix="hrcplan-") as folder:
+            cwd = Path(folder)
+            (cwd / "domain.pddl").write_text(domain_text(problem.domain))
+            (cwd / "problem.pddl").write_text(problem_text(problem))
+            limits = Limits(request.time_left_s, request.memory_bytes)
+            finished = run(list(self._argv(cwd, limits.time_s)), cwd=cwd, limits=limits)
+            files = sorted(cwd.glob("plan*"), key=lambda f: f.stat().st_mtime_ns)
+            texts = [finished.stdout, *(f.read_text(errors="replace") for f in files)]
+        plans = [plan for text in texts for plan in find_plans(text, problem)]
+        return self._answer(problem, finished, plans)
+
+    def _argv(self, cwd: Path, time_s: float) -> Iterator[str]:
+        """Yield the words of the command; files of the caller's folder get their whole path."""
+        names = {name: str(cwd / f"{name}.pddl") for name in ("domain", "problem")}
+        names |= {"plan": str(cwd / "plan"), "timeout": str(max(1, round(time_s)))}
+        for position, word in enumerate(self._words):
+            for name, value in names.items():
+                word = word.replace(f"{{{name}}}", value)
+            is_file = Path(word).is_file() and (position > 0 or "/" in word)
+            yield str(Path(word).absolute()) if is_file else word
+
+    def _answer(self, problem: Problem, finished: Finished, plans: list[Plan]) -> Answer:
+        name = self.card.name
+        if finished.ended is Ended.MISSING:
+            raise MissingPlannerError(f"{name} cannot be started: {finished.stderr.strip()}")
+        if not plans and finished.code == 0 and validate(problem, Plan()).valid:
+            plans = [Plan()]
+        if plans:
+            return Answer(Status.SOLVED, best_of(problem, plans))
+        lines = [ln for ln in (finished.stdout + finished.stderr).splitlines() if ln.strip()]
+        last = " / ".join(lines[-3:])[-300:]
+        if finished.ended is not Ended.EXITED:
+            return Answer(Status.UNSOLVED, note=f"stopped: {finished.ended.value}")
+        if finished.code is None or finished.code < 0 or finished.code in _CRASHED:
+            raise PlannerError(f"{name} ended with exit code {finished.code}: {last}")
+        return Answer(Status.UNSOLVED, note=f"no plan, exit code {finished.code}: {last}")
+
+
+def best_of(problem: Problem, plans: Iterable[Plan]) -> Plan:
+    """Return the best valid plan by hrcplan's own semantics; the last one if none is valid."""
+    best: tuple[Number, Plan] | None = None
+    last = Plan()
+    for last in plans:
+        report = validate(problem, last)
+        if not report.valid:
+            continue
+        values = (report.metric, report.cost, report.makespan_s)
+        value = next((v for v in values if v is not None), 0)
+        value = -value if problem.maximize else value
+        # Of equally good plans the last: anytime planners improve something they know.
+        if best is None or value <= best[0]:
+            best = value, last
+    return last if best is None else best[1]
+
+
+def find_plans(text: str, problem: Problem) -> Iterator[Plan]:
+    """Yield every plan in a planner's output: actions of the domain on lines without a gap."""
+    names = {action.name for action in problem.domain.actions}
+    lines: list[str] = []
+    for line in (*text.lower().splitlines(), ""):
+        match = _LINE.fullmatch(line)
+        words = match["action"].strip("( )").split() if match else []
+        if match is not None and words and words[0] in names:
+            duration = f" [{match['duration']}]" if match["duration"] else ""
+            lines.append(f"{match['start'] or ''}{match['action']}{duration}")
+        elif lines:
+            yield from _plan(lines, problem)
+            lines = []
+
+
+def _plan(lines: list[str], problem: Problem) -> Iterator[Plan]:
+    try:
+        plan = parse_plan("\n".join(lines))
+    except PlanFormatError:
+        return  # something else that looks like it
+    if not problem.domain.is_temporal:  # some print the position of a step as its time
+        plan = Plan(tuple(PlannedAction(a.name, a.args) for a in plan.actions))
+    yield plan

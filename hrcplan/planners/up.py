@@ -1,0 +1,283 @@
+"""unified-planning's engines (``up:NAME``), and our problems as its ``Problem``: the one door.
+
+An engine runs in a child process, in which this module is imported again: unified-planning costs
+more than a second to import, and some engines take their whole process with them.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from importlib.util import find_spec
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING, Any
+
+from hrcplan.errors import (
+    LimitError,
+    MissingPlannerError,
+    PlannerError,
+    UnsupportedError,
+)
+from hrcplan.pddl.dialect import with_effects
+from hrcplan.pddl.model import TOTAL_COST, Function, Problem
+from hrcplan.pddl.write import domain_text, problem_text
+from hrcplan.planners.answer import Answer, Card, Request, Status
+from hrcplan.planners.lowering import Lowered, lower
+from hrcplan.planners.process import Ended, Finished, Limits, run
+from hrcplan.plans import parse_plan
+
+if TYPE_CHECKING:
+    from unified_planning.model import Problem as UpProblem
+
+_CODE = "from hrcplan.planners.up import child; child()"
+_MARGIN_S = 0.5  # so that an engine that keeps its limit can still report
+
+
+class UnifiedPlanning:
+    """Any installed engine of unified-planning, by the name that it has there."""
+
+    def __init__(self, engine: str) -> None:
+        self._engine = engine
+        self.card = Card(
+            f"up:{engine}",
+            "an engine of unified-planning",
+            temporal=True,
+            numeric=True,
+            metric="none",
+            needs="pip install unified-planning and the engine's package",
+            licence="the engine's own",
+        )
+
+    def missing(self) -> str | None:
+        """Return that unified-planning is not installed; only ``solve`` looks for the engine."""
+        if find_spec("unified_planning") is None:
+            return "unified-planning is not installed; pip install unified-planning"
+        return None
+
+    def solve(self, request: Request) -> Answer:
+        """Return the engine's plan, in the names of the task.
+
+        The engine gets the first form of the task that it says it supports: lowered, lowered
+        without costs, or as it is; a temporal task first as it is.
+
+        Raises:
+            UnsupportedError: if it supports none of them.
+            MissingPlannerError: with the reason, if the engine cannot be loaded.
+            PlannerError: if it crashes.
+        """
+        missing = self.missing()
+        if missing is not None:
+            raise MissingPlannerError(f"{self.card.name}: {missing}")
+        forms = list(_forms(request))
+        job: dict[str, Any] = {
+            "engine": self._engine,
+            "timeout_s": max(0.1, request.time_left_s - _MARGIN_S),
+            "forms": [[form.domain, form.problem] for form in forms],
+        }
+        finished, reply = _call(job, Limits(request.time_left_s, request.memory_bytes))
+        return self._answer(forms, finished, reply)
+
+    def _answer(
+        self, forms: list[_Form], finished: Finished, reply: Mapping[str, Any] | None
+    ) -> Answer:
+        name = self.card.name
+        if reply is None:
+            if finished.ended is not Ended.EXITED:
+                return Answer(Status.UNSOLVED, note=f"stopped: {finished.ended.value}")
+            last = " / ".join((finished.stdout + finished.stderr).strip().splitlines()[-3:])
+            raise PlannerError(f"{name} ended with exit code {finished.code}: {last[-300:]}")
+        if "missing" in reply:
+            raise MissingPlannerError(f"{name} cannot be loaded: {reply['missing']}")
+        if "unsupported" in reply:
+            raise UnsupportedError(f"{name} does not support this task: {reply['unsupported']}")
+        form = forms[reply["form"]]
+        status = reply["status"]
+        if reply["plan"] is not None:
+            lowered = form.lowered
+            plan = parse_plan(reply["plan"]) if lowered is None else lowered.plan(reply["plan"])
+            proven = status == "SOLVED_OPTIMALLY" and form.exact
+            return Answer(Status.OPTIMAL if proven else Status.SOLVED, plan)
+        if status == "UNSOLVABLE_PROVEN":
+            return Answer(Status.UNSOLVABLE)
+        if status in ("INTERNAL_ERROR", "UNSUPPORTED_PROBLEM"):
+            raise PlannerError(f"{name} failed: {status.lower()}: {reply['log'][-300:]}")
+        return Answer(Status.UNSOLVED, note=status.lower().replace("_", " "))
+
+
+@dataclass(frozen=True, slots=True)
+class _Form:
+    """One way to put the task. ``exact``: cheapest here means cheapest by the problem's metric."""
+
+    domain: str
+    problem: str
+    lowered: Lowered | None
+    exact: bool
+
+
+def _forms(request: Request) -> Iterator[_Form]:
+    problem = request.problem
+    temporal = problem.domain.is_temporal
+    plain = problem.metric == Function(TOTAL_COST) and not problem.maximize
+    free = problem if plain else _without_costs(problem)
+    lifted = _Form(domain_text(free.domain), problem_text(free), None, plain and not temporal)
+    if temporal:
+        yield lifted
+    try:
+        lowered = lower(request.task)
+    except (UnsupportedError, LimitError):
+        lowered = None
+    if lowered is not None:
+        exact = lowered.exact_for_metric and not temporal
+        yield _Form(lowered.domain_text, lowered.problem_text, lowered, exact)
+        yield _Form(*lowered.without_costs(), lowered, False)
+    if not temporal:
+        yield lifted
+
+
+def _without_costs(problem: Problem) -> Problem:
+    """Return a problem without total-cost and metric.
+
+    A cost without a metric would be a fluent that every action changes: no two could overlap.
+    """
+    kept = with_effects(problem.domain, lambda effect: effect.target.name != TOTAL_COST)
+    return replace(problem, domain=kept, metric=None, maximize=False)
+
+
+def _call(job: Mapping[str, Any], limits: Limits) -> tuple[Finished, Mapping[str, Any] | None]:
+    """Run a child with a job; its reply is None if it did not get that far."""
+    package = str(Path(__file__).resolve().parents[2])
+    path = os.pathsep.join(filter(None, [package, os.environ.get("PYTHONPATH")]))
+    with TemporaryDirectory(prefix="hrcplan-") as folder:
+        cwd = Path(folder)
+        (cwd / "job.json").write_text(json.dumps(job))
+        argv = [sys.executable, "-P", "-W", "ignore", "-c", _CODE]
+        finished = run(argv, cwd=cwd, limits=limits, env={**os.environ, "PYTHONPATH": path})
+        reply = cwd / "reply.json"
+        return finished, json.loads(reply.read_text()) if reply.exists() else None
+
+
+def engines(timeout_s: float = 30) -> Mapping[str, str | None]:
+    """Return unified-planning's engines and why each is not usable (None if it is).
+
+    unified-planning itself drops engines silently whose packages fail to import.
+
+    Raises:
+        PlannerError: if unified-planning cannot be imported in time.
+    """
+    finished, reply = _call({"list": True}, Limits(timeout_s))
+    if reply is None:
+        raise PlannerError(f"unified-planning does not start: {finished.stderr[-300:]}")
+    return dict(reply)
+
+
+def to_up(problem: Problem) -> UpProblem:
+    """Return a problem as unified-planning's ``Problem``, to go on with there.
+
+    Raises:
+        UnsupportedError: if unified-planning cannot hold the problem (a metric of cost and time,
+            for one).
+        MissingPlannerError: if unified-planning is not installed.
+    """
+    try:
+        from unified_planning.exceptions import UPException
+    except ImportError as error:
+        raise MissingPlannerError(f"unified-planning cannot be imported: {error}") from error
+    try:
+        return _read(domain_text(problem.domain), problem_text(problem))
+    except (UPException, SyntaxError, AssertionError, NotImplementedError) as error:
+        message = f"unified-planning cannot hold this problem: {error}"
+        raise UnsupportedError(message) from error
+
+
+def _read(domain: str, problem: str) -> UpProblem:
+    from unified_planning.io import PDDLReader
+
+    return PDDLReader().parse_problem_string(domain, problem)
+
+
+# From here on: what happens in the child process.
+
+
+def child() -> None:
+    """Do the job in ``job.json`` and write ``reply.json``, both in the current folder."""
+    job = json.loads(Path("job.json").read_text())
+    reply = _survey() if "list" in job else _solve(job)
+    Path("reply.part").write_text(json.dumps(reply))
+    Path("reply.part").rename("reply.json")
+
+
+def _survey() -> dict[str, str | None]:
+    from unified_planning.engines.factory import DEFAULT_ENGINES
+
+    return {name: _fault(name) for name in DEFAULT_ENGINES}
+
+
+def _fault(name: str) -> str | None:
+    """Return why an engine cannot be loaded; None if it can."""
+    from importlib import import_module
+
+    from unified_planning.engines.factory import DEFAULT_ENGINES
+
+    if name not in DEFAULT_ENGINES:
+        return f"unified-planning knows no engine '{name}'"
+    module, attribute = DEFAULT_ENGINES[name]
+    try:
+        getattr(import_module(module), attribute)
+    except Exception as error:  # noqa: BLE001 - a stranger's import may raise anything
+        package = str(module).partition(".")[0].replace("_", "-")
+        return f"{type(error).__name__}: {error}; pip install {package}"
+    return None
+
+
+def _solve(job: Mapping[str, Any]) -> dict[str, Any]:
+    """Return status and plan of an engine, or why it cannot run."""
+    from unified_planning.environment import get_environment
+
+    environment = get_environment()
+    environment.credits_stream = None
+    name = job["engine"]
+    if name not in environment.factory.engines:
+        return {"missing": _fault(name) or "unified-planning could not register it"}
+    engine = environment.factory.engine(name)
+    if not engine.is_oneshot_planner():
+        return {"unsupported": "it does not solve problems by itself"}
+    faults: list[str] = []
+    for form, (domain, problem_) in enumerate(job["forms"]):
+        try:
+            problem = _read(domain, problem_)
+        except Exception as error:  # noqa: BLE001 - pyparsing's and UP's own kinds
+            faults.append(str(error))
+            continue
+        if engine.supports(problem.kind):
+            return {"form": form, **_run_engine(environment, name, problem, job["timeout_s"])}
+        faults.append(", ".join(sorted(problem.kind.features - engine.supported_kind().features)))
+    return {"unsupported": "; ".join(dict.fromkeys(faults))}
+
+
+def _run_engine(environment: Any, name: str, problem: Any, timeout_s: float) -> dict[str, Any]:
+    with environment.factory.OneshotPlanner(name=name) as planner:
+        result = planner.solve(problem, timeout=timeout_s)
+    log = " ".join(message.message for message in result.log_messages or ())
+    plan = None if result.plan is None else "\n".join(_plan_lines(result.plan))
+    return {"status": result.status.name, "plan": plan, "log": log}
+
+
+def _plan_lines(plan: Any) -> Iterator[str]:
+    if hasattr(plan, "timed_actions"):
+        for start, action, duration in plan.timed_actions:
+            lasts = "" if duration is None else f" [{_decimal(duration)}]"
+            yield f"{_decimal(start)}: {_action_text(action)}{lasts}"
+    else:
+        yield from map(_action_text, plan.actions)
+
+
+def _action_text(action: Any) -> str:
+    return f"({' '.join([action.action.name, *map(str, action.actual_parameters)])})"
+
+
+def _decimal(seconds: Any) -> str:
+    return f"{float(seconds):.6f}"

@@ -1,0 +1,9 @@
+(define (domain d)
+  (:types
+    animal - pet  ;; expect: cyclic-types
+    pet - thing  ;; expect: cyclic-types
+    thing - animal  ;; expect: cyclic-types
+    dog - pet
+    self - self)  ;; expect: cyclic-types
+  (:predicates (fed ?d - dog))
+  (:action feed :parameters (?d - dog) :effect (fed ?d)))

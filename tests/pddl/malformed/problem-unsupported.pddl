@@ -1,0 +1,11 @@
+;; hrcplan: success ask 0.5  ;; expect: bad-note
+(define (problem p)
+  (:domain courier)
+  (:objects robot - agent)
+  (:length (:serial 5) (:parallel 3))  ;; expect: ignored-section
+  (:init (at robot depot) (= (effort robot) 1)
+    (at 10 (not (at robot depot))))  ;; expect: unsupported
+  (:constraints (always (at robot depot)))  ;; expect: unsupported
+  (:goal (and (at robot depot)
+    (preference tidy (at robot depot))))  ;; expect: unsupported
+  (:metric minimize (is-violated tidy)))  ;; expect: unsupported

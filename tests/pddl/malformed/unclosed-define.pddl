@@ -1,0 +1,5 @@
+(define (domain d)  ;; expect: unclosed
+  (:predicates (p))
+  (:action one
+    :parameters ()
+    :effect (q))  ;; expect: unknown-predicate

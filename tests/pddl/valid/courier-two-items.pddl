@@ -1,0 +1,13 @@
+(define (problem two-items)
+  (:domain courier)
+  (:objects human robot - agent shelf desk - place book cup - item)
+  (:init
+    (controllable robot)
+    (at human desk) (at robot depot)
+    (road depot desk) (road desk depot) (road desk shelf) (road shelf desk)
+    (lies book shelf) (lies cup desk)
+    (= (distance depot desk) 5.) (= (distance desk depot) 5)
+    (= (distance desk shelf) .5) (= (distance shelf desk) 0.5)
+    (= (effort human) 3) (= (effort robot) 1e0))
+  (:goal (and (lies book depot) (lies cup depot)))
+  (:metric minimize (+ (total-cost) (* 0.17 (total-time)))))
