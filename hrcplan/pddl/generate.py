@@ -7,7 +7,7 @@ from dataclasses import replace
 from hrcplan.errors import PddlError
 from hrcplan.pddl.formulas import read_formula
 from hrcplan.pddl.model import Problem
-from hrcplan.pddl.reader import read
+from hrcplan.pddl.reader import read_one
 from hrcplan.pddl.scope import Scope
 from hrcplan.pddl.source import Source, in_order
 
@@ -19,7 +19,7 @@ def with_goal(problem: Problem, goal: str, name: str) -> Problem:
         PddlError: with every fault of the goal; its path is ``<goal>``.
     """
     source = Source("<goal>", goal)
-    root = read(source)
+    root = read_one(source)
     if root is not None and not source.has_errors:
         formula = read_formula(root, Scope(source, problem.domain, problem.all_objects, {}))
     if source.has_errors:

@@ -55,6 +55,18 @@ def read(source: Source) -> Group | None:
     return root
 
 
+def read_one(source: Source) -> Group | None:
+    """Return the one group that a text consists of, or None; faults go into ``source``."""
+    nodes = _build(mend(_tokens(source.text), source), source)
+    outside = nodes[1] if len(nodes) > 1 else None
+    first = nodes[0] if nodes else None
+    if outside is not None:
+        source.error(outside.at, "outside", "one expression in parentheses, and nothing after it")
+    elif not isinstance(first, Group) and not source.has_errors:
+        source.error(0, "empty", "an expression in parentheses is needed")
+    return first if isinstance(first, Group) else None
+
+
 def notes(source: Source) -> Iterator[tuple[int, str]]:
     """Yield offset and text of every ``;; hrcplan: …`` comment."""
     for match in _NOTE.finditer(source.text):
