@@ -12,9 +12,10 @@ import numpy as np
 
 from hrcplan.bank import walk
 from hrcplan.bank.construct import bounded_graph, optimal_graph
-from hrcplan.bank.goals import Goals, read_goals
+from hrcplan.bank.goals import Goals
 from hrcplan.bank.graph import PlanGraph
 from hrcplan.bank.search import MAX_MIB, Limits
+from hrcplan.bank.sources import read_goals
 from hrcplan.bank.steps import STEPS, StepTable
 from hrcplan.errors import UsageError
 from hrcplan.plans import Plan, PlannedAction

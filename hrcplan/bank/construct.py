@@ -37,21 +37,21 @@ def optimal_graph(
     Raises:
         LimitError: if time or memory runs out.
     """
-    return _optimal(table, goal, state, name, limits, blind)[0]
+    return optimal_with_price(table, goal, state, name=name, limits=limits, blind=blind)[0]
 
 
-def _optimal(
-    table: StepTable, goal: Sequence[Test], state: int, name: str, limits: Limits,
-    blind: bool = False,
+def optimal_with_price(
+    table: StepTable, goal: Sequence[Test], state: int, *, name: str = "goal",
+    limits: Limits = NO_LIMITS, blind: bool = False,
 ) -> tuple[PlanGraph, int | None]:  # fmt: skip
-    """Return the graph of all optimal plans and their price.
+    """Return the graph of all optimal plans, and their price (None if there is none).
 
     The first search looks only at steps of landmarks, within what these cost at least. If it
     reaches the goal, this is the proof that it has all optimal plans: any other step would be
     paid on top. Otherwise the bound rises until the goal is reached.
     """
-    ops, facts = relevant(table.ops, goal)
-    packing = Packing(positions_of(facts))
+    ops, needed = relevant(table.ops, goal)
+    packing = Packing(positions_of(needed.facts))
     start = packing.row(state)
     marks = landmarks(ops, state, goal)
     if marks is None:
@@ -97,7 +97,7 @@ def bounded_graph(
     Raises:
         LimitError: if time or memory runs out.
     """
-    _, price = _optimal(table, goal, state, name, limits)
+    _, price = optimal_with_price(table, goal, state, name=name, limits=limits)
     packing = Packing(tuple(range(len(table.task.facts))))
     marks = landmarks(table.ops, state, goal)
     if price is None or marks is None:
@@ -122,14 +122,15 @@ def assemble(table: StepTable, found: Explored, packing: Packing, name: str) -> 
     alive = found.is_goal.copy()
     for sources, _, targets in reversed(found.edges):
         alive[sources[alive[targets]]] = True
-    ids = np.cumsum(alive) - 1
+    before = np.concatenate([[0], np.cumsum(alive)])
+    ids = before[:-1]
     parts = [
         (ids[sources[keep]], steps[keep], ids[targets[keep]])
         for sources, steps, targets in found.edges
         for keep in [alive[sources] & alive[targets]]
     ]
     layers = tuple(
-        (table.in_units(paid), int(ids[first]) + (not alive[first])) for paid, first in found.layers
+        (table.in_units(paid), int(before[first])) for paid, first in found.layers
     )
     sources, steps, targets = (np.concatenate([part[i] for part in parts]) for i in range(3))
     graph = PlanGraph(
@@ -150,8 +151,10 @@ def _by_source(
     sources: Ids, steps: NDArray[np.int32], targets: Ids, n_nodes: int
 ) -> tuple[Ids, NDArray[np.int32], NDArray[np.int32]]:
     """Return edges in order of their source and step, each once, and where a source's begin."""
-    order = np.lexsort((steps, sources))
-    sources, steps, targets = sources[order], steps[order], targets[order]
+    key = sources * (int(steps.max(initial=0)) + 1) + steps
+    if (np.diff(key) < 0).any():  # searches with one cost find them in order
+        order = np.argsort(key, kind="stable")
+        sources, steps, targets = sources[order], steps[order], targets[order]
     once = np.ones(len(sources), dtype=np.bool_)
     once[1:] = (sources[1:] != sources[:-1]) | (steps[1:] != steps[:-1])
     first = np.searchsorted(sources[once], np.arange(n_nodes + 1))

@@ -9,9 +9,8 @@ from functools import cached_property
 from pathlib import Path
 
 from hrcplan.errors import InputError, UsageError
-from hrcplan.pddl import check, library
 from hrcplan.pddl.model import Formula, Problem, fact_text, number_text
-from hrcplan.pddl.source import nearest
+from hrcplan.pddl.source import Source, decode, nearest
 from hrcplan.task import Task
 from hrcplan.task.conditions import Test
 
@@ -20,11 +19,27 @@ MAX_DIFFERENCES = 5  # named in one message
 
 @dataclass(frozen=True, slots=True)
 class SourceFile:
-    """A file that goals were read from: its name as the user gave it, its path, its bytes."""
+    """A file that goals are read from: its path and its bytes."""
 
-    name: str
     path: str
     data: bytes
+
+    @classmethod
+    def read(cls, path: Path) -> SourceFile:
+        """Return a file's bytes.
+
+        Raises:
+            InputError: if it is missing or may not be read.
+        """
+        try:
+            return cls(str(path), path.read_bytes())
+        except OSError as error:
+            message = f"cannot read '{path}': {error.strerror or error}"
+            raise InputError(message, code="no-file", path=str(path)) from None
+
+    def source(self) -> Source:
+        """Return its text, to be read as PDDL."""
+        return decode(self.path, self.data)
 
     @property
     def sha256(self) -> str:
@@ -36,14 +51,16 @@ class SourceFile:
 class Goals:
     """Goals in order, all for one task.
 
-    ``problem`` is one of the problems; the others differ in name and goal only. ``aliases`` maps
-    the name of an action that the domain declares more than once to the names it was given.
+    ``problem`` is one of the problems; the others differ in name and goal only. ``files`` are the
+    domain's and then the rest, ``kind`` how they are to be read. ``aliases`` maps the name of an
+    action that the domain declares more than once to the names it was given.
     """
 
     problem: Problem
     names: tuple[str, ...]
     formulas: tuple[Formula, ...]
     files: tuple[SourceFile, ...] = ()
+    kind: str = "problems"
     aliases: Mapping[str, tuple[str, ...]] | None = None
 
     def __len__(self) -> int:
@@ -74,63 +91,6 @@ class Goals:
             raise UsageError(f"there is no goal '{unknown[0]}'", hint=nearest(unknown[0], self.names))
         chosen = tuple(self.formulas[self.names.index(name)] for name in names)
         return replace(self, names=tuple(names), formulas=chosen)
-
-
-def read_goals(domain: str, goals: str | None = None) -> Goals:
-    """Return the goals of a folder: problem files in the order of their names, or a
-    Ramírez–Geffner folder; by default the shipped problems of the domain.
-
-    Args:
-        domain: A path or a shipped name.
-        goals: A folder, or None.
-
-    Raises:
-        InputError: if a file is missing or has faults, there is no problem, two goals have one
-            name, or objects or initial states differ; the message names the differences.
-    """
-    from hrcplan.bank import ramirez_geffner
-
-    path = library.find_domain(domain)
-    if goals is not None and ramirez_geffner.is_folder(Path(goals)):
-        return ramirez_geffner.read_goals(Path(goals), path, domain)
-    loaded = check.load_domain(path)
-    files = [SourceFile(domain, str(path), path.read_bytes())]
-    problems: list[Problem] = []
-    for name, place in _problem_files(domain, path, goals):
-        problems.append(check.load_problem(loaded, place))
-        files.append(SourceFile(name, str(place), place.read_bytes()))
-    return from_problems(problems, tuple(files))
-
-
-def _problem_files(domain: str, path: Path, goals: str | None) -> Iterator[tuple[str, Path]]:
-    if goals is None:
-        shipped = library.problem_names(Path(domain).stem)
-        if not shipped:
-            message = f"no problems are shipped for domain '{Path(domain).stem}'"
-            raise InputError(message, code="no-goals", hint="name a folder of problem files")
-        for name in shipped:
-            yield name, library.find_problem(domain, name)
-        return
-    folder = Path(goals)
-    if not folder.is_dir():
-        message = f"there is no folder '{goals}'"
-        raise InputError(message, code="no-folder", path=goals, hint="GOALS is a folder")
-    found = [p for p in sorted(folder.glob("*.pddl")) if p.resolve() != path.resolve()]
-    found = [p for p in found if not _is_domain(p)]
-    if not found:
-        hint = "a folder of problem files, or one with template.pddl and hyps.dat"
-        raise InputError(f"no problem file in '{goals}'", code="no-goals", path=goals, hint=hint)
-    for place in found:
-        yield str(place), place
-
-
-def _is_domain(path: Path) -> bool:
-    from hrcplan.pddl.reader import read
-    from hrcplan.pddl.source import read_source
-
-    root = read(read_source(path))
-    heading = root[1] if root is not None and len(root) > 1 else None
-    return getattr(heading, "head", "") == "domain"
 
 
 def from_problems(problems: Sequence[Problem], files: tuple[SourceFile, ...] = ()) -> Goals:

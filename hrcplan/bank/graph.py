@@ -10,6 +10,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +20,7 @@ from hrcplan.pddl.model import Number
 
 BIG = float(1 << 62)  # above it counts are Python integers, below it 64-bit ones: both are exact
 
-Counts = NDArray[np.int64] | NDArray[np.object_]
+Counts = NDArray[Any]
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,7 +128,7 @@ class PlanGraph:
         large = self.n_nodes and rough.max() >= BIG
         return self._count_to_go(np.object_ if large else np.int64)
 
-    def _count_to_go(self, kind: type[np.generic]) -> NDArray[np.generic]:
+    def _count_to_go(self, kind: type[np.generic]) -> Counts:
         counts = np.zeros(self.n_nodes, dtype=kind)
         if kind is np.object_:
             counts[:] = 0

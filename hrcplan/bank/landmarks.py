@@ -85,6 +85,7 @@ class _Relaxation:
         for i, relaxed in enumerate(self.relaxed):
             for literal in relaxed.gives:
                 self.makers[literal].append(i)
+        self.start = {literal for literal in self.start if self.users[literal]}
         self.supporter: list[int] = []
 
     def _add(self, group: int, test: Test | None, change: Change) -> None:

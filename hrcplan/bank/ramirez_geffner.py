@@ -20,6 +20,7 @@ from hrcplan.pddl.model import TRUE, And, Formula, Problem
 from hrcplan.pddl.reader import Group, Word, read
 from hrcplan.pddl.source import Source, read_source
 
+KIND = "ramirez-geffner"
 TEMPLATE, HYPOTHESES = "template.pddl", "hyps.dat"
 OBSERVATIONS, TRUE_HYPOTHESIS, DOMAIN = "obs.dat", "real_hyp.dat", "domain.pddl"
 _PLACE = re.compile(r"<hypothesis>", re.IGNORECASE)
@@ -51,10 +52,10 @@ def read_instance(folder: Path) -> Instance:
     if not is_folder(folder):
         message = f"'{folder}' has no {TEMPLATE} and {HYPOTHESES}"
         raise InputError(message, code="no-goals", path=str(folder))
-    goals = read_goals(folder, folder / DOMAIN, str(folder / DOMAIN))
+    goals = goals_of(*(SourceFile.read(folder / part) for part in (DOMAIN, TEMPLATE, HYPOTHESES)))
     observed = folder / OBSERVATIONS
     actions = read_actions(read_source(observed).text) if observed.is_file() else ()
-    return Instance(goals, actions, _true_goal(folder, goals))
+    return Instance(goals, actions, _true_goal(folder / TRUE_HYPOTHESIS, goals))
 
 
 def read_actions(text: str) -> tuple[tuple[str, ...], ...]:
@@ -67,59 +68,55 @@ def read_actions(text: str) -> tuple[tuple[str, ...], ...]:
     return tuple(tuple(words) for words in lines if words)
 
 
-def read_goals(folder: Path, domain: Path, name: str) -> Goals:
+def goals_of(domain: SourceFile, template: SourceFile, hypotheses: SourceFile) -> Goals:
     """Return the goals of a folder in the order of ``hyps.dat``; each is called like its line.
-
-    Args:
-        folder: Where ``template.pddl`` and ``hyps.dat`` are.
-        domain: The file of the domain.
-        name: The domain as the user named it.
 
     Raises:
         PddlError: if domain or template has faults.
-        InputError: if a file is missing, or a line of ``hyps.dat`` is no goal of the template.
+        InputError: if a line of ``hyps.dat`` is no goal of the template.
     """
-    places = {name: domain, **{str(folder / part): folder / part for part in (TEMPLATE, HYPOTHESES)}}
-    source, aliases = _without_duplicates(read_source(domain))
-    template = read_source(folder / TEMPLATE)
-    if not _PLACE.search(template.text):
-        raise InputError(f"no <HYPOTHESIS> in {TEMPLATE}", code="no-goals", path=template.path)
-    text = _PLACE.sub(lambda found: " " * len(found[0]), template.text)
-    base = problem_in(domain_in(source), Source(template.path, text))
-    lines = list(_lines(folder / HYPOTHESES))
+    source, aliases = _without_duplicates(domain.source())
+    frame = template.source()
+    if not _PLACE.search(frame.text):
+        raise InputError(f"no <HYPOTHESIS> in {TEMPLATE}", code="no-goals", path=frame.path)
+    text = _PLACE.sub(lambda found: " " * len(found[0]), frame.text)
+    base = problem_in(domain_in(source), Source(frame.path, text))
+    lines = list(_lines(hypotheses.source()))
     if not lines:
-        raise InputError(f"{HYPOTHESES} lists no goal", code="no-goals", path=str(folder))
-    formulas = tuple(_goal(base, line, folder / HYPOTHESES, number) for number, line in lines)
-    files = tuple(SourceFile(shown, str(path), path.read_bytes()) for shown, path in places.items())
-    first = replace(base, goal=formulas[0])
-    return Goals(first, tuple(line for _, line in lines), formulas, files, aliases)
+        raise InputError(f"{HYPOTHESES} lists no goal", code="no-goals", path=hypotheses.path)
+    formulas = tuple(_goal(base, line, hypotheses.path, number) for number, line in lines)
+    return Goals(replace(base, goal=formulas[0]), tuple(line for _, line in lines), formulas,
+                 (domain, template, hypotheses), KIND, aliases)  # fmt: skip
 
 
-def _lines(path: Path) -> Iterator[tuple[int, str]]:
-    for number, line in enumerate(read_source(path).text.splitlines(), start=1):
+def _lines(source: Source) -> Iterator[tuple[int, str]]:
+    for number, line in enumerate(source.text.splitlines(), start=1):
         if line.strip():
             yield number, line.strip()
 
 
-def _goal(base: Problem, line: str, path: Path, number: int) -> Formula:
+def _goal(base: Problem, line: str, path: str, number: int) -> Formula:
     try:
         goal = with_goal(base, f"(and {_BETWEEN.sub(') ', line).rstrip(',')})", "goal").goal
     except PddlError as error:
-        raise InputError(error.message, code=error.code, path=str(path), line=number,
+        raise InputError(error.message, code=error.code, path=path, line=number,
                          hint=error.hint) from None  # fmt: skip
     return goal if base.goal == TRUE else And((base.goal, goal))
 
 
-def _true_goal(folder: Path, goals: Goals) -> int | None:
-    path = folder / TRUE_HYPOTHESIS
+def _true_goal(path: Path, goals: Goals) -> int | None:
     if not path.is_file():
         return None
-    for number, line in _lines(path):
-        wanted = _parts(_goal(goals.problem, line, path, number))
-        for index, formula in enumerate(goals.formulas):
-            if _parts(formula) == wanted - _parts(goals.problem.goal) | _parts(formula) & wanted:
+    sets = [_parts(formula) for formula in goals.formulas]
+    common = frozenset.intersection(*sets)  # what the template asks for beside the hypothesis
+    world = replace(goals.problem, goal=TRUE)
+    for number, line in _lines(read_source(path)):
+        wanted = _parts(_goal(world, line, str(path), number))
+        for index, parts in enumerate(sets):
+            if parts == wanted | (parts & common):
                 return index
-    raise InputError(f"the true goal is not among those of {HYPOTHESES}", path=str(path))
+    message = f"the true goal is not among those of {HYPOTHESES}"
+    raise InputError(message, code="no-goals", path=str(path))
 
 
 def _parts(formula: Formula) -> frozenset[Formula]:

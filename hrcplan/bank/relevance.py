@@ -49,8 +49,8 @@ class Literals:
         return self.true | self.false
 
 
-def relevant(ops: Sequence[Op], goal: Sequence[Test]) -> tuple[tuple[Op, ...], int]:
-    """Return the ops that can help to reach a goal, in order, and the facts that matter."""
+def relevant(ops: Sequence[Op], goal: Sequence[Test]) -> tuple[tuple[Op, ...], Literals]:
+    """Return the ops that can help to reach a goal, in order, and the literals that matter."""
     needed = Literals()
     needed.take(goal)
     useful: set[int] = set()
@@ -61,7 +61,7 @@ def relevant(ops: Sequence[Op], goal: Sequence[Test]) -> tuple[tuple[Op, ...], i
             if i in useful or any(needed.wants(change) for change in op.changes):
                 useful.add(i)
                 _take_op(needed, op)
-    return tuple(op for i, op in enumerate(ops) if i in useful), needed.facts
+    return tuple(op for i, op in enumerate(ops) if i in useful), needed
 
 
 def _take_op(needed: Literals, op: Op) -> None:

@@ -125,7 +125,7 @@ class Rules:
             fits &= (states[:, None, word] & self._masks[None, :, word]) == self._values[
                 None, :, word
             ]
-        rows, rules = np.nonzero(fits)
+        rows, rules = np.divmod(np.flatnonzero(fits), max(1, len(self._simple)))
         before = states[rows]
         after = before & self._keeps[rules] | self._adds[rules]
         moved = (after != before).any(axis=1)

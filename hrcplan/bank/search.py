@@ -100,7 +100,9 @@ class Explorer:
         self.limits, self.name = limits, name
         self.bounds = Bound(rules.ops, marks)
         self.costs = np.array([op.cost for op in rules.ops], dtype=np.int64)
+        self.prices = sorted({op.cost for op in rules.ops})
         self.step_of = np.array([op.step for op in rules.ops], dtype=np.int32)
+        self.one_way = len({op.step for op in rules.ops}) == len(rules.ops)
         self.pending: dict[int, _Pending] = {}
         self.queue: list[int] = []
         self.seen = _Seen()
@@ -171,18 +173,18 @@ class Explorer:
             fits = totals <= self.bound
             self._note_pruned(totals[~fits])
             rows, ops, after, now = rows[fits], ops[fits], after[fits], now[fits]
-            for cost in np.unique(self.costs[ops]):
-                if (paid + int(cost)) & MAX_TIES > self.max_ties:
+            for cost in self.prices:
+                if (paid + cost) & MAX_TIES > self.max_ties:
                     continue
-                part = self.costs[ops] == cost
-                self._push(paid + int(cost), after[part], now[part], ids[rows[part]],
+                part = slice(None) if len(self.prices) == 1 else self.costs[ops] == cost
+                self._push(paid + cost, after[part], now[part], ids[rows[part]],
                            self.step_of[ops[part]])  # fmt: skip
             # Sorting the waiting states will take about as much again as they do, twice over.
             self.limits.check(self.name, self.n_bytes + 3 * self.n_waiting, self.n_nodes)
 
     def _changes(self, states: Words) -> Iterator[tuple[Ids, NDArray[np.int32], Words]]:
         """Yield what can follow; where a step can be done in several ways, the cheapest."""
-        if len(np.unique(self.step_of)) == len(self.step_of):
+        if self.one_way:
             yield from self.rules.expand(states)
             return
         parts = list(self.rules.expand(states))
@@ -253,7 +255,7 @@ class _Seen:
         while self._tables and len(self._tables[-1][0]) <= 2 * len(hashes):
             more, rows = self._tables.pop()
             hashes, states = np.concatenate([more, hashes]), np.concatenate([rows, states])
-        order = np.argsort(hashes, kind="stable")
+        order = np.argsort(hashes)
         self._tables.append((hashes[order], states[order]))
 
     def contains(self, states: Words) -> Bools:
@@ -289,7 +291,7 @@ def group_rows(rows: Words) -> tuple[Words, Ids, Ids, Ids]:
     equal rows together; and where each group begins in it.
     """
     single = rows.shape[1] == 1
-    order = np.argsort(rows[:, 0], kind="stable") if single else np.lexsort(rows.T[::-1])
+    order = np.argsort(rows[:, 0]) if single else np.lexsort(rows.T[::-1])
     ordered = rows[order]
     first = np.ones(len(rows), dtype=np.bool_)
     first[1:] = (ordered[1:] != ordered[:-1]).any(axis=1)

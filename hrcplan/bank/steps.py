@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from math import lcm
@@ -12,6 +12,7 @@ from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.model import Number
 from hrcplan.task import Change, GroundAction, Task
 from hrcplan.task.conditions import Test
+from hrcplan.task.task import meets
 
 STEPS = "steps"
 TASK = "task"
@@ -52,6 +53,16 @@ class Op:
     def changes(self) -> tuple[Change, ...]:
         """All changes, those at the start first."""
         return (*self.at_start, *self.at_end)
+
+    def after(self, state: int) -> int:
+        """Return the state after it, in the sequential reading; it must be possible."""
+        for changes in (self.at_start, self.at_end):
+            made = [change for change in changes if meets(state, change.tests)]
+            for change in made:
+                state &= ~change.deletes
+            for change in made:
+                state |= change.adds
+        return state
 
 
 class StepTable:
@@ -141,6 +152,21 @@ class StepTable:
             return whole, scale
         return [(cost << TIE_BITS) + 1 for cost in whole], scale << TIE_BITS
 
+    def price(self, action: int) -> int:
+        """Return the integer price of a ground action of the task."""
+        return self._prices[0][action]
+
+    def ways(self, step: int) -> list[Op]:
+        """Return the ways to do a step, the cheapest first."""
+        return self._ways[step]
+
+    @cached_property
+    def _ways(self) -> list[list[Op]]:
+        found: list[list[Op]] = [[] for _ in self._steps]
+        for op in sorted(self.ops, key=lambda op: op.cost):
+            found[op.step].append(op)
+        return found
+
     def in_units(self, price: int) -> Number:
         """Return an integer price as bank cost."""
         unit = self._prices[1]
@@ -163,13 +189,12 @@ class StepTable:
     def ops(self) -> tuple[Op, ...]:
         """The ways to do the steps, by step; the cheapest where they differ in nothing else."""
         prices, _ = self._prices
-        found: dict[tuple[object, ...], int] = {}
+        found: dict[Op, int] = {}
         for action in self.task.actions:
-            tests = action.tests
-            key = (self.of_action[action.index], tests, *_changes(action))
+            way = Op(self.of_action[action.index], action.tests, *_changes(action), cost=0)
             price = prices[action.index]
-            found[key] = min(price, found.get(key, price))
-        ops = [Op(*key, cost) for key, cost in found.items()]  # type: ignore[arg-type]
+            found[way] = min(price, found.get(way, price))
+        ops = [replace(way, cost=price) for way, price in found.items()]
         return tuple(sorted(ops, key=lambda op: op.step))
 
 

@@ -39,7 +39,7 @@ def plans(graph: PlanGraph, keep: PlanFilter | None = None) -> Iterator[tuple[in
 def _reaching(graph: PlanGraph, cost: object) -> Bools:
     """Return which nodes lead to a goal node of this cost."""
     layer = next(i for i, (value, _) in enumerate(graph.layers) if value == cost)
-    alive = graph.is_goal & (graph.layer_of == layer)
+    alive: Bools = graph.is_goal & (graph.layer_of == layer)
     for edges, sources in reversed(list(graph.edges_by_layer())):
         np.logical_or.at(alive, sources, alive[graph.targets[edges]])
     return alive

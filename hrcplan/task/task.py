@@ -248,6 +248,18 @@ class Task:
         other.goal = other._goal()
         return other
 
+    def with_actions(self, actions: tuple[GroundAction, ...], costs: tuple[Number, ...]) -> Task:
+        """Return a task that only has some of the actions, at other costs and without a metric.
+
+        ``actions`` are numbered from 0; what costs depend on no longer counts.
+        """
+        other = object.__new__(Task)
+        kept = {k: v for k, v in self.__dict__.items() if k not in ("_structural", "_linear_costs")}
+        other.__dict__.update(kept, actions=actions, costs=costs)
+        other.problem = replace(self.problem, metric=None)
+        other._prepare()
+        return other
+
     @cached_property
     def _structural(self) -> frozenset[FluentKey]:
         keys = set(self._moving)
