@@ -67,9 +67,9 @@ class Sampler:
 
     >>> from hrcplan.bank import build_bank
     >>> import numpy as np
-    >>> bank = build_bank("transport", goals=None, only=["two-boxes"])
+    >>> bank = build_bank("kitchen", only=["parfait-nut"])
     >>> Sampler(bank.graphs[0]).draw(3, np.random.default_rng(1)).shape
-    (3, 8)
+    (3, 17)
     """
 
     def __init__(self, graph: PlanGraph) -> None:
