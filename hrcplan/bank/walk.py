@@ -29,16 +29,15 @@ def plans(graph: PlanGraph, keep: PlanFilter | None = None) -> Iterator[tuple[in
         graph: The graph.
         keep: Which plans are wanted; all by default.
     """
-    for cost in graph.final_costs:
-        alive = _reaching(graph, cost)
+    for layer in graph.final_layers:
+        alive = _reaching(graph, layer)
         for plan in _depth_first(graph, alive):
             if keep is None or keep(plan):
                 yield plan
 
 
-def _reaching(graph: PlanGraph, cost: object) -> Bools:
-    """Return which nodes lead to a goal node of this cost."""
-    layer = next(i for i, (value, _) in enumerate(graph.layers) if value == cost)
+def _reaching(graph: PlanGraph, layer: int) -> Bools:
+    """Return which nodes lead to a goal node of a layer."""
     alive: Bools = graph.is_goal & (graph.layer_of == layer)
     for edges, sources in reversed(list(graph.edges_by_layer())):
         np.logical_or.at(alive, sources, alive[graph.targets[edges]])
