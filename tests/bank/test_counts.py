@@ -16,28 +16,32 @@ MAX_PLANS = 3_000
 
 
 @st.composite
-def literals(draw, names, low, high):
-    chosen = draw(st.lists(st.sampled_from(names), min_size=low, max_size=high, unique=True))
-    return [f"({n})" if draw(st.booleans()) or draw(st.booleans()) else f"(not ({n}))" for n in chosen]
+def literals(draw, low, high, positive=2):
+    """Draw some facts, one in ``positive + 1`` of them negated."""
+    chosen = draw(st.lists(st.sampled_from(FACTS), min_size=low, max_size=high, unique=True))
+    return [f"({n})" if draw(st.integers(0, positive)) else f"(not ({n}))" for n in chosen]
 
 
 @st.composite
-def actions(draw, name, facts, agents):
-    params = "?a - agent" if agents else ""
-    before = draw(literals(facts, 0, 2))
+def actions(draw, index, agents):
+    """Draw an action; most of them lead from one fact to the next, so that plans are long."""
+    before, after = draw(literals(0, 2)), draw(literals(0, 1, positive=0))
+    if index and draw(st.integers(0, 3)):
+        before.append(f"({FACTS[draw(st.integers(0, index - 1))]})")
+    after.append(f"({FACTS[index % len(FACTS)]})")
+    if draw(st.integers(0, 5)) == 0:
+        before = [f"(or (and {' '.join(before)}) ({draw(st.sampled_from(FACTS))}))"]
     if draw(st.integers(0, 4)) == 0:
-        before = [f"(or {' '.join(before)} ({draw(st.sampled_from(facts))}))"]
-    after = draw(literals(facts, 1, 2))
-    if draw(st.integers(0, 4)) == 0:
-        given_, then = draw(literals(facts, 1, 1)), draw(literals(facts, 1, 1))
+        given_, then = draw(literals(1, 1)), draw(literals(1, 1))
         after.append(f"(when {given_[0]} {then[0]})")
     if agents and draw(st.integers(0, 2)) == 0:
         before.append("(able ?a)")
     if agents == "moving" and draw(st.booleans()):
         after.append(draw(st.sampled_from(["(able ?a)", "(not (able ?a))"])))
     cost = draw(st.sampled_from(["1", "1", "2", "0.5", "0"]))
+    params = "?a - agent" if agents else ""
     return (
-        f"(:action {name} :parameters ({params}) :precondition (and {' '.join(before)})"
+        f"(:action do{index} :parameters ({params}) :precondition (and {' '.join(before)})"
         f" :effect (and {' '.join(after)} (increase (total-cost) {cost})))"
     )
 
@@ -45,18 +49,17 @@ def actions(draw, name, facts, agents):
 @st.composite
 def worlds(draw, agents=("", "fixed", "moving")):
     kind = draw(st.sampled_from(agents))
-    text = " ".join(draw(actions(f"do{i}", FACTS, kind)) for i in range(draw(st.integers(2, 5))))
+    text = " ".join(draw(actions(i, kind)) for i in range(draw(st.integers(3, 6))))
     typing = "(:types agent)" if kind else ""
     able = "(able ?a - agent)" if kind else ""
     domain = f"""(define (domain d) (:requirements :adl :action-costs) {typing}
       (:predicates {able} {" ".join(f"({f})" for f in FACTS)}) (:functions (total-cost)) {text})"""
     objects = "(:objects ann bob - agent)" if kind else ""
-    start = [f"({f})" for f in draw(st.lists(st.sampled_from(FACTS), max_size=2, unique=True))]
-    if kind:
-        start.append("(able ann)")
-    goal = " ".join(draw(literals(FACTS, 1, 3)))
+    start = draw(st.lists(st.sampled_from(["(p0)", "(p1)"]), max_size=1))
+    start += ["(able ann)"] if kind else []
+    goal = " ".join(draw(literals(1, 2)) + [draw(st.sampled_from(["(p2)", "(p3)", "(p4)"]))])
     if draw(st.integers(0, 4)) == 0:
-        goal = f"(or (and {goal}) ({draw(st.sampled_from(FACTS))}))"
+        goal = f"(or (and {goal}) (and {' '.join(draw(literals(2, 3)))}))"
     problem = f"""(define (problem g) (:domain d) {objects}
       (:init {" ".join(start)} (= (total-cost) 0)) (:goal (and {goal}))
       (:metric minimize (total-cost)))"""
