@@ -20,8 +20,7 @@ from hrcplan.bank.relevance import Literals, relevant
 from hrcplan.bank.rules import Packing, positions_of
 from hrcplan.bank.search import Explored, Limits
 from hrcplan.bank.steps import MAX_TIES, Op, StepTable
-from hrcplan.task.conditions import Test
-from hrcplan.task.task import meets
+from hrcplan.task.conditions import Test, meets
 
 NODE_BYTES = 600  # measured, with its share of edges; what a Python node takes
 CHECK_EVERY = 256  # nodes between two looks at the limits

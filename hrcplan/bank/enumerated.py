@@ -23,8 +23,7 @@ from hrcplan.pddl.model import Formula
 from hrcplan.planners import kstar, process
 from hrcplan.planners.lowering import lower
 from hrcplan.task import Task
-from hrcplan.task.conditions import Test
-from hrcplan.task.task import meets
+from hrcplan.task.conditions import Test, meets
 
 LONGEST_S = 86_400.0  # a planner process without a limit of ours
 

@@ -11,8 +11,7 @@ from math import lcm
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.model import Number
 from hrcplan.task import Change, GroundAction, Task
-from hrcplan.task.conditions import Test
-from hrcplan.task.task import meets
+from hrcplan.task.conditions import Test, meets
 
 STEPS = "steps"
 TASK = "task"
