@@ -11,7 +11,7 @@ from functools import cached_property
 import numpy as np
 
 from hrcplan.bank import walk
-from hrcplan.bank.construct import bounded_graph, optimal_graph
+from hrcplan.bank.construct import NO_LIMITS, bounded_graph, optimal_graph
 from hrcplan.bank.goals import Goals
 from hrcplan.bank.graph import PlanGraph
 from hrcplan.bank.search import MAX_MIB, Limits
@@ -95,7 +95,7 @@ class Bank:
             raise UsageError(f"the bank has no goal '{name}'", code="unknown-goal", hint=hint)
         return self.names.index(name)
 
-    def reroot(self, goal: int, state: int, limits: Limits = Limits()) -> PlanGraph:
+    def reroot(self, goal: int, state: int, limits: Limits = NO_LIMITS) -> PlanGraph:
         """Return the graph of all optimal plans of a goal from another state; it is remembered.
 
         Raises:
@@ -138,9 +138,7 @@ class Bank:
         rows = self.sampler(goal).draw(n, rng).tolist()
         return [tuple(step for step in row if step >= 0) for row in rows]
 
-    def plans(
-        self, goal: int, keep: walk.PlanFilter | None = None
-    ) -> Iterator[tuple[int, ...]]:
+    def plans(self, goal: int, keep: walk.PlanFilter | None = None) -> Iterator[tuple[int, ...]]:
         """Yield the plans of a goal as step ids, the cheapest first."""
         return walk.plans(self.graphs[goal], keep)
 
@@ -171,8 +169,9 @@ class Bank:
         return state is not None and self.goals.is_reached(goal, state)
 
     def as_plan(self, steps: Sequence[int]) -> Plan:
-        """Return a plan with ground actions; where agents are dropped, the cheapest does a step,
-        the first in ground-action order among equals.
+        """Return a plan with ground actions, where agents are dropped those of the cheapest agent.
+
+        Among equals it is the first in ground-action order.
 
         Raises:
             UsageError: if the steps cannot be done one after the other.

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from hrcplan.bank.steps import Op
 from hrcplan.task import Change
-from hrcplan.task.conditions import Test
+from hrcplan.task.conditions import Test, Tests
 
 ALWAYS: tuple[Test, ...] = ((0, 0),)
 
@@ -49,7 +49,7 @@ class Literals:
         return self.true | self.false
 
 
-def relevant(ops: Sequence[Op], goal: Sequence[Test]) -> tuple[tuple[Op, ...], Literals]:
+def relevant(ops: Sequence[Op], goal: Tests) -> tuple[tuple[Op, ...], Literals]:
     """Return the ops that can help to reach a goal, in order, and the literals that matter."""
     needed = Literals()
     needed.take(goal)
@@ -75,7 +75,7 @@ def _take_op(needed: Literals, op: Op) -> None:
             needed.take_negated(change.tests)
 
 
-def read_by(ops: Iterable[Op], goal: Sequence[Test]) -> int:
+def read_by(ops: Iterable[Op], goal: Tests) -> int:
     """Return the facts that conditions of ``ops`` and a goal look at, as bits."""
     found = Literals()
     found.take(goal)

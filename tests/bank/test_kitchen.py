@@ -136,7 +136,11 @@ def test_states_between_two_recipes_are_nodes_of_both(kitchen):
 def test_fruit_and_yogurt_in_the_glass_tell_a_parfait(kitchen):
     """A smoothie is blended and never poured into the glass (the paper's Fig. 4)."""
     for graph in kitchen.graphs:
-        into = {kitchen.table[s].words[-1] for s in graph.used_steps if kitchen.table[s].words[0] == "pour"}
+        into = {
+            kitchen.table[s].words[-1]
+            for s in graph.used_steps
+            if kitchen.table[s].words[0] == "pour"
+        }
         assert ("glass" in into) == (meal(graph.goal) == "parfait")
         assert ("blender" in into) == (meal(graph.goal) == "smoothie")
 
