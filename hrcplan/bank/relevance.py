@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import reduce
+from operator import or_
 
 from hrcplan.bank.steps import Op
 from hrcplan.task import Change
@@ -84,3 +86,16 @@ def read_by(ops: Iterable[Op], goal: Tests) -> int:
         for change in op.changes:
             found.take(change.tests)
     return found.facts
+
+
+def fleeting(ops: Sequence[Op]) -> int:
+    """Return the facts that every op sets, whatever the state, and that none looks at, as bits.
+
+    States that differ in these alone have the same plans, unless one of them is a goal state: such
+    a fact only matters to the goal, and then the last step decides.
+    """
+    found = -1
+    for op in ops:
+        sure = (change for change in op.changes if change.tests == ALWAYS)
+        found &= reduce(or_, (change.adds | change.deletes for change in sure), 0)
+    return found & ~read_by(ops, ()) if ops else 0
