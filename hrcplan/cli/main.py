@@ -22,6 +22,7 @@ COMMANDS = {
     "replay": "hrcplan.cli.replay",
     "check": "hrcplan.cli.check",
     "new-problem": "hrcplan.cli.new_problem",
+    "bank": "hrcplan.cli.bank",
     "planners": "hrcplan.cli.planners",
     "doctor": "hrcplan.cli.doctor",
 }

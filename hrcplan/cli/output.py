@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import json
-import os
-import tempfile
 from collections.abc import Callable, Mapping
-from pathlib import Path
 from typing import Any, TypeVar
 
 import rich_click as click
 
-from hrcplan.errors import PddlError, UsageError
+from hrcplan.errors import PddlError
+from hrcplan.files import write_atomically as write_atomically
 from hrcplan.pddl.model import Number
 
 DEBUG = False
@@ -88,27 +86,3 @@ def number(value: Number | None) -> int | float | None:
     if value is None or isinstance(value, int):
         return value
     return int(value) if value.denominator == 1 else float(value)
-
-
-def write_atomically(path: Path, data: str | bytes) -> None:
-    """Write a file by rename, so that it is there completely or not at all.
-
-    Raises:
-        UsageError: if the folder is missing or may not be written.
-    """
-    raw = data.encode() if isinstance(data, str) else data
-    try:
-        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-        try:
-            with os.fdopen(handle, "wb") as file:
-                file.write(raw)
-            mask = os.umask(0)
-            os.umask(mask)
-            os.chmod(name, 0o666 & ~mask)
-            Path(name).replace(path)
-        except BaseException:
-            Path(name).unlink(missing_ok=True)
-            raise
-    except OSError as error:
-        reason = error.strerror or str(error)
-        raise UsageError(f"cannot write {path}: {reason}", path=str(path)) from None

@@ -91,7 +91,16 @@ def load_domain(path: str | Path) -> Domain:
         PddlError: with every fault of the file.
         InputError: if the file cannot be read.
     """
-    file = _read(read_source(path))
+    return domain_in(read_source(path))
+
+
+def domain_in(source: Source) -> Domain:
+    """Return the domain in a text.
+
+    Raises:
+        PddlError: with every fault of the text.
+    """
+    file = _read(source)
     if file.kind == "problem":
         file.source.error(0, "not-a-domain", "this is a problem file, not a domain")
     _raise_errors(file.source)
@@ -106,7 +115,16 @@ def load_problem(domain: Domain, path: str | Path) -> Problem:
         PddlError: with every fault of the file.
         InputError: if the file cannot be read.
     """
-    file = _read(read_source(path))
+    return problem_in(domain, read_source(path))
+
+
+def problem_in(domain: Domain, source: Source) -> Problem:
+    """Return the problem in a text, read against its domain.
+
+    Raises:
+        PddlError: with every fault of the text.
+    """
+    file = _read(source)
     if file.kind == "domain":
         file.source.error(0, "not-a-problem", "this is a domain file, not a problem")
     elif file.kind == "problem" and file.root is not None:

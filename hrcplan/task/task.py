@@ -12,12 +12,13 @@ from hrcplan.pddl.model import (
     TOTAL_TIME,
     Fact,
     FluentKey,
+    Formula,
     Number,
     Problem,
     formula_functions,
 )
 from hrcplan.pddl.semantics import evaluate, ground_key, instances, mentions
-from hrcplan.task.actions import Change, ground_actions
+from hrcplan.task.actions import Change, GroundAction, ground_actions
 from hrcplan.task.changing import Reached, combinations, reached_values, value_fact
 from hrcplan.task.conditions import Grounder, Test, Tests, all_of, any_of, meets, positions
 from hrcplan.task.lookup import lookup
@@ -58,7 +59,12 @@ class Task:
         self.actions = ground_actions(grounder, found, reached)
         given = [value_fact(k, problem.values[k]) for k in reached if k in problem.values]
         self.initial = self.state_of([*problem.facts, *given])
+        self._grounder, self._reached = grounder, reached
         self.goal: tuple[Test, ...] = _goal(grounder, reached)
+        self._prepare()
+
+    def _prepare(self) -> None:
+        """Lay out what the inner loops need."""
         self._adds = [action.adds for action in self.actions]
         self._deletes = [action.deletes for action in self.actions]
         simple = [a for a in self.actions if len(a.tests) == 1 and not a.conditional]
@@ -168,6 +174,31 @@ class Task:
     def _value_facts(self) -> frozenset[Fact]:
         """The facts that stand for values of functions that actions change."""
         return frozenset(fact for fact in self.facts if fact[0] == "=")
+
+    def with_goal(self, goal: Formula) -> Task:
+        """Return this task with another goal, without grounding anything anew.
+
+        Raises:
+            UnsupportedError: if bits cannot hold the goal.
+        """
+        other = object.__new__(Task)
+        other.__dict__.update(self.__dict__)
+        other.__dict__.pop("_structural", None)
+        other.problem = replace(self.problem, goal=goal)
+        other._grounder = replace(self._grounder, problem=other.problem)
+        other.goal = _goal(other._grounder, self._reached)
+        return other
+
+    def with_actions(self, actions: tuple[GroundAction, ...], costs: tuple[Number, ...]) -> Task:
+        """Return a task that only has some of the actions, at other costs and without a metric.
+
+        ``actions`` are numbered from 0; what costs depended on no longer counts.
+        """
+        other = object.__new__(Task)
+        other.__dict__.update(self.__dict__, actions=actions, costs=costs)
+        other.problem = replace(self.problem, metric=None)
+        other._prepare()
+        return other
 
     @cached_property
     def _structural(self) -> frozenset[str]:

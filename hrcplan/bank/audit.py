@@ -1,0 +1,76 @@
+"""A second look at a finished bank, with the task's own semantics: every node, every edge."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hrcplan.bank.bank import Bank
+from hrcplan.bank.graph import PlanGraph
+from hrcplan.bank.rules import Ids, Rules, Words
+from hrcplan.bank.search import group_rows
+
+
+def fault(bank: Bank, goal: int) -> str | None:
+    """Return what is wrong with the graph of a goal, or None if nothing is.
+
+    Looked at: the root is the initial state; every edge is a step that can be done in its node
+    and leads to its target at a higher cost; nodes without edges are the goal states, and only
+    these; no node is out of reach.
+    """
+    graph, name = bank.graphs[goal], bank.names[goal]
+    if graph.goal != name:
+        return f"the graph of '{name}' says that it is of '{graph.goal}'"
+    if not graph.n_nodes:
+        return None
+    shape = _shape(graph, len(bank.table))
+    return (shape and f"'{name}': {shape}") or _meaning(bank, goal)
+
+
+def _shape(graph: PlanGraph, n_steps: int) -> str | None:
+    n, m = graph.n_nodes, graph.n_edges
+    if graph.first[0] != 0 or graph.first[-1] != m or (np.diff(graph.first) < 0).any():
+        return "edges are not where the nodes say"
+    if m and not (graph.targets.min() >= 0 and graph.targets.max() < n):
+        return "an edge leads to no node"
+    if m and not (graph.steps.min() >= 0 and graph.steps.max() < n_steps):
+        return "an edge is no step"
+    sources = np.repeat(np.arange(n), np.diff(graph.first))
+    if (graph.layer_of[graph.targets] <= graph.layer_of[sources]).any():
+        return "a step does not raise the cost"
+    if ((np.diff(graph.first) == 0) != graph.is_goal).any():
+        return "a dead end, or a goal that goes on"
+    if len(np.union1d(graph.targets, [0])) != n:
+        return "a node is out of reach"
+    return None
+
+
+def _meaning(bank: Bank, goal: int) -> str | None:
+    graph, name = bank.graphs[goal], bank.names[goal]
+    if (graph.packing.row(bank.initial) != graph.rows[0]).any():
+        return f"'{name}': the root is not the initial state"
+    used = [op for op in bank.table.ops if op.step in graph.used_steps]
+    rules = Rules(used, graph.packing)
+    if (rules.meets(graph.rows, bank.goals.tests[goal]) != graph.is_goal).any():
+        return f"'{name}': a goal node is no goal state, or the other way round"
+    wrong = _wrong_edges(graph, rules, len(bank.table))
+    return f"'{name}': {wrong} edges are not what the steps do" if wrong else None
+
+
+def _wrong_edges(graph: PlanGraph, rules: Rules, n_steps: int) -> int:
+    """Return how many edges are not among the changes that can be made to their nodes."""
+    steps = np.array([op.step for op in rules.ops], dtype=np.int64)
+    sources = np.repeat(np.arange(graph.n_nodes), np.diff(graph.first))
+    edges = _table(sources, graph.steps, graph.rows[graph.targets], n_steps)
+    found = [
+        _table(rows, steps[ops], after, n_steps) for rows, ops, after in rules.expand(graph.rows)
+    ]
+    possible = np.concatenate([edges[:0], *found])
+    _, which, _, _ = group_rows(np.concatenate([possible, edges]))
+    return int((~np.isin(which[len(possible) :], which[: len(possible)])).sum())
+
+
+def _table(sources: Ids, steps: NDArray[np.integer], after: Words, n_steps: int) -> Words:
+    """Return one row for each change: what it starts from, the step, and what comes of it."""
+    key = (sources * n_steps + steps).astype(np.uint64)
+    return np.concatenate([key[:, None], after], axis=1)

@@ -1,0 +1,296 @@
+"""The policy bank: one plan graph per goal, over shared steps."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from functools import cached_property
+
+import numpy as np
+
+from hrcplan.bank import walk
+from hrcplan.bank.construct import NO_LIMITS, bounded_graph, optimal_graph
+from hrcplan.bank.goals import Goals
+from hrcplan.bank.graph import PlanGraph
+from hrcplan.bank.relevance import fleeting, relevant
+from hrcplan.bank.search import MAX_MIB, Limits
+from hrcplan.bank.sources import read_goals
+from hrcplan.bank.steps import STEPS, Op, StepTable
+from hrcplan.errors import UsageError
+from hrcplan.plans import Plan, PlannedAction
+
+OPTIMAL = Fraction(1)
+MAX_VARIANTS = 8  # states that are looked up for one that is off the graph
+MAX_REROOTED = 4096  # graphs from other states that are remembered
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """How a bank is made.
+
+    ``quality`` above 1 takes all sequences up to that multiple of the optimal cost;
+    ``alternatives`` the plans up to that multiple of which no step can be dropped; ``sample``
+    that many plans listed by a planner. ``cost`` is ``steps`` or ``task``.
+    """
+
+    cost: str = STEPS
+    quality: Fraction = OPTIMAL
+    alternatives: Fraction | None = None
+    sample: int | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse what contradicts itself.
+
+        Raises:
+            UsageError: if more than one way of building is asked for, or a factor is below 1.
+        """
+        ways = [self.quality != OPTIMAL, self.alternatives is not None, self.sample is not None]
+        if sum(ways) > 1:
+            raise UsageError("--quality, --alternatives and --sample exclude each other")
+        if self.quality < 1 or (self.alternatives or OPTIMAL) < 1:
+            raise UsageError("a multiple of the optimal cost is at least 1")
+        if self.sample is not None and self.sample < 1:
+            raise UsageError("a sample has at least one plan")
+
+
+@dataclass(frozen=True, eq=False)
+class Bank:
+    """Plan graphs of goals, in order; ``graphs[g]`` belongs to goal ``g``.
+
+    ``table`` numbers the steps, alike for all goals. ``build_s`` is how long building took.
+    """
+
+    goals: Goals
+    table: StepTable
+    graphs: tuple[PlanGraph, ...]
+    recipe: Recipe = Recipe()
+    build_s: float = 0.0
+    _rerooted: dict[tuple[int, int], PlanGraph] = field(default_factory=dict, repr=False)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The goals' names, in order."""
+        return self.goals.names
+
+    @property
+    def agents(self) -> str:
+        """``dropped`` if plans are sequences of steps, ``kept`` if of ground actions."""
+        return self.table.agents
+
+    @property
+    def initial(self) -> int:
+        """The initial state that all goals share, as bits of the task."""
+        return self.goals.task.initial
+
+    def goal_index(self, name: str) -> int:
+        """Return the index of a goal.
+
+        Raises:
+            UsageError: if there is no such goal; the hint names the nearest.
+        """
+        from hrcplan.pddl.source import nearest
+
+        if name not in self.names:
+            hint = nearest(name, self.names) or f"goals: {', '.join(self.names[:40])}"
+            raise UsageError(f"the bank has no goal '{name}'", code="unknown-goal", hint=hint)
+        return self.names.index(name)
+
+    def reroot(self, goal: int, state: int, limits: Limits = NO_LIMITS) -> PlanGraph:
+        """Return the graph of all optimal plans of a goal from another state; it is remembered.
+
+        Raises:
+            LimitError: if time or memory runs out.
+        """
+        key = (goal, state & self._relevant[goal][1])
+        if key not in self._rerooted:
+            if len(self._rerooted) >= MAX_REROOTED:
+                self._rerooted.pop(next(iter(self._rerooted)))
+            self._rerooted[key] = optimal_graph(
+                self.table, self.goals.tests[goal], state, name=self.names[goal], limits=limits
+            )
+        return self._rerooted[key]
+
+    def locate(
+        self, goal: int, state: int, limits: Limits = NO_LIMITS
+    ) -> tuple[PlanGraph, int | None]:
+        """Return a graph of a goal and the node in it that a state is at, whatever led there.
+
+        It is the goal's own graph where that holds the state, else one that begins at the state.
+        The node is None if the goal can no longer be reached.
+
+        Raises:
+            LimitError: if time or memory runs out.
+        """
+        graph = self.graphs[goal]
+        node = graph.node_of(state)
+        if node is None and self._fleeting[goal] and not self.goals.is_reached(goal, state):
+            found = map(graph.node_of, _variants(state, self._fleeting[goal]))
+            node = next((n for n in found if n is not None and not graph.is_goal[n]), None)
+        if node is not None:
+            return graph, node
+        other = self.reroot(goal, state, limits)
+        return other, 0 if other.n_nodes else None
+
+    @cached_property
+    def _relevant(self) -> list[tuple[tuple[Op, ...], int]]:
+        """For each goal the steps and facts that matter to any plan of it, from any state."""
+        found = (relevant(self.table.ops, tests) for tests in self.goals.tests)
+        return [(ops, needed.facts) for ops, needed in found]
+
+    @cached_property
+    def _fleeting(self) -> list[int]:
+        return [fleeting(ops) & facts for ops, facts in self._relevant]
+
+    # Plans.
+
+    @cached_property
+    def _samplers(self) -> dict[int, walk.Sampler]:
+        return {}
+
+    def sampler(self, goal: int) -> walk.Sampler:
+        """Return what draws plans of a goal."""
+        if goal not in self._samplers:
+            self._samplers[goal] = walk.Sampler(self.graphs[goal])
+        return self._samplers[goal]
+
+    def sample(
+        self, goal: int, n: int, rng: np.random.Generator, keep: walk.PlanFilter | None = None
+    ) -> list[tuple[int, ...]]:
+        """Return ``n`` plans of a goal, drawn uniformly, as step ids.
+
+        Raises:
+            UsageError: if the goal has no plan.
+            LimitError: if a filter keeps hardly any plan.
+        """
+        if not self.graphs[goal].n_nodes:
+            raise UsageError(f"goal '{self.names[goal]}' has no plan", code="no-plan")
+        if keep is not None:
+            return self.sampler(goal).draw_kept(n, rng, keep)
+        rows = self.sampler(goal).draw(n, rng).tolist()
+        return [tuple(step for step in row if step >= 0) for row in rows]
+
+    def plans(self, goal: int, keep: walk.PlanFilter | None = None) -> Iterator[tuple[int, ...]]:
+        """Yield the plans of a goal as step ids, the cheapest first."""
+        return walk.plans(self.graphs[goal], keep)
+
+    def loop_free(self, steps: Sequence[int]) -> bool:
+        """Return whether a plan meets no state twice."""
+        states = [self.initial]
+        for step in steps:
+            after = self.table.successor(states[-1], step)
+            if after is None or after in states:
+                return False
+            states.append(after)
+        return True
+
+    def irredundant(self, goal: int) -> walk.PlanFilter:
+        """Return the filter of plans of a goal of which no single step can be dropped."""
+
+        def keep(steps: Sequence[int]) -> bool:
+            return not any(
+                self._reaches(goal, (*steps[:i], *steps[i + 1 :])) for i in range(len(steps))
+            )
+
+        return keep
+
+    def _reaches(self, goal: int, steps: Sequence[int]) -> bool:
+        state: int | None = self.initial
+        for step in steps:
+            state = None if state is None else self.table.successor(state, step)
+        return state is not None and self.goals.is_reached(goal, state)
+
+    def as_plan(self, steps: Sequence[int]) -> Plan:
+        """Return a plan with ground actions, where agents are dropped those of the cheapest agent.
+
+        Among equals it is the first in ground-action order.
+
+        Raises:
+            UsageError: if the steps cannot be done one after the other.
+        """
+        task, state = self.goals.task, self.initial
+        found: list[PlannedAction] = []
+        for step in steps:
+            can = [i for i in self.table[step].actions if task.is_applicable(state, i)]
+            if not can:
+                raise UsageError(f"{self.table[step]} cannot be done here")
+            action = min(can, key=lambda i: (task.costs[i], i))
+            found.append(PlannedAction(task.actions[action].name, task.actions[action].args))
+            state = task.successor(state, action)
+        return Plan(tuple(found))
+
+
+def _variants(state: int, facts: int) -> Iterator[int]:
+    """Yield a state with a few facts set in all possible ways."""
+    chosen = facts
+    for _ in range(MAX_VARIANTS):
+        yield state & ~facts | chosen
+        if not chosen:
+            return
+        chosen = (chosen - 1) & facts
+
+
+def build_bank(
+    domain: str, goals: str | None = None, recipe: Recipe = Recipe(), *,
+    only: Sequence[str] | None = None, mib: int = MAX_MIB, timeout_s: float = float("inf"),
+    report: Callable[[PlanGraph], None] | None = None,
+) -> Bank:  # fmt: skip
+    """Return the policy bank of the goals of a folder, or of a domain's shipped problems.
+
+    Args:
+        domain: A path or a shipped name.
+        goals: A folder of problem files, or one with ``template.pddl`` and ``hyps.dat``.
+        recipe: What goes into the graphs.
+        only: Names of goals, if not all are wanted.
+        mib: MiB of arrays that one graph may need.
+        timeout_s: Seconds for all graphs together.
+        report: Is called with every graph that is done.
+
+    Raises:
+        InputError: if a file is missing or has faults, or the goals are not in one world.
+        UnsupportedError: if bits cannot hold the task.
+        LimitError: if time or memory runs out.
+        UsageError: if ``only`` names no goal.
+    """
+    found = read_goals(domain, goals)
+    if only is not None:
+        found = found.only(only)
+    return build(found, recipe, mib=mib, timeout_s=timeout_s, report=report)
+
+
+def build(
+    goals: Goals, recipe: Recipe = Recipe(), *, mib: int = MAX_MIB,
+    timeout_s: float = float("inf"), report: Callable[[PlanGraph], None] | None = None,
+) -> Bank:  # fmt: skip
+    """Return the policy bank of goals that are in memory; see ``build_bank``."""
+    started_s = time.monotonic()
+    table = StepTable(goals.task, recipe.cost)
+    limits = Limits(mib, started_s + timeout_s)
+    bank = Bank(goals, table, (), recipe)
+    graphs: list[PlanGraph] = []
+    for goal in range(len(goals)):
+        graphs.append(_graph(bank, goal, limits))
+        if report is not None:
+            report(graphs[-1])
+    return replace(bank, graphs=tuple(graphs), build_s=time.monotonic() - started_s)
+
+
+def _graph(bank: Bank, goal: int, limits: Limits) -> PlanGraph:
+    recipe, name = bank.recipe, bank.names[goal]
+    tests = bank.goals.tests[goal]
+    if recipe.alternatives is not None:
+        from hrcplan.bank.alternatives import alternatives_graph
+
+        return alternatives_graph(
+            bank.table, tests, bank.initial, recipe.alternatives, name=name, limits=limits
+        )
+    if recipe.sample is not None:
+        from hrcplan.bank.enumerated import sampled_graph
+
+        return sampled_graph(bank.table, bank.goals, goal, recipe.sample, limits=limits)
+    if recipe.quality > 1:
+        return bounded_graph(
+            bank.table, tests, bank.initial, recipe.quality, name=name, limits=limits
+        )
+    return optimal_graph(bank.table, tests, bank.initial, name=name, limits=limits)

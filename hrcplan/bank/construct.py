@@ -1,0 +1,188 @@
+"""Plan graphs of a goal: all optimal plans, or all sequences up to a multiple of their cost."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hrcplan.bank.graph import PlanGraph
+from hrcplan.bank.landmarks import Landmark, landmarks
+from hrcplan.bank.relevance import read_by, relevant
+from hrcplan.bank.rules import WORD, Ids, Packing, Rules, Words, positions_of
+from hrcplan.bank.search import Explored, Explorer, Limits, group_rows
+from hrcplan.bank.steps import Op, StepTable
+from hrcplan.pddl.model import Number
+from hrcplan.task.conditions import Tests
+
+NO_LIMITS = Limits()
+
+
+def optimal_graph(
+    table: StepTable, goal: Tests, state: int, *, name: str = "goal",
+    limits: Limits = NO_LIMITS, blind: bool = False,
+) -> PlanGraph:  # fmt: skip
+    """Return the graph of all optimal plans from a state to a goal.
+
+    Args:
+        table: The steps.
+        goal: The goal's alternatives, over the facts of the table's task.
+        state: Where plans begin.
+        name: The goal's name.
+        limits: Time and memory.
+        blind: Search without landmarks: the slow way to the same graph, for tests.
+
+    Raises:
+        LimitError: if time or memory runs out.
+    """
+    return optimal_with_price(table, goal, state, name=name, limits=limits, blind=blind)[0]
+
+
+def optimal_with_price(
+    table: StepTable, goal: Tests, state: int, *, name: str = "goal",
+    limits: Limits = NO_LIMITS, blind: bool = False,
+) -> tuple[PlanGraph, int | None]:  # fmt: skip
+    """Return the graph of all optimal plans, and their price (None if there is none).
+
+    The first search looks only at steps of landmarks, within what these cost at least. If it
+    reaches the goal, this is the proof that it has all optimal plans: any other step would be
+    paid on top. Otherwise the bound rises until the goal is reached.
+    """
+    ops, needed = relevant(table.ops, goal)
+    packing = Packing(positions_of(needed.facts))
+    start = packing.row(state)
+    marks = landmarks(ops, state, goal)
+    if marks is None:
+        return empty_graph(name, packing), None
+    bound = sum(mark.cost for mark in marks)
+    found: Explored | None = None
+    if blind:
+        marks = ()
+    else:
+        useful, own = _useful(ops, marks)
+        search = Explorer(Rules(useful, packing), goal, own, bound, optimal=True, limits=limits,
+                          name=name)  # fmt: skip
+        found = search.run(start)
+    rules = Rules(ops, packing)
+    while found is None or found.cost is None:
+        search = Explorer(rules, goal, marks, bound, optimal=True, limits=limits, name=name)
+        found = search.run(start)
+        if found.cost is None:
+            if found.next_bound is None:
+                return empty_graph(name, packing), None
+            bound = max(found.next_bound, bound + min(op.cost for op in ops))
+    graph = assemble(table, found, packing, name)
+    return narrowed(graph, table, goal), found.cost
+
+
+def _useful(ops: Sequence[Op], marks: Sequence[Landmark]) -> tuple[list[Op], tuple[Landmark, ...]]:
+    """Return the ops that are in a landmark, and the landmarks over these alone."""
+    useful = sorted(frozenset[int]().union(*(mark.ops for mark in marks)))
+    place = {op: i for i, op in enumerate(useful)}
+    own = (Landmark(frozenset(place[op] for op in mark.ops), mark.cost) for mark in marks)
+    return [ops[i] for i in useful], tuple(own)
+
+
+def bounded_graph(
+    table: StepTable, goal: Tests, state: int, quality: Fraction, *, name: str = "goal",
+    limits: Limits = NO_LIMITS,
+) -> PlanGraph:  # fmt: skip
+    """Return the graph of all sequences up to ``quality`` times the optimal cost.
+
+    They end where they first reach the goal, whatever steps they hold. Nodes are whole states, at
+    one cost so far each.
+
+    Raises:
+        LimitError: if time or memory runs out.
+    """
+    _, price = optimal_with_price(table, goal, state, name=name, limits=limits)
+    packing = Packing(tuple(range(len(table.task.facts))))
+    marks = landmarks(table.ops, state, goal)
+    if price is None or marks is None:
+        return empty_graph(name, packing)
+    bound, max_ties = table.bound(price, quality)
+    rules = Rules(table.ops, packing)
+    search = Explorer(rules, goal, marks, bound, optimal=False, limits=limits, name=name,
+                      max_ties=max_ties)  # fmt: skip
+    return assemble(table, search.run(packing.row(state)), packing, name)
+
+
+def empty_graph(name: str, packing: Packing) -> PlanGraph:
+    """Return the graph of a goal that cannot be reached."""
+    rows = np.zeros((0, packing.n_words), dtype=np.uint64)
+    none = np.zeros(0, dtype=np.int32)
+    first = np.zeros(1, dtype=np.int64)
+    return PlanGraph(name, packing, rows, (), first, none, none, np.zeros(0, dtype=np.bool_))
+
+
+def assemble(table: StepTable, found: Explored, packing: Packing, name: str) -> PlanGraph:
+    """Return what an exploration found, without the states that lead to no goal."""
+    alive = found.is_goal.copy()
+    for sources, _, targets in reversed(found.edges):
+        alive[sources[alive[targets]]] = True
+    before = np.concatenate([[0], np.cumsum(alive)])
+    ids = before[:-1]
+    parts = [
+        (ids[sources[keep]], steps[keep], ids[targets[keep]])
+        for sources, steps, targets in found.edges
+        for keep in [alive[sources] & alive[targets]]
+    ]
+    layers = tuple((table.in_units(paid), int(before[first])) for paid, first in found.layers)
+    sources, steps, targets = (np.concatenate([part[i] for part in parts]) for i in range(3))
+    return PlanGraph(
+        name, packing, found.states[alive], _nonempty(layers, int(alive.sum())),
+        *_by_source(sources, steps, targets, int(alive.sum())), found.is_goal[alive],
+    )  # fmt: skip
+
+
+def _nonempty(
+    layers: tuple[tuple[Number, int], ...], n_nodes: int
+) -> tuple[tuple[Number, int], ...]:
+    ends = [first for _, first in layers[1:]] + [n_nodes]
+    return tuple(layer for layer, end in zip(layers, ends, strict=True) if layer[1] < end)
+
+
+def _by_source(
+    sources: Ids, steps: NDArray[np.int32], targets: Ids, n_nodes: int
+) -> tuple[Ids, NDArray[np.int32], NDArray[np.int32]]:
+    """Return edges in order of their source and step, each once, and where a source's begin."""
+    key = sources * (int(steps.max(initial=0)) + 1) + steps
+    if (np.diff(key) < 0).any():  # searches with one cost find them in order
+        order = np.argsort(key, kind="stable")
+        sources, steps, targets = sources[order], steps[order], targets[order]
+    once = np.ones(len(sources), dtype=np.bool_)
+    once[1:] = (sources[1:] != sources[:-1]) | (steps[1:] != steps[:-1])
+    first = np.searchsorted(sources[once], np.arange(n_nodes + 1))
+    return first, steps[once], targets[once].astype(np.int32)
+
+
+def narrowed(graph: PlanGraph, table: StepTable, goal: Tests) -> PlanGraph:
+    """Return a graph of optimal plans over fewer facts: what its steps and the goal look at.
+
+    States that agree on these and have paid the same go on alike, so they become one node.
+    """
+    used = (op for step in graph.used_steps for op in table.ways(step))
+    packing = Packing(positions_of(read_by(used, goal) & graph.relevant))
+    if packing.positions == graph.packing.positions or not graph.n_nodes:
+        return graph
+    rows = _selected(graph.rows, graph.packing, packing)
+    layered = np.concatenate([graph.layer_of[:, None].astype(np.uint64), rows], axis=1)
+    merged, which, order, starts = group_rows(layered)
+    sources = np.repeat(which, np.diff(graph.first))
+    first = np.searchsorted(merged[:, 0], np.arange(len(graph.layers)))
+    layers = tuple((cost, int(first[i])) for i, (cost, _) in enumerate(graph.layers))
+    return PlanGraph(
+        graph.goal, packing, merged[:, 1:].copy(), layers,
+        *_by_source(sources, graph.steps, which[graph.targets], len(merged)),
+        graph.is_goal[order[starts]],
+    )  # fmt: skip
+
+
+def _selected(rows: Words, old: Packing, new: Packing) -> Words:
+    bits = np.unpackbits(rows.view(np.uint8), axis=1, bitorder="little")
+    place = {position: i for i, position in enumerate(old.positions)}
+    chosen = np.zeros((len(rows), new.n_words * WORD), dtype=np.uint8)
+    chosen[:, : len(new.positions)] = bits[:, [place[position] for position in new.positions]]
+    return np.packbits(chosen, axis=1, bitorder="little").view(np.uint64)

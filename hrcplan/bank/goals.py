@@ -1,0 +1,142 @@
+"""Goals that share a world: problems with the same objects and initial state."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+
+from hrcplan.errors import InputError, UsageError
+from hrcplan.pddl.model import Formula, Problem, fact_text, number_text
+from hrcplan.pddl.source import Source, decode, nearest
+from hrcplan.task import Task
+from hrcplan.task.conditions import Test
+
+MAX_DIFFERENCES = 5  # named in one message
+
+
+@dataclass(frozen=True, slots=True)
+class SourceFile:
+    """A file that goals are read from: its path and its bytes."""
+
+    path: str
+    data: bytes
+
+    @classmethod
+    def read(cls, path: Path) -> SourceFile:
+        """Return a file's bytes.
+
+        Raises:
+            InputError: if it is missing or may not be read.
+        """
+        try:
+            return cls(str(path), path.read_bytes())
+        except OSError as error:
+            message = f"cannot read '{path}': {error.strerror or error}"
+            raise InputError(message, code="no-file", path=str(path)) from None
+
+    def source(self) -> Source:
+        """Return its text, to be read as PDDL."""
+        return decode(self.path, self.data)
+
+    @property
+    def sha256(self) -> str:
+        """The hash of its bytes, in hexadecimal."""
+        return hashlib.sha256(self.data).hexdigest()
+
+
+@dataclass(frozen=True)
+class Goals:
+    """Goals in order, all for one task.
+
+    ``problem`` is one of the problems; the others differ in name and goal only. ``files`` are the
+    domain's and then the rest, ``kind`` how they are to be read. ``aliases`` maps the name of an
+    action that the domain declares more than once to the names it was given.
+    """
+
+    problem: Problem
+    names: tuple[str, ...]
+    formulas: tuple[Formula, ...]
+    files: tuple[SourceFile, ...] = ()
+    kind: str = "problems"
+    aliases: Mapping[str, tuple[str, ...]] | None = None
+
+    def __len__(self) -> int:
+        return len(self.names)
+
+    @cached_property
+    def task(self) -> Task:
+        """The grounded task; its own goal is that of the first problem."""
+        return Task(self.problem)
+
+    @cached_property
+    def tests(self) -> tuple[tuple[Test, ...], ...]:
+        """For each goal its alternatives as ``(mask, value)`` over the facts of ``task``."""
+        return tuple(self.task.with_goal(formula).goal for formula in self.formulas)
+
+    def is_reached(self, goal: int, state: int) -> bool:
+        """Return whether a goal holds in a state of ``task``."""
+        return any(state & mask == value for mask, value in self.tests[goal])
+
+    def only(self, names: Sequence[str]) -> Goals:
+        """Return the goals of these names, in this order; the task stays the same.
+
+        Raises:
+            UsageError: if a name is not among the goals.
+        """
+        unknown = [name for name in names if name not in self.names]
+        if unknown:
+            raise UsageError(
+                f"there is no goal '{unknown[0]}'", hint=nearest(unknown[0], self.names)
+            )
+        chosen = tuple(self.formulas[self.names.index(name)] for name in names)
+        return replace(self, names=tuple(names), formulas=chosen)
+
+
+def from_problems(problems: Sequence[Problem], files: tuple[SourceFile, ...] = ()) -> Goals:
+    """Return the goals of problems that are alike in all but name and goal.
+
+    Raises:
+        InputError: if there are none, two have one name, or they differ in objects or init.
+    """
+    if not problems:
+        raise InputError("no goals", code="no-goals")
+    first = problems[0]
+    seen: dict[str, Problem] = {}
+    for problem in problems:
+        if problem.name in seen:
+            message = f"two goals are called '{problem.name}'"
+            hint = f"the other is {seen[problem.name].path}" if seen[problem.name].path else None
+            raise InputError(message, code="same-name", path=problem.path or None, hint=hint)
+        seen[problem.name] = problem
+        _check_alike(first, problem)
+    return Goals(first, tuple(seen), tuple(p.goal for p in problems), files)
+
+
+def _check_alike(first: Problem, other: Problem) -> None:
+    found = list(_differences(first, other))
+    if found:
+        shown = "; ".join(found[:MAX_DIFFERENCES])
+        more = f"; and {len(found) - MAX_DIFFERENCES} more" if len(found) > MAX_DIFFERENCES else ""
+        message = f"'{other.name}' is not in the same world as '{first.name}': {shown}{more}"
+        hint = "the goals of a bank share objects and init"
+        raise InputError(message, code="goals-differ", path=other.path or None, hint=hint)
+
+
+def _differences(first: Problem, other: Problem) -> Iterator[str]:
+    if first.domain.name != other.domain.name:
+        yield f"domain {other.domain.name} instead of {first.domain.name}"
+    mine, theirs = first.all_objects, other.all_objects
+    for name in sorted(mine.keys() | theirs.keys()):
+        here, there = theirs.get(name, "missing"), mine.get(name, "missing")
+        if here != there:
+            yield f"object {name} is {here}, there {there}"
+    for fact in sorted(first.facts ^ other.facts):
+        yield f"{fact_text(fact)} holds only in {(first if fact in first.facts else other).name}"
+    for key in sorted(first.values.keys() | other.values.keys()):
+        one, two = first.values.get(key), other.values.get(key)
+        if one != two:
+            texts = ("missing" if v is None else number_text(v) for v in (two, one))
+            yield f"{fact_text(key)} is {next(texts)}, there {next(texts)}"

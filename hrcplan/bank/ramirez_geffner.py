@@ -1,0 +1,154 @@
+"""Folders of the goal recognition benchmarks of Ramírez and Geffner (IJCAI 2009).
+
+``template.pddl`` is a problem with ``<HYPOTHESIS>`` for its goal, ``hyps.dat`` lists the goals, one
+a line, ``real_hyp.dat`` repeats the true one, ``obs.dat`` lists the observed actions. The files
+in circulation mix upper and lower case, end in blank lines, and declare actions more than once.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from hrcplan.bank.goals import Goals, SourceFile
+from hrcplan.errors import InputError, PddlError
+from hrcplan.pddl.check import domain_in, problem_in
+from hrcplan.pddl.generate import with_goal
+from hrcplan.pddl.model import TRUE, And, Formula, Problem
+from hrcplan.pddl.reader import Group, Word, read
+from hrcplan.pddl.source import Source, read_source
+
+KIND = "ramirez-geffner"
+TEMPLATE, HYPOTHESES = "template.pddl", "hyps.dat"
+OBSERVATIONS, TRUE_HYPOTHESIS, DOMAIN = "obs.dat", "real_hyp.dat", "domain.pddl"
+_PLACE = re.compile(r"<hypothesis>", re.IGNORECASE)
+_BETWEEN = re.compile(r"\)\s*,\s*")
+
+
+@dataclass(frozen=True)
+class Instance:
+    """A whole folder: goals, observed actions, and the index of the true goal.
+
+    Actions are ``(name, *objects)`` in lower case; there are none, and the true goal is None, where
+    the files are missing.
+    """
+
+    goals: Goals
+    observed: tuple[tuple[str, ...], ...]
+    true_goal: int | None
+
+
+def is_folder(path: Path) -> bool:
+    """Return whether a path is a folder of this kind."""
+    return (path / TEMPLATE).is_file() and (path / HYPOTHESES).is_file()
+
+
+def read_instance(folder: Path) -> Instance:
+    """Return all that a folder holds; its domain is ``domain.pddl`` beside the rest.
+
+    Raises:
+        InputError: if a file is missing or has faults, or the true goal is not among the goals.
+    """
+    if not is_folder(folder):
+        message = f"'{folder}' has no {TEMPLATE} and {HYPOTHESES}"
+        raise InputError(message, code="no-goals", path=str(folder))
+    goals = goals_of(*(SourceFile.read(folder / part) for part in (DOMAIN, TEMPLATE, HYPOTHESES)))
+    observed = folder / OBSERVATIONS
+    actions = read_actions(read_source(observed).text) if observed.is_file() else ()
+    return Instance(goals, actions, _true_goal(folder / TRUE_HYPOTHESIS, goals))
+
+
+def read_actions(text: str) -> tuple[tuple[str, ...], ...]:
+    r"""Return the actions of a text, one a line, as ``(name, *objects)`` in lower case.
+
+    >>> read_actions("(TAKE plate)\n\n(take bread)\n")
+    (('take', 'plate'), ('take', 'bread'))
+    """
+    lines = (
+        re.sub(r"[()]", " ", line.split(";", 1)[0]).lower().split() for line in text.splitlines()
+    )
+    return tuple(tuple(words) for words in lines if words)
+
+
+def goals_of(domain: SourceFile, template: SourceFile, hypotheses: SourceFile) -> Goals:
+    """Return the goals of a folder in the order of ``hyps.dat``; each is called like its line.
+
+    Raises:
+        PddlError: if domain or template has faults.
+        InputError: if a line of ``hyps.dat`` is no goal of the template.
+    """
+    source, aliases = _without_duplicates(domain.source())
+    frame = template.source()
+    if not _PLACE.search(frame.text):
+        raise InputError(f"no <HYPOTHESIS> in {TEMPLATE}", code="no-goals", path=frame.path)
+    text = _PLACE.sub(lambda found: " " * len(found[0]), frame.text)
+    base = problem_in(domain_in(source), Source(frame.path, text))
+    lines = list(_lines(hypotheses.source()))
+    if not lines:
+        raise InputError(f"{HYPOTHESES} lists no goal", code="no-goals", path=hypotheses.path)
+    formulas = tuple(_goal(base, line, hypotheses.path, number) for number, line in lines)
+    return Goals(replace(base, goal=formulas[0]), tuple(line for _, line in lines), formulas,
+                 (domain, template, hypotheses), KIND, aliases)  # fmt: skip
+
+
+def _lines(source: Source) -> Iterator[tuple[int, str]]:
+    for number, line in enumerate(source.text.splitlines(), start=1):
+        if line.strip():
+            yield number, line.strip()
+
+
+def _goal(base: Problem, line: str, path: str, number: int) -> Formula:
+    try:
+        goal = with_goal(base, f"(and {_BETWEEN.sub(') ', line).rstrip(',')})", "goal").goal
+    except PddlError as error:
+        raise InputError(error.message, code=error.code, path=path, line=number,
+                         hint=error.hint) from None  # fmt: skip
+    return goal if base.goal == TRUE else And((base.goal, goal))
+
+
+def _true_goal(path: Path, goals: Goals) -> int | None:
+    if not path.is_file():
+        return None
+    sets = [_parts(formula) for formula in goals.formulas]
+    common = frozenset.intersection(*sets)  # what the template asks for beside the hypothesis
+    world = replace(goals.problem, goal=TRUE)
+    for number, line in _lines(read_source(path)):
+        wanted = _parts(_goal(world, line, str(path), number))
+        for index, parts in enumerate(sets):
+            if parts == wanted | (parts & common):
+                return index
+    message = f"the true goal is not among those of {HYPOTHESES}"
+    raise InputError(message, code="no-goals", path=str(path))
+
+
+def _parts(formula: Formula) -> frozenset[Formula]:
+    if isinstance(formula, And):
+        return frozenset(leaf for part in formula.parts for leaf in _parts(part))
+    return frozenset([formula])
+
+
+def _without_duplicates(source: Source) -> tuple[Source, Mapping[str, tuple[str, ...]]]:
+    """Return a domain's text with actions of one name told apart, and the names each was given."""
+    root = read(Source(source.path, source.text))
+    places: dict[str, list[Word]] = {}
+    for node in root or ():
+        if isinstance(node, Group) and node.head == ":action" and len(node) > 1:
+            word = node[1]
+            if isinstance(word, Word):
+                places.setdefault(str(word).lower(), []).append(word)
+    taken, text = set(places), source.text
+    names: dict[str, list[str]] = {name: [name] for name, words in places.items() if len(words) > 1}
+    edits: list[tuple[int, str, str]] = []
+    for name, given in names.items():
+        for word in places[name][1:]:
+            count = len(given) + 1
+            while f"{name}-{count}" in taken:
+                count += 1
+            given.append(f"{name}-{count}")
+            taken.add(given[-1])
+            edits.append((word.at, name, given[-1]))
+    for at, name, new in sorted(edits, reverse=True):
+        text = text[:at] + new + text[at + len(name) :]
+    return Source(source.path, text), {name: tuple(given) for name, given in names.items()}

@@ -1,0 +1,303 @@
+"""Every sequence up to a cost, as layers of states: forward search over arrays, exact.
+
+Layers hold the states of one cost so far. A state is not followed if what it has paid and what it
+must still pay (landmarks that no sequence to it can do without) exceed the bound.
+"""
+
+from __future__ import annotations
+
+import heapq
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hrcplan.bank.landmarks import Landmark
+from hrcplan.bank.rules import WORD, Bools, Ids, Rules, Words
+from hrcplan.bank.steps import MAX_TIES, Op
+from hrcplan.errors import LimitError
+from hrcplan.task.conditions import Tests
+
+MAX_MIB = 2048
+SALT = np.uint64(0x9E3779B97F4A7C15)
+
+
+Edges = tuple[Ids, NDArray[np.int32], Ids]
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """What building may use: MiB of arrays, and the time (of ``time.monotonic``) to stop at."""
+
+    mib: int = MAX_MIB
+    deadline: float = float("inf")
+
+    def check(self, goal: str, n_bytes: int, n_nodes: int) -> None:
+        """Hold a search to its limits.
+
+        Raises:
+            LimitError: naming what to lower.
+        """
+        hint = "lower --quality or --alternatives, or build from enumerated plans with --sample N"
+        if n_bytes > self.mib << 20:
+            so_far = f"{n_nodes} states so far"
+            message = f"the plan graph of '{goal}' needs more than {self.mib} MiB ({so_far})"
+            raise LimitError(message, code="memory", hint=f"{hint}; or raise --memory")
+        if time.monotonic() > self.deadline:
+            message = f"no time left for the plan graph of '{goal}' ({n_nodes} states so far)"
+            raise LimitError(message, code="timeout", hint=f"{hint}; or raise --timeout")
+
+
+@dataclass(frozen=True)
+class Explored:
+    """Layered states and the steps between them; ids count states in order of cost so far.
+
+    ``layers`` are (cost so far, first id); ``edges`` are (sources, steps, targets), one entry for
+    each layer that they lead into; ``cost`` is that of the cheapest goal state, None if none was
+    met; ``next_bound`` the smallest bound that would have shown more, None if none would.
+    """
+
+    states: Words
+    layers: tuple[tuple[int, int], ...]
+    edges: tuple[Edges, ...]
+    is_goal: Bools
+    cost: int | None
+    next_bound: int | None
+
+
+@dataclass(slots=True)
+class _Pending:
+    """States of one cost that wait to be looked at, and the steps that led to them."""
+
+    states: list[Words] = field(default_factory=list)
+    met: list[Words] = field(default_factory=list)
+    sources: list[Ids] = field(default_factory=list)
+    steps: list[NDArray[np.int32]] = field(default_factory=list)
+
+
+class Explorer:
+    """One forward search.
+
+    Args:
+        rules: What can be done.
+        goal: The goal's alternatives.
+        marks: Landmarks over the ops of ``rules``; none makes the search blind.
+        bound: The largest cost of a sequence.
+        max_ties: The largest number of steps where zero-cost steps are counted below the cost.
+        optimal: Whether only cheapest sequences are wanted: a state is then followed from its
+            cheapest cost only, and the search ends with the layer that reaches the goal.
+        limits: Time and memory.
+        name: The goal's name, for messages.
+    """
+
+    def __init__(
+        self, rules: Rules, goal: Tests, marks: Sequence[Landmark], bound: int,
+        *, optimal: bool, limits: Limits, name: str, max_ties: int = MAX_TIES,
+    ) -> None:  # fmt: skip
+        self.max_ties = max_ties
+        self.rules, self.goal, self.bound, self.optimal = rules, goal, bound, optimal
+        self.limits, self.name = limits, name
+        self.bounds = Bound(rules.ops, marks)
+        self.costs = np.array([op.cost for op in rules.ops], dtype=np.int64)
+        self.prices = sorted({op.cost for op in rules.ops})
+        self.step_of = np.array([op.step for op in rules.ops], dtype=np.int32)
+        self.one_way = len({op.step for op in rules.ops}) == len(rules.ops)
+        self.pending: dict[int, _Pending] = {}
+        self.queue: list[int] = []
+        self.seen = _Seen()
+        self.next_bound: int | None = None
+        self.n_bytes = self.n_waiting = 0
+        self.kept: list[tuple[int, Words]] = []
+        self.edges: list[Edges] = []
+        self.goals: list[Bools] = []
+        self.n_nodes = 0
+
+    def run(self, start: Words) -> Explored:
+        """Return what a search from one state finds.
+
+        Raises:
+            LimitError: if time or memory runs out.
+        """
+        met = np.zeros((1, self.bounds.n_words), dtype=np.uint64)
+        self._push(0, start.reshape(1, -1), met, np.array([-1]), np.array([-1], dtype=np.int32))
+        cost: int | None = None
+        while self.queue:
+            paid = heapq.heappop(self.queue)
+            states, met, is_goal = self._take(paid)
+            if is_goal.any():
+                cost = paid if cost is None else cost
+                if self.optimal:
+                    break
+            first = self.n_nodes - len(states)
+            self._follow(paid, states[~is_goal], met[~is_goal], first + np.flatnonzero(~is_goal))
+        return self._result(cost)
+
+    def _take(self, paid: int) -> tuple[Words, Words, Bools]:
+        """Return the distinct states of a cost, what all ways to them met, and which are goals."""
+        pending = self.pending.pop(paid)
+        states, met = np.concatenate(pending.states), np.concatenate(pending.met)
+        sources, steps = np.concatenate(pending.sources), np.concatenate(pending.steps)
+        self.n_waiting -= _n_bytes(states, met, sources, steps)
+        distinct, which, order, starts = group_rows(states)
+        common = np.bitwise_and.reduceat(met[order], starts, axis=0)
+        totals = paid + self.bounds.of(common)
+        new = ~self.seen.contains(distinct) if self.optimal else np.ones(len(distinct), np.bool_)
+        keep = new & (totals <= self.bound)
+        self._note_pruned(totals[new & ~keep])
+        ids = np.where(keep, self.n_nodes + np.cumsum(keep) - 1, -1)
+        targets = ids[which]
+        real = (targets >= 0) & (sources >= 0)
+        edge = (sources[real], steps[real], targets[real])
+        states, common = distinct[keep], common[keep]
+        is_goal = self.rules.meets(states, self.goal)
+        self.kept.append((paid, states))
+        self.edges.append(edge)
+        self.goals.append(is_goal)
+        self.n_nodes += len(states)
+        self.n_bytes += _n_bytes(states, *edge)
+        if self.optimal:
+            self.seen.add(states)
+            self.n_bytes += states.nbytes + 8 * len(states)
+        return states, common, is_goal
+
+    def _note_pruned(self, totals: Ids) -> None:
+        if len(totals):
+            low = int(totals.min())
+            self.next_bound = low if self.next_bound is None else min(low, self.next_bound)
+
+    def _follow(self, paid: int, states: Words, met: Words, ids: Ids) -> None:
+        for rows, ops, after in self._changes(states):
+            now = met[rows] | self.bounds.marks_of[ops]
+            totals = paid + self.costs[ops] + self.bounds.of(now)
+            fits = totals <= self.bound
+            self._note_pruned(totals[~fits])
+            rows, ops, after, now = rows[fits], ops[fits], after[fits], now[fits]
+            for cost in self.prices:
+                if (paid + cost) & MAX_TIES > self.max_ties:
+                    continue
+                part = slice(None) if len(self.prices) == 1 else self.costs[ops] == cost
+                self._push(paid + cost, after[part], now[part], ids[rows[part]],
+                           self.step_of[ops[part]])  # fmt: skip
+            # Sorting the waiting states will take about as much again as they do, twice over.
+            self.limits.check(self.name, self.n_bytes + 3 * self.n_waiting, self.n_nodes)
+
+    def _changes(self, states: Words) -> Iterator[tuple[Ids, NDArray[np.int32], Words]]:
+        """Yield what can follow; where a step can be done in several ways, the cheapest."""
+        if self.one_way:
+            yield from self.rules.expand(states)
+            return
+        parts = list(self.rules.expand(states))
+        rows, ops, after = (np.concatenate([part[i] for part in parts]) for i in range(3))
+        order = np.lexsort((ops, self.costs[ops], self.step_of[ops], rows))
+        rows, ops, after = rows[order], ops[order], after[order]
+        first = np.ones(len(rows), dtype=np.bool_)
+        first[1:] = (rows[1:] != rows[:-1]) | (self.step_of[ops[1:]] != self.step_of[ops[:-1]])
+        yield rows[first], ops[first], after[first]
+
+    def _push(
+        self, paid: int, states: Words, met: Words, sources: Ids, steps: NDArray[np.int32]
+    ) -> None:
+        if not len(states):
+            return
+        if paid not in self.pending:
+            self.pending[paid] = _Pending()
+            heapq.heappush(self.queue, paid)
+        self.n_waiting += _n_bytes(states, met, sources, steps)
+        pending = self.pending[paid]
+        pending.states.append(states)
+        pending.met.append(met)
+        pending.sources.append(sources)
+        pending.steps.append(steps)
+
+    def _result(self, cost: int | None) -> Explored:
+        layers: list[tuple[int, int]] = []
+        first = 0
+        for paid, states in self.kept:
+            layers.append((paid, first))
+            first += len(states)
+        states = np.concatenate([states for _, states in self.kept])
+        is_goal = np.concatenate(self.goals)
+        return Explored(states, tuple(layers), tuple(self.edges), is_goal, cost, self.next_bound)
+
+
+class Bound:
+    """What is still to be paid at least, from the landmarks that were met."""
+
+    def __init__(self, ops: Sequence[Op], marks: Sequence[Landmark]) -> None:
+        self.costs = np.array([mark.cost for mark in marks], dtype=np.int64)
+        self.n_words = max(1, -(-len(marks) // WORD))
+        self.marks_of = np.zeros((len(ops), self.n_words), dtype=np.uint64)
+        for i, mark in enumerate(marks):
+            for op in mark.ops:
+                self.marks_of[op, i // WORD] |= np.uint64(1 << i % WORD)
+
+    def of(self, met: Words) -> Ids:
+        """Return the cost of the landmarks that are not met yet, row by row."""
+        if not len(self.costs):
+            return np.zeros(len(met), dtype=np.int64)
+        if (self.costs == self.costs[0]).all():
+            n_met = np.bitwise_count(met).sum(axis=1, dtype=np.int64)
+            return np.asarray(self.costs[0] * (len(self.costs) - n_met))
+        bits = np.unpackbits(met.view(np.uint8), axis=1, bitorder="little", count=len(self.costs))
+        return np.asarray(self.costs.sum() - bits.astype(np.int64) @ self.costs)
+
+
+class _Seen:
+    """States met so far, as few tables of distinct sizes, each sorted by a hash."""
+
+    def __init__(self) -> None:
+        self._tables: list[tuple[NDArray[np.uint64], Words]] = []
+
+    def add(self, states: Words) -> None:
+        """Take in states, all of them new."""
+        hashes = _hash(states)
+        while self._tables and len(self._tables[-1][0]) <= 2 * len(hashes):
+            more, rows = self._tables.pop()
+            hashes, states = np.concatenate([more, hashes]), np.concatenate([rows, states])
+        order = np.argsort(hashes)
+        self._tables.append((hashes[order], states[order]))
+
+    def contains(self, states: Words) -> Bools:
+        """Return for each row whether it was taken in."""
+        hashes = _hash(states)
+        found = np.zeros(len(states), dtype=np.bool_)
+        for table, rows in self._tables:
+            place = np.searchsorted(table, hashes)
+            open_ = np.flatnonzero(place < len(table))
+            while len(open_):  # goes on only where different states share a hash
+                open_ = open_[table[place[open_]] == hashes[open_]]
+                same = (rows[place[open_]] == states[open_]).all(axis=1)
+                found[open_[same]] = True
+                open_ = open_[~same]
+                place[open_] += 1
+                open_ = open_[place[open_] < len(table)]
+        return found
+
+
+def _hash(rows: Words) -> NDArray[np.uint64]:
+    found = rows[:, 0].copy()
+    for word in range(1, rows.shape[1]):
+        found = (found ^ (found >> np.uint64(29))) * SALT + rows[:, word]
+    return found
+
+
+def _n_bytes(*arrays: NDArray[np.generic]) -> int:
+    return sum(array.nbytes for array in arrays)
+
+
+def group_rows(rows: Words) -> tuple[Words, Ids, Ids, Ids]:
+    """Return the distinct rows, sorted, and how to get from all rows to them.
+
+    That is: for each row the index of its equal; the order that brings equal rows together; and
+    where each group begins in that order.
+    """
+    single = rows.shape[1] == 1
+    order = np.argsort(rows[:, 0]) if single else np.lexsort(rows.T[::-1])
+    ordered = rows[order]
+    first = np.ones(len(rows), dtype=np.bool_)
+    first[1:] = (ordered[1:] != ordered[:-1]).any(axis=1)
+    which = np.empty(len(rows), dtype=np.int64)
+    which[order] = np.cumsum(first) - 1
+    return ordered[first], which, order, np.flatnonzero(first)

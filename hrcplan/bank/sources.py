@@ -1,0 +1,78 @@
+"""Where goals are read from: folders of problem files, goal recognition folders, stored texts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from hrcplan.bank import ramirez_geffner
+from hrcplan.bank.goals import Goals, SourceFile, from_problems
+from hrcplan.errors import InputError
+from hrcplan.pddl import library
+from hrcplan.pddl.check import domain_in, problem_in
+from hrcplan.pddl.reader import Group, read
+
+
+def read_goals(domain: str, goals: str | None = None) -> Goals:
+    """Return the goals of a folder, or of a domain's shipped problems.
+
+    Problem files stand in the order of their names; a folder may also be one of Ramírez and
+    Geffner's, with ``template.pddl`` and ``hyps.dat``.
+
+    Args:
+        domain: A path or a shipped name.
+        goals: A folder, or None.
+
+    Raises:
+        PddlError: with every fault of the first file that has any.
+        InputError: if a file is missing, there is no problem, two goals have one name, or objects
+            or initial states differ; the message names the differences.
+    """
+    first = SourceFile.read(library.find_domain(domain))
+    folder = None if goals is None else Path(goals)
+    if folder is not None and ramirez_geffner.is_folder(folder):
+        parts = (ramirez_geffner.TEMPLATE, ramirez_geffner.HYPOTHESES)
+        files = (SourceFile.read(folder / part) for part in parts)
+        return goals_in((first, *files), ramirez_geffner.KIND)
+    return goals_in((first, *_problem_files(domain, first, folder)))
+
+
+def goals_in(files: tuple[SourceFile, ...], kind: str = "problems") -> Goals:
+    """Return the goals that files hold: a domain, then problems, or a template and its goals."""
+    if kind == ramirez_geffner.KIND:
+        return ramirez_geffner.goals_of(*files)
+    domain = domain_in(files[0].source())
+    return from_problems([problem_in(domain, file.source()) for file in files[1:]], files)
+
+
+def _problem_files(domain: str, first: SourceFile, folder: Path | None) -> Iterator[SourceFile]:
+    if folder is None:
+        yield from _shipped(domain)
+        return
+    if not folder.is_dir():
+        hint = "GOALS is a folder of problem files, or one with template.pddl and hyps.dat"
+        raise InputError(
+            f"there is no folder '{folder}'", code="no-folder", path=str(folder), hint=hint
+        )
+    files = [SourceFile.read(p) for p in sorted(folder.glob("*.pddl")) if p.is_file()]
+    found = [file for file in files if not _is_domain(file)]
+    if not found:
+        hint = "it needs problem files, or template.pddl and hyps.dat"
+        raise InputError(f"no problem in '{folder}'", code="no-goals", path=str(folder), hint=hint)
+    yield from found
+
+
+def _shipped(domain: str) -> Iterator[SourceFile]:
+    name = Path(domain).stem
+    names = library.problem_names(name)
+    if not names:
+        message = f"no problems are shipped for domain '{name}'"
+        raise InputError(message, code="no-goals", hint="name a folder of problem files")
+    for problem in names:
+        yield SourceFile.read(library.find_problem(name, problem))
+
+
+def _is_domain(file: SourceFile) -> bool:
+    root = read(file.source())
+    heading = root[1] if root is not None and len(root) > 1 else None
+    return isinstance(heading, Group) and heading.head == "domain"

@@ -1,0 +1,270 @@
+"""Plans out of a graph: in order of cost, at random, and whether steps fit any of them."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from itertools import islice
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hrcplan.bank.graph import PlanGraph
+from hrcplan.bank.rules import Bools, Ids
+from hrcplan.errors import LimitError
+
+MAX_MULTISETS = 10_000
+MAX_OBSERVED = 20  # steps that the subset test can look at where there are too many multisets
+MAX_WORK = 2_000_000  # steps of a search before its answer is "unknown"
+MAX_TRIES = 1_000  # samples thrown away for each one that is kept
+
+CHUNK = 8192  # plans that are drawn together: their arrays stay in the processor's cache
+ABOVE_ALL = 2.0  # no random number is
+
+PlanFilter = Callable[[Sequence[int]], bool]
+"""Says of a plan, as step ids, whether it is wanted."""
+
+
+def plans(graph: PlanGraph, keep: PlanFilter | None = None) -> Iterator[tuple[int, ...]]:
+    """Yield plans, the cheapest first, those of one cost in order of their step ids.
+
+    Args:
+        graph: The graph.
+        keep: Which plans are wanted; all by default.
+    """
+    for layer in graph.final_layers:
+        alive = _reaching(graph, layer)
+        for plan in _depth_first(graph, alive):
+            if keep is None or keep(plan):
+                yield plan
+
+
+def _reaching(graph: PlanGraph, layer: int) -> Bools:
+    """Return which nodes lead to a goal node of a layer."""
+    alive: Bools = graph.is_goal & (graph.layer_of == layer)
+    for edges, sources in reversed(list(graph.edges_by_layer())):
+        np.logical_or.at(alive, sources, alive[graph.targets[edges]])
+    return alive
+
+
+def _depth_first(graph: PlanGraph, alive: Bools) -> Iterator[tuple[int, ...]]:
+    path: list[int] = []
+    stack = [iter([(-1, 0)])]
+    while stack:
+        step, node = next(stack[-1], (-1, -1))
+        if node < 0:
+            stack.pop()
+            if path:
+                path.pop()
+            continue
+        if step >= 0:
+            path.append(step)
+        if graph.is_goal[node]:
+            yield tuple(path)
+        stack.append(iter([(s, n) for s, n in graph.next(node).items() if alive[n]]))
+
+
+class Sampler:
+    """Draws plans uniformly, many at a time, without listing any.
+
+    >>> from hrcplan.bank import build_bank
+    >>> import numpy as np
+    >>> bank = build_bank("kitchen", only=["parfait-nut"])
+    >>> Sampler(bank.graphs[0]).draw(3, np.random.default_rng(1)).shape
+    (3, 17)
+    """
+
+    def __init__(self, graph: PlanGraph) -> None:
+        self.graph = graph
+        degrees = np.diff(graph.first)
+        sources = np.repeat(np.arange(graph.n_nodes), degrees)
+        counts = graph.to_go.astype(np.float64)
+        total = np.cumsum(counts[graph.targets] / counts[sources])
+        before = np.concatenate([[0.0], total])[graph.first[:-1]]
+        self._last = graph.first[1:] - 1
+        # An edge is passed over if the random number is not below its share and those before it.
+        self._shares = total - before[sources]
+        self._shares[self._last[degrees > 0]] = ABOVE_ALL
+        widest = int(degrees.max(initial=1))
+        self._strides = [1 << i for i in reversed(range((widest - 1).bit_length()))]
+
+    def draw(self, n: int, rng: np.random.Generator) -> NDArray[np.int32]:
+        """Return ``n`` plans as rows of step ids, shorter ones filled up with -1.
+
+        Every plan has the same chance, up to the rounding of floats (about 1e-12).
+        """
+        parts = [self._draw(min(CHUNK, n - done), rng) for done in range(0, n, CHUNK)]
+        width = max((part.shape[1] for part in parts), default=0)
+        found = np.full((n, width), -1, dtype=np.int32)
+        for i, part in enumerate(parts):
+            found[i * CHUNK : i * CHUNK + len(part), : part.shape[1]] = part
+        return found
+
+    def _draw(self, n: int, rng: np.random.Generator) -> NDArray[np.int32]:
+        graph = self.graph
+        nodes = np.zeros(n, dtype=np.int32)
+        columns: list[NDArray[np.int32]] = []
+        done = graph.is_goal[nodes]
+        while not done.all():
+            edges = self._choose(nodes, rng.random(n))
+            if done.any():
+                edges[done] = 0
+                columns.append(np.where(done, np.int32(-1), graph.steps[edges]))
+                nodes = np.where(done, nodes, graph.targets[edges])
+            else:
+                columns.append(graph.steps[edges])
+                nodes = graph.targets[edges]
+            done = graph.is_goal[nodes]
+        return np.stack(columns, axis=1) if columns else np.zeros((n, 0), dtype=np.int32)
+
+    def _choose(self, nodes: NDArray[np.integer], chance: NDArray[np.float64]) -> Ids:
+        """Return an edge for each node, by halving the range of its edges."""
+        edges: Ids = self.graph.first[nodes]
+        last = self._last[nodes]
+        for stride in self._strides:
+            ahead = np.minimum(edges + (stride - 1), last)
+            edges = edges + stride * (self._shares[ahead] <= chance)
+        return edges
+
+    def draw_kept(
+        self, n: int, rng: np.random.Generator, keep: PlanFilter
+    ) -> list[tuple[int, ...]]:
+        """Return ``n`` plans drawn uniformly from those that a filter keeps.
+
+        Raises:
+            LimitError: if fewer than one in ``MAX_TRIES`` is kept.
+        """
+        found: list[tuple[int, ...]] = []
+        tries = 0
+        while len(found) < n:
+            for row in self.draw(max(16, n), rng).tolist():
+                plan = tuple(step for step in row if step >= 0)
+                tries += 1
+                if len(found) < n and keep(plan):
+                    found.append(plan)
+            if tries > MAX_TRIES * (len(found) + 1):
+                message = f"hardly any plan of '{self.graph.goal}' passes the filter"
+                raise LimitError(message, hint="lower --quality, or build with --alternatives")
+        return found
+
+
+def is_prefix(graph: PlanGraph, observed: Sequence[int]) -> bool:
+    """Return whether some plan begins with these steps."""
+    return graph.after(observed) is not None
+
+
+def is_subsequence(graph: PlanGraph, observed: Sequence[int]) -> bool:
+    """Return whether some plan holds these steps in this order, with others between them."""
+    if not graph.n_nodes:
+        return False
+    wanted = np.array([*observed, -1], dtype=np.int32)
+    matched = np.full(graph.n_nodes, -1, dtype=np.int64)
+    matched[0] = 0
+    for edges, sources in graph.edges_by_layer():
+        done = matched[sources]
+        np.maximum.at(matched, graph.targets[edges], done + (graph.steps[edges] == wanted[done]))
+    return bool(matched[graph.is_goal].max() == len(observed))
+
+
+def is_subset(graph: PlanGraph, observed: Sequence[int]) -> bool | None:
+    """Return whether some plan holds these steps in any order, as often as they stand here.
+
+    None means unknown: there are more than ``MAX_MULTISETS`` kinds of plans, and either more than
+    ``MAX_OBSERVED`` steps or too much to look at.
+    """
+    seen = Counter(observed)
+    if not seen.keys() <= graph.used_steps:
+        return not seen
+    kinds = step_multisets(graph)
+    if kinds is not None:
+        return any(seen <= Counter(dict(kind)) for kind in kinds)
+    return _has_subset(graph, seen) if len(observed) <= MAX_OBSERVED else None
+
+
+Multiset = frozenset[tuple[int, int]]
+
+
+def step_multisets(graph: PlanGraph) -> frozenset[Multiset] | None:
+    """Return the distinct multisets of steps of plans, as (step, times) pairs.
+
+    None means that there are more than ``MAX_MULTISETS``.
+    """
+    if "_multisets" not in graph.__dict__:
+        graph.__dict__["_multisets"] = _one_multiset(graph) or _all_multisets(graph)
+    found: frozenset[Multiset] | None = graph.__dict__["_multisets"]
+    return found
+
+
+def _one_multiset(graph: PlanGraph) -> frozenset[Multiset] | None:
+    """Return the multisets where all ways to a node hold the same steps; None if they do not."""
+    used = sorted(graph.used_steps)
+    if not graph.n_nodes or graph.n_nodes * len(used) > MAX_WORK * 100:
+        return None
+    column = np.full(max(used, default=0) + 1, 0, dtype=np.int64)
+    column[used] = np.arange(len(used))
+    times = np.zeros((graph.n_nodes, len(used)), dtype=np.uint8)
+    for edges, sources in graph.edges_by_layer():
+        after = times[sources]
+        after[np.arange(len(sources)), column[graph.steps[edges]]] += 1
+        times[graph.targets[edges]] = after
+        if (times[graph.targets[edges]] != after).any():
+            return None
+    sources = np.repeat(np.arange(graph.n_nodes), np.diff(graph.first))
+    gained = times[graph.targets].astype(np.int16) - times[sources]
+    if (gained.sum(axis=1) != 1).any():
+        return None
+    ends = np.unique(times[graph.is_goal], axis=0)
+    return frozenset(
+        frozenset((step, int(n)) for step, n in zip(used, row, strict=True) if n) for row in ends
+    )
+
+
+def _all_multisets(graph: PlanGraph) -> frozenset[Multiset] | None:
+    """Return the multisets by collecting them from the goal backwards, up to the limit."""
+    behind: list[frozenset[tuple[int, ...]]] = [frozenset()] * graph.n_nodes
+    work = 0
+    for node in reversed(range(graph.n_nodes)):
+        if graph.is_goal[node]:
+            behind[node] = frozenset([()])
+            continue
+        behind[node] = frozenset(
+            tuple(sorted((step, *rest)))
+            for step, target in graph.next(node).items()
+            for rest in behind[target]
+        )
+        work += len(behind[node])
+        if len(behind[node]) > MAX_MULTISETS or work > MAX_WORK:
+            return None
+    ends = behind[0] if graph.n_nodes else frozenset[tuple[int, ...]]()
+    return frozenset(frozenset(Counter(steps).items()) for steps in ends)
+
+
+def _has_subset(graph: PlanGraph, seen: Counter[int]) -> bool | None:
+    """Return whether one plan holds all of ``seen``: which of them a way has met, as bits."""
+    places: dict[int, list[int]] = {}
+    for position, step in enumerate(seen.elements()):
+        places.setdefault(step, []).append(1 << position)
+    everything = (1 << seen.total()) - 1
+    met: list[set[int]] = [set() for _ in range(graph.n_nodes)]
+    met[0].add(0)
+    work = 0
+    for node in range(graph.n_nodes):
+        if graph.is_goal[node] and everything in met[node]:
+            return True
+        for step, target in graph.next(node).items():
+            met[target].update(_meet(mask, places.get(step, ())) for mask in met[node])
+        work += len(met[node])
+        met[node] = set()
+        if work > MAX_WORK:
+            return None
+    return False
+
+
+def _meet(mask: int, places: Sequence[int]) -> int:
+    """Return the mask with the first free place of a step taken."""
+    return next((mask | place for place in places if not mask & place), mask)
+
+
+def first_plans(graph: PlanGraph, n: int) -> list[tuple[int, ...]]:
+    """Return up to ``n`` plans, the cheapest first."""
+    return list(islice(plans(graph), n))
