@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from pathlib import Path
 
@@ -65,7 +66,7 @@ def command(
     from hrcplan.pddl.generate import with_goal
     from hrcplan.pddl.write import problem_text
 
-    if not name or any(c.isspace() or c in "();" for c in name):
+    if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_-]*", name):
         raise UsageError(f"'{name}' cannot be a problem's name", hint="letters, digits, - and _")
     if vary == (goal is not None):
         raise UsageError("either --goal or --vary is needed", hint="--goal '(and …)'")

@@ -76,7 +76,6 @@ class Exact:
             metric="cost+time",
             proves=True,
             limits=True,
-            adl=False,
         )
         self._kept: _Kept | None = None
 
