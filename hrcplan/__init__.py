@@ -17,13 +17,15 @@ __version__ = "0.1.0"
 
 if TYPE_CHECKING:
     from hrcplan.facade import load, plan, validate
+    from hrcplan.inference import infer
     from hrcplan.planners.lowering import lower
     from hrcplan.task import Task
 
-__all__ = ["Task", "load", "lower", "plan", "validate"]
+__all__ = ["Task", "infer", "load", "lower", "plan", "validate"]
 _HOMES = {
     "Task": "hrcplan.task",
     "load": "hrcplan.facade",
+    "infer": "hrcplan.inference",
     "lower": "hrcplan.planners.lowering",
     "plan": "hrcplan.facade",
     "validate": "hrcplan.facade",
