@@ -1,13 +1,13 @@
 """How far goals are from states, estimated: relaxed plans (Hoffmann and Nebel, JAIR 2001).
 
 What makes a literal true cheapest, if nothing true ever becomes false, does not depend on the
-goal. So one pass over many states at once serves all goals, and the steps that a goal needs are a
-union of bits.
+goal. So one pass over many states serves all goals, and what a goal needs is a union of bits.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,167 +16,179 @@ from hrcplan.bank.rules import positions_of
 from hrcplan.bank.steps import Op
 from hrcplan.task.conditions import Test
 
-FloatArray = NDArray[np.float64]
-
 INFINITE = float("inf")
+HOLDS, NEVER = -1, -2
+
+Floats = NDArray[np.float64]
+Ids = NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True)
+class _Rule:
+    """One thing that an op can do: literals before (as a test), and literals after.
+
+    Literal ``2 i`` says that fact i is true, ``2 i + 1`` that it is false.
+    """
+
+    op: int
+    needs: Test
+    gives: tuple[int, ...]
 
 
 class Relaxation:
-    """A task without deletes, for many states and goals.
+    """The ops without what they make false, for many states and goals at once.
 
     Args:
         ops: What can be done.
-        costs: What each costs; not negative.
-        goals: The alternatives of each goal, as ``(mask, value)``.
+        goals: The alternatives of each goal.
     """
 
-    def __init__(
-        self, ops: Sequence[Op], costs: Sequence[float], goals: Sequence[Sequence[Test]]
-    ) -> None:
+    def __init__(self, ops: Sequence[Op], goals: Sequence[Sequence[Test]]) -> None:
+        self._prices = [op.cost for op in ops]
+        self._is_unit = set(self._prices) <= {1}
         self._ids: dict[int, int] = {}
-        self._goals = [[self._needs(test) for test in tests] for tests in goals]
-        rules = list(self._relax(ops))
-        useful = self._useful(rules)
-        rules = [rules[i] for i in useful]
-        self.costs = list(costs)
-        least = min((cost for cost in costs if cost > 0), default=1.0)
-        # What costs nothing costs a little here: a literal must not support itself.
-        self._rule_costs = np.array([costs[op] or least * 1e-3 for op, _, _ in rules])[:, None]
+        self._goals = [[self._number(test) for test in tests] for tests in goals]
+        rules = self._that_matter(list(_rules(ops)))
+        self._op_bits = [1 << rule.op for rule in rules]
+        self._needs = [self._number(rule.needs) for rule in rules]
         self._lay_out(rules)
-        self._rules = rules
 
-    def _literal(self, literal: int) -> int:
-        return self._ids.setdefault(literal, len(self._ids))
+    def _number(self, test: Test) -> tuple[int, ...]:
+        """Return the numbers of the literals of a test, new ones where there are none yet."""
+        return tuple(self._ids.setdefault(x, len(self._ids)) for x in _literals(test))
 
-    def _needs(self, test: Test) -> tuple[int, ...]:
-        mask, value = test
-        return tuple(self._literal(2 * i + (not value >> i & 1)) for i in positions_of(mask))
-
-    def _relax(self, ops: Sequence[Op]):
-        for index, op in enumerate(ops):
-            for test in op.tests:
-                for change in op.changes:
-                    for given in change.tests:
-                        mask, value = test[0] | given[0], test[1] | given[1]
-                        gives = [2 * i for i in positions_of(change.adds)]
-                        gives += [2 * i + 1 for i in positions_of(change.deletes)]
-                        yield index, (mask, value), gives
-
-    def _useful(self, rules):
-        """Number the literals that matter, backwards from the goals; return the rules that do."""
-        chosen: dict[int, None] = {}
+    def _that_matter(self, rules: list[_Rule]) -> list[_Rule]:
+        """Return the rules that can help with a goal; number the literals that they need."""
         makers: dict[int, list[int]] = {}
-        for i, (_, _, gives) in enumerate(rules):
-            for literal in gives:
+        for i, rule in enumerate(rules):
+            for literal in rule.gives:
                 makers.setdefault(literal, []).append(i)
-        waiting = list(self._ids)
-        seen = set(waiting)
+        chosen: set[int] = set()
+        waiting, seen = list(self._ids), set(self._ids)
         while waiting:
             for i in makers.get(waiting.pop(), ()):
-                if i in chosen:
-                    continue
-                chosen[i] = None
-                mask, value = rules[i][1]
-                for p in positions_of(mask):
-                    literal = 2 * p + (not value >> p & 1)
-                    if literal not in seen:
-                        seen.add(literal)
-                        waiting.append(literal)
-                        self._literal(literal)
-        return sorted(chosen)
+                if i not in chosen:
+                    chosen.add(i)
+                    new = [x for x in _literals(rules[i].needs) if x not in seen]
+                    seen.update(new)
+                    waiting += new
+                    self._number(rules[i].needs)
+        return [rules[i] for i in sorted(chosen)]
 
-    def _lay_out(self, rules) -> None:
-        nothing = len(self._ids)  # a literal that always holds fills the table up
-        needs = [[self._ids[2 * p + (not value >> p & 1)] for p in positions_of(mask)]
-                 for _, (mask, value), _ in rules]
-        width = max(map(len, needs), default=1) or 1
-        self._table = np.array([n + [nothing] * (width - len(n)) for n in needs],
-                               dtype=np.int32).reshape(-1, width)
-        self._needs_of = needs
-        entries = sorted((self._ids[g], i) for i, (_, _, gives) in enumerate(rules)
-                         for g in gives if g in self._ids)
-        lits = np.array([e[0] for e in entries], dtype=np.int32)
-        self._entry_rule = np.array([e[1] for e in entries], dtype=np.int32)
-        self._made, self._starts = np.unique(lits, return_index=True) if entries else (
-            np.zeros(0, np.int32), np.zeros(0, np.int64))
-        self._segment = np.repeat(np.arange(len(self._made)), np.diff([*self._starts, len(entries)]))
-        order = sorted(self._ids, key=self._ids.__getitem__)
-        self._fact = np.array([l >> 1 for l in order], dtype=np.int64)
-        self._sign = np.array([not l & 1 for l in order], dtype=np.bool_)
+    def _lay_out(self, rules: Sequence[_Rule]) -> None:
+        """Lay needs and makers out in tables for numpy."""
+        n = len(self._ids)  # the literal behind the last one always holds: it fills the table
+        width = max((len(needs) for needs in self._needs), default=0) or 1
+        rows = [[*needs, *[n] * (width - len(needs))] for needs in self._needs]
+        self._table = np.array(rows, dtype=np.int64).reshape(-1, width)
+        # What costs nothing costs a little here: a literal must not support itself.
+        prices = [self._prices[rule.op] or 1e-3 for rule in rules]
+        self._rule_prices = np.array(prices, dtype=np.float64).reshape(-1, 1)
+        made = sorted((self._ids[x], i) for i, rule in enumerate(rules)
+                      for x in rule.gives if x in self._ids)  # fmt: skip
+        literals = np.array([literal for literal, _ in made], dtype=np.int64)
+        self._makers = np.array([i for _, i in made], dtype=np.int64)
+        self._made, self._first = np.unique(literals, return_index=True)
+        self._segment = np.repeat(
+            np.arange(len(self._made)), np.diff([*self._first.tolist(), len(made)])
+        )
+        order = np.array(list(self._ids), dtype=np.int64)
+        self._fact, self._is_true = order >> 1, order & 1 == 0
         self._n_bytes = -(-(int(self._fact.max(initial=0)) + 1) // 8)
-        self._bits = [1 << op for op, _, _ in rules]
 
-    def _holds(self, states: Sequence[int]):
+    def costs(self, states: Sequence[int]) -> list[list[float | None]]:
+        """Return for each state and goal the cost of a relaxed plan; None if there is none."""
+        supporters = self._supporters(states).T.tolist()
+        return [self._costs(supporter) for supporter in supporters]
+
+    def _holding(self, states: Sequence[int]) -> NDArray[np.bool_]:
         size = self._n_bytes
         cut = (1 << 8 * size) - 1
-        raw = b"".join((s & cut).to_bytes(size, "little") for s in states)
-        bits = np.unpackbits(np.frombuffer(raw, np.uint8).reshape(-1, size), axis=1, bitorder="little")
-        return (bits[:, self._fact] == self._sign).T
+        raw = b"".join((state & cut).to_bytes(size, "little") for state in states)
+        rows = np.frombuffer(raw, np.uint8).reshape(-1, size)
+        bits = np.unpackbits(rows, axis=1, bitorder="little")
+        found: NDArray[np.bool_] = (bits[:, self._fact] == self._is_true).T
+        return found
 
-    def supporters(self, states: Sequence[int]):
-        """Return the cheapest rule for each literal in each state: -1 holds, -2 out of reach."""
-        holds = self._holds(states)
+    def _supporters(self, states: Sequence[int]) -> Ids:
+        """Return for each literal and state the rule that makes it true cheapest (h-add)."""
+        holds = self._holding(states)
         n = len(self._ids)
+        found = np.where(holds, HOLDS, NEVER)
+        if not len(self._made):
+            return found
         values = np.full((n + 1, len(states)), INFINITE)
-        values[:n][holds] = 0
-        values[n] = 0
-        old = None
+        values[:n][holds] = values[n] = 0
         while True:
-            price = values[self._table[:, 0]]
-            for c in range(1, self._table.shape[1]):
-                price = price + values[self._table[:, c]]
-            price = price + self._rule_costs
-            entries = price[self._entry_rule]
-            best = np.minimum.reduceat(entries, self._starts, axis=0) if len(self._starts) else entries
-            new = np.minimum(values[self._made], best)
-            if (new == values[self._made]).all():
+            offers = self._offers(values)
+            best = np.minimum.reduceat(offers, self._first, axis=0)
+            now = values[self._made]
+            if (best >= now).all():
                 break
-            values[self._made] = new
-        eq = entries == best[self._segment]
-        rank = np.where(eq, np.arange(len(entries))[:, None], len(entries))
-        first = np.minimum.reduceat(rank, self._starts, axis=0)
-        found = np.full((n, len(states)), -2)
-        found[self._made] = self._entry_rule[np.minimum(first, len(entries) - 1)]
-        found[~np.isfinite(values[:n])] = -2
-        found[holds] = -1
-        return found, values
+            values[self._made] = np.minimum(now, best)
+        rank = np.where(offers == best[self._segment], np.arange(len(offers))[:, None], len(offers))
+        cheapest = np.minimum.reduceat(rank, self._first, axis=0)
+        rules = self._makers[np.minimum(cheapest, len(offers) - 1)]
+        found[self._made] = np.where(np.isfinite(values[self._made]), rules, NEVER)
+        found[holds] = HOLDS
+        return found
 
-    def plans(self, states: Sequence[int]) -> list[list[int | None]]:
-        """Return for each state and goal the ops of a relaxed plan, as bits; None: out of reach."""
-        found, values = self.supporters(states)
-        return [self._plans_of(found[:, i].tolist()) for i in range(len(states))]
+    def _offers(self, values: Floats) -> Floats:
+        price = values[self._table[:, 0]]
+        for column in self._table.T[1:]:
+            price += values[column]
+        price += self._rule_prices
+        found: Floats = price[self._makers]
+        return found
 
-    def _plans_of(self, supporter: list[int]) -> list[int | None]:
+    def _costs(self, supporter: list[int]) -> list[float | None]:
         known: dict[int, int] = {}
-        needs_of, bits = self._needs_of, self._bits
+        needs, op_bits = self._needs, self._op_bits
 
-        def plan(literal: int) -> int:
-            rule = supporter[literal]
-            if rule == -1:
-                return 0
-            done = known.get(literal)
-            if done is not None:
-                return done
-            bitset = bits[rule]
-            for need in needs_of[rule]:
-                if supporter[need] != -1:
-                    bitset |= plan(need)
-            known[literal] = bitset
-            return bitset
+        def ops_for(literal: int) -> int:
+            """Return the ops of a relaxed plan for one literal, as bits."""
+            found = known.get(literal)
+            if found is None:
+                rule = supporter[literal]
+                found = op_bits[rule]
+                known[literal] = found
+                for need in needs[rule]:
+                    if supporter[need] != HOLDS:
+                        found |= ops_for(need)
+                known[literal] = found
+            return found
 
-        result = []
+        costs: list[float | None] = []
         for tests in self._goals:
-            best = None
-            for lits in tests:
-                if any(supporter[l] == -2 for l in lits):
-                    continue
-                b = 0
-                for l in lits:
-                    b |= plan(l)
-                if best is None or self.cost_of(b) < self.cost_of(best):
-                    best = b
-            result.append(best)
-        return result
+            found: float | None = None
+            for literals in tests:
+                if all(supporter[literal] != NEVER for literal in literals):
+                    ops = 0
+                    for literal in literals:
+                        if supporter[literal] != HOLDS:
+                            ops |= ops_for(literal)
+                    cost = self._cost(ops)
+                    found = cost if found is None else min(found, cost)
+            costs.append(found)
+        return costs
 
-    def cost_of(self, bitset: int) -> float:
-        return bitset.bit_count() if all(c == 1 for c in ()) else bitset.bit_count()
+    def _cost(self, ops: int) -> float:
+        if self._is_unit:
+            return float(ops.bit_count())
+        return float(sum(self._prices[op] for op in positions_of(ops)))
+
+
+def _literals(test: Test) -> list[int]:
+    mask, value = test
+    return [2 * i + (not value >> i & 1) for i in positions_of(mask)]
+
+
+def _rules(ops: Sequence[Op]) -> Iterator[_Rule]:
+    for index, op in enumerate(ops):
+        for test in op.tests:
+            for change in op.changes:
+                gives = [2 * i for i in positions_of(change.adds)]
+                gives += [2 * i + 1 for i in positions_of(change.deletes)]
+                for given in change.tests:
+                    needs = (test[0] | given[0], test[1] | given[1])
+                    yield _Rule(index, needs, tuple(gives))
