@@ -24,10 +24,10 @@ from hrcplan.inference.exact import IMPOSSIBLE
 TIMEOUT_S = 30.0
 BETA = 1.0  # per cost of an average step
 CHOICE = 0.5  # weight of the number of actions that would have served as well
-HAZARD = 0.02
+HAZARD = 0.01
 MAX_DETOUR = 10.0  # no single action speaks more strongly against a goal
 PROGRESS = 1e-3  # between goals that are otherwise alike, the one that is nearer to its end
-MAX_SIBLINGS = 48
+MAX_SIBLINGS, MIN_SIBLINGS = 48, 8  # as long as there is time, and when there is none
 MAX_PRICE = 10_000
 
 
@@ -97,10 +97,10 @@ class Cost:
         for op in bridge:
             before = _must(apply(self.ops[op], before))
         after = _must(apply(self.ops[last], before))
-        siblings = self._siblings(before) if not robot else []
-        costs = self.distances.relaxation.costs([after, *siblings])
-        order = np.argsort(-self.posterior(state), kind="stable").tolist()
         n_observed = state.n_observed + 1
+        siblings = self._siblings(before, n_observed) if not robot else []
+        costs = self.distances.estimates([after, *siblings])
+        order = np.argsort(-self.posterior(state), kind="stable").tolist()
         places = self.distances.next(state.places, after, done, costs[0], order, n_observed)
         note = state.note or self._note(places)
         moved = replace(state, world=after, places=places, n_observed=n_observed, ignored=None,
@@ -127,11 +127,12 @@ class Cost:
         last = next((op for op in ops if apply(self.ops[op], there) is not None), None)
         return None if last is None else [*found.ops, last]
 
-    def _siblings(self, world: int) -> list[int]:
+    def _siblings(self, world: int, n_observed: int) -> list[int]:
         """Return the states that one action leads to; an even choice of them if there are many."""
+        most = MAX_SIBLINGS if self.distances.clock.left_s(n_observed) > 0 else MIN_SIBLINGS
         task = self.goals.task
         found = list(dict.fromkeys(task.successor(world, i) for i in task.applicable(world)))
-        stride = -(-len(found) // MAX_SIBLINGS) or 1
+        stride = -(-len(found) // most) or 1
         return found[::stride]
 
     def _log_likelihood(

@@ -34,9 +34,10 @@ def draw(found: Inference, form: str) -> bytes:
     for goal in range(len(found.goals)):
         if goal not in shown:
             axes.plot([row[goal] for row in found.posterior], color=GRAY, linewidth=0.6, zorder=1)
-    for color, goal in zip(COLORS, shown, strict=False):
-        axes.plot([row[goal] for row in found.posterior], color=color, linewidth=1.8, zorder=3,
-                  marker="o", markersize=2.5, label=_short(found.goals[goal]))  # fmt: skip
+    for i, (color, goal) in enumerate(zip(COLORS, shown, strict=False)):
+        # Goals that are alike lie on one another: the lower lines are wider, so that they show.
+        axes.plot([row[goal] for row in found.posterior], color=color, linewidth=4.4 - 0.45 * i,
+                  zorder=3, label=_short(found.goals[goal]))  # fmt: skip
     for i, change in enumerate(found.changes):
         axes.axvline(change.at + 0.5, color="black", linestyle="--", linewidth=1, zorder=2,
                      label="goal change" if not i else None)  # fmt: skip
