@@ -69,12 +69,12 @@ def optimal_with_price(
     while found is None or found.cost is None:
         search = Explorer(rules, goal, marks, bound, optimal=True, limits=limits, name=name)
         found = search.run(start)
-        if found.cost is None and found.next_bound is None:
-            return empty_graph(name, packing), None
-        bound = max(found.next_bound or 0, bound + min(op.cost for op in ops))
+        if found.cost is None:
+            if found.next_bound is None:
+                return empty_graph(name, packing), None
+            bound = max(found.next_bound, bound + min(op.cost for op in ops))
     graph = assemble(table, found, packing, name)
-    used = [op for op in ops if op.step in graph.used_steps]
-    return narrowed(graph, Packing(positions_of(read_by(used, goal)))), found.cost
+    return narrowed(graph, table, goal), found.cost
 
 
 def _useful(
@@ -161,11 +161,13 @@ def _by_source(
     return first, steps[once], targets[once].astype(np.int32)
 
 
-def narrowed(graph: PlanGraph, packing: Packing) -> PlanGraph:
-    """Return a graph of optimal plans over fewer facts: all that its steps and goal look at.
+def narrowed(graph: PlanGraph, table: StepTable, goal: Sequence[Test]) -> PlanGraph:
+    """Return a graph of optimal plans over fewer facts: what its steps and the goal look at.
 
     States that agree on these and have paid the same go on alike, so they become one node.
     """
+    used = (op for step in graph.used_steps for op in table.ways(step))
+    packing = Packing(positions_of(read_by(used, goal) & graph.relevant))
     if packing.positions == graph.packing.positions or not graph.n_nodes:
         return graph
     rows = _selected(graph.rows, graph.packing, packing)

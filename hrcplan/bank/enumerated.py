@@ -15,7 +15,7 @@ import numpy as np
 from hrcplan.bank.construct import assemble, empty_graph, narrowed
 from hrcplan.bank.goals import Goals
 from hrcplan.bank.graph import PlanGraph
-from hrcplan.bank.relevance import read_by, relevant
+from hrcplan.bank.relevance import relevant
 from hrcplan.bank.rules import Packing, positions_of
 from hrcplan.bank.search import Explored, Limits
 from hrcplan.bank.steps import StepTable
@@ -87,8 +87,7 @@ def graph_of_plans(
             state, paid = after, paid + op.cost
     root = (0, goals.task.initial & needed.facts)
     graph = assemble(table, _explored(packing, root, edges, tests), packing, name)
-    used = [op for op in table.ops if op.step in graph.used_steps]
-    return narrowed(graph, Packing(positions_of(read_by(used, tests))))
+    return narrowed(graph, table, tests)
 
 
 def _explored(

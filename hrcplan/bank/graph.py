@@ -180,10 +180,14 @@ class PlanGraph:
         return costs[0] if costs else None
 
     @cached_property
+    def final_layers(self) -> tuple[int, ...]:
+        """The layers with goal nodes, cheapest first."""
+        return tuple(int(layer) for layer in np.unique(self.layer_of[self.is_goal]))
+
+    @property
     def final_costs(self) -> tuple[Number, ...]:
-        """The costs of plans, cheapest first."""
-        found = sorted({int(layer) for layer in self.layer_of[self.is_goal]})
-        return tuple(self.layers[layer][0] for layer in found)
+        """The distinct costs of plans, cheapest first."""
+        return tuple(dict.fromkeys(self.layers[layer][0] for layer in self.final_layers))
 
     @cached_property
     def n_steps(self) -> int:

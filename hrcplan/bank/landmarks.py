@@ -62,8 +62,10 @@ class _Relaxation:
 
     def __init__(self, ops: Sequence[Op], state: int, goal: Sequence[Test]) -> None:
         self.costs = [op.cost for op in ops]
-        n_facts = max([state, *(m for t in (goal, *(o.tests for o in ops)) for m, _ in t),
-                       *(c.adds | c.deletes for op in ops for c in op.changes)]).bit_length()  # fmt: skip
+        changes = [change for op in ops for change in op.changes]
+        tests = [*goal, *(test for part in (*ops, *changes) for test in part.tests)]
+        facts = [state, *(mask for mask, _ in tests), *(c.adds | c.deletes for c in changes)]
+        n_facts = max(facts).bit_length()
         self.goal, self.true, top = 2 * n_facts, 2 * n_facts + 1, 2 * n_facts + 2
         self.start = {2 * i + (not state >> i & 1) for i in range(n_facts)} | {self.true}
         self.relaxed: list[_Relaxed] = []

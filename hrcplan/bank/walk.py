@@ -10,13 +10,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hrcplan.bank.graph import PlanGraph
-from hrcplan.bank.rules import Bools
+from hrcplan.bank.rules import Bools, Ids
 from hrcplan.errors import LimitError
 
 MAX_MULTISETS = 10_000
 MAX_OBSERVED = 20  # steps that the subset test can look at where there are too many multisets
 MAX_WORK = 2_000_000  # steps of a search before its answer is "unknown"
 MAX_TRIES = 1_000  # samples thrown away for each one that is kept
+
+CHUNK = 8192  # plans that are drawn together: their arrays stay in the processor's cache
+ABOVE_ALL = 2.0  # no random number is
 
 PlanFilter = Callable[[Sequence[int]], bool]
 """Says of a plan, as step ids, whether it is wanted."""
@@ -29,16 +32,15 @@ def plans(graph: PlanGraph, keep: PlanFilter | None = None) -> Iterator[tuple[in
         graph: The graph.
         keep: Which plans are wanted; all by default.
     """
-    for cost in graph.final_costs:
-        alive = _reaching(graph, cost)
+    for layer in graph.final_layers:
+        alive = _reaching(graph, layer)
         for plan in _depth_first(graph, alive):
             if keep is None or keep(plan):
                 yield plan
 
 
-def _reaching(graph: PlanGraph, cost: object) -> Bools:
-    """Return which nodes lead to a goal node of this cost."""
-    layer = next(i for i, (value, _) in enumerate(graph.layers) if value == cost)
+def _reaching(graph: PlanGraph, layer: int) -> Bools:
+    """Return which nodes lead to a goal node of a layer."""
     alive: Bools = graph.is_goal & (graph.layer_of == layer)
     for edges, sources in reversed(list(graph.edges_by_layer())):
         np.logical_or.at(alive, sources, alive[graph.targets[edges]])
@@ -67,39 +69,62 @@ class Sampler:
 
     >>> from hrcplan.bank import build_bank
     >>> import numpy as np
-    >>> bank = build_bank("transport", goals=None, only=["two-boxes"])
+    >>> bank = build_bank("kitchen", only=["parfait-nut"])
     >>> Sampler(bank.graphs[0]).draw(3, np.random.default_rng(1)).shape
-    (3, 8)
+    (3, 17)
     """
 
     def __init__(self, graph: PlanGraph) -> None:
         self.graph = graph
-        sources = np.repeat(np.arange(graph.n_nodes), np.diff(graph.first))
+        degrees = np.diff(graph.first)
+        sources = np.repeat(np.arange(graph.n_nodes), degrees)
         counts = graph.to_go.astype(np.float64)
-        share = counts[graph.targets] / counts[sources]
-        # The threshold of an edge is the number of its node plus the shares up to it.
-        total = np.cumsum(share)
+        total = np.cumsum(counts[graph.targets] / counts[sources])
         before = np.concatenate([[0.0], total])[graph.first[:-1]]
-        self._thresholds = sources + np.minimum(total - before[sources], 1.0)
-        last = graph.first[1:][np.diff(graph.first) > 0] - 1
-        self._thresholds[last] = sources[last] + 1.0
+        self._last = graph.first[1:] - 1
+        # An edge is passed over if the random number is not below its share and those before it.
+        self._shares = total - before[sources]
+        self._shares[self._last[degrees > 0]] = ABOVE_ALL
+        widest = int(degrees.max(initial=1))
+        self._strides = [1 << i for i in reversed(range((widest - 1).bit_length()))]
 
     def draw(self, n: int, rng: np.random.Generator) -> NDArray[np.int32]:
         """Return ``n`` plans as rows of step ids, shorter ones filled up with -1.
 
         Every plan has the same chance, up to the rounding of floats (about 1e-12).
         """
+        parts = [self._draw(min(CHUNK, n - done), rng) for done in range(0, n, CHUNK)]
+        width = max((part.shape[1] for part in parts), default=0)
+        found = np.full((n, width), -1, dtype=np.int32)
+        for i, part in enumerate(parts):
+            found[i * CHUNK : i * CHUNK + len(part), : part.shape[1]] = part
+        return found
+
+    def _draw(self, n: int, rng: np.random.Generator) -> NDArray[np.int32]:
         graph = self.graph
         nodes = np.zeros(n, dtype=np.int64)
         columns: list[NDArray[np.int32]] = []
-        open_ = ~graph.is_goal[nodes]
-        while open_.any():
-            edges = np.searchsorted(self._thresholds, nodes + rng.random(n), side="right")
-            edges = np.where(open_, np.minimum(edges, graph.n_edges - 1), 0)
-            columns.append(np.where(open_, graph.steps[edges], -1).astype(np.int32))
-            nodes = np.where(open_, graph.targets[edges], nodes)
-            open_ = ~graph.is_goal[nodes]
+        done = graph.is_goal[nodes]
+        while not done.all():
+            edges = self._choose(nodes, rng.random(n))
+            if done.any():
+                edges[done] = 0
+                columns.append(np.where(done, np.int32(-1), graph.steps[edges]))
+                nodes = np.where(done, nodes, graph.targets[edges])
+            else:
+                columns.append(graph.steps[edges])
+                nodes = graph.targets[edges]
+            done = graph.is_goal[nodes]
         return np.stack(columns, axis=1) if columns else np.zeros((n, 0), dtype=np.int32)
+
+    def _choose(self, nodes: NDArray[np.integer], chance: NDArray[np.float64]) -> Ids:
+        """Return an edge for each node, by halving the range of its edges."""
+        edges = self.graph.first[nodes]
+        last = self._last[nodes]
+        for stride in self._strides:
+            ahead = np.minimum(edges + (stride - 1), last)
+            edges = edges + stride * (self._shares[ahead] <= chance)
+        return edges
 
     def draw_kept(self, n: int, rng: np.random.Generator, keep: PlanFilter) -> list[tuple[int, ...]]:
         """Return ``n`` plans drawn uniformly from those that a filter keeps.

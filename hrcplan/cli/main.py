@@ -20,6 +20,7 @@ COMMANDS = {
     "validate": "hrcplan.cli.validate",
     "check": "hrcplan.cli.check",
     "new-problem": "hrcplan.cli.new_problem",
+    "bank": "hrcplan.cli.bank",
     "infer": "hrcplan.cli.infer",
     "planners": "hrcplan.cli.planners",
     "doctor": "hrcplan.cli.doctor",

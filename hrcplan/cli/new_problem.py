@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import rich_click as click
 
 from hrcplan.cli import output
 from hrcplan.errors import UsageError
+from hrcplan.pddl.model import Problem
 
 
 @click.command("new-problem")
 @click.argument("domain", metavar="DOMAIN")
 @click.option("--from", "origin", required=True, metavar="PROBLEM", help="Problem to start from.")
-@click.option("--goal", required=True, metavar="'(and …)'", help="The new goal, in PDDL.")
+@click.option("--goal", metavar="'(and …)'", help="The new goal, in PDDL.")
+@click.option("--vary", is_flag=True, help="The old goal with other objects in it, by chance.")
+@click.option("--new-objects", type=click.IntRange(min=0), default=0, metavar="N",
+              help="With --vary: copy N objects first, for a larger world.")
+@click.option("--seed", type=click.IntRange(min=0), default=0, metavar="N",
+              help="With --vary: where chance begins.")
 @click.option("--name", required=True, metavar="N", help="The new problem's name.")
 @click.option(
     "--set",
@@ -32,7 +39,8 @@ from hrcplan.errors import UsageError
 )
 @output.common_options
 def command(
-    domain: str, origin: str, goal: str, name: str, settings: tuple[str, ...], target: Path | None
+    domain: str, origin: str, goal: str | None, vary: bool, new_objects: int, seed: int, name: str,
+    settings: tuple[str, ...], target: Path | None,
 ) -> None:
     """Write a problem like PROBLEM with another goal, checked before it is written."""
     from hrcplan.cli.arguments import setting
@@ -42,9 +50,15 @@ def command(
 
     if not name or any(c.isspace() or c in "();" for c in name):
         raise UsageError(f"'{name}' cannot be a problem's name", hint="letters, digits, - and _")
+    if vary == (goal is not None):
+        raise UsageError("either --goal or --vary is needed", hint="--goal '(and …)'")
     base = load_problem(domain, origin)
     changed = base.with_values(dict(setting(text, base) for text in settings))
-    text = problem_text(with_goal(changed, goal, name.lower()))
+    if vary:
+        made = _varied(changed, seed, new_objects)
+    else:
+        made = with_goal(changed, goal or "", name.lower())
+    text = problem_text(replace(made, name=name.lower()))
     if target is not None:
         output.write_atomically(target, text)
     if output.JSON:
@@ -55,3 +69,10 @@ def command(
         output.result(text.rstrip("\n"))
     else:
         output.result(f"wrote {target}")
+
+
+def _varied(problem: Problem, seed: int, n_objects: int) -> Problem:
+    from hrcplan.bank import from_problems
+    from hrcplan.bank.variants import vary
+
+    return vary(from_problems([problem]), 1, seed, n_objects=n_objects).problem

@@ -78,7 +78,9 @@ class Forest:
     ) -> None:  # fmt: skip
         self.bank, self.table = bank, bank.table
         labels: dict[tuple[str, ...], int] = {}
-        self._label = np.array([labels.setdefault(s.name, len(labels)) for s in bank.table])
+        self._label = np.array(
+            [labels.setdefault(bank.table[i].name, len(labels)) for i in range(len(bank.table))]
+        )
         self.n_labels = len(labels)
         rng = np.random.default_rng(seed)
         rows, goals = self.prefixes(n_samples, rng)

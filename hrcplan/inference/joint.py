@@ -37,7 +37,9 @@ class Joint:
         self.bank = bank
         labels: dict[tuple[str, ...], int] = {}
         table = bank.table
-        self.label = tuple(labels.setdefault(step.name, len(labels)) for step in table)
+        self.label = tuple(
+            labels.setdefault(table[i].name, len(labels)) for i in range(len(table))
+        )
         self.n_labels, self.n_steps = len(labels), len(table)
         self.one_label_each = self.n_labels == self.n_steps
         self._concerned: dict[tuple[int, int], Ids] = {}
@@ -126,10 +128,9 @@ class Doable:
         self._rules: list[list[_Rule]] = [[] for _ in range(joint.n_labels)]
         self._odd: list[list[int]] = [[] for _ in range(joint.n_labels)]
         self._mentions: dict[int, set[int]] = {}
-        for step in table:
-            label = joint.label[step.index]
-            for index in step.actions:
-                self._take(index, label)
+        for step in range(len(table)):
+            for index in table[step].actions:
+                self._take(index, joint.label[step])
         self._rules = [list(dict.fromkeys(rules)) for rules in self._rules]
         self._affected: dict[int, tuple[int, ...]] = {}
         self._all = tuple(range(joint.n_labels))
@@ -190,7 +191,8 @@ def _shares(graph: PlanGraph) -> Floats:
         counts = graph.to_go.astype(np.float64)
     except OverflowError:  # beyond what a float holds
         logs = np.array([math.log(count) for count in graph.to_go])
-        return np.exp(logs[graph.targets] - logs[sources])
+        large: Floats = np.exp(logs[graph.targets] - logs[sources])
+        return large
     found: Floats = counts[graph.targets] / counts[sources]
     return found
 

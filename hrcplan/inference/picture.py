@@ -53,7 +53,8 @@ def draw(found: Inference, form: str) -> bytes:
     else:
         axes.set_xlabel("observation")
     axes.set_ylabel("probability")
-    axes.set_title(f"goals after each observation ({found.method})", loc="left", fontsize=10, pad=16)
+    title = f"goals after each observation ({found.method})"
+    axes.set_title(title, loc="left", fontsize=10, pad=16)
     axes.spines[["top", "right"]].set_visible(False)
     axes.legend(loc="center left", bbox_to_anchor=(1.01, 0.5), frameon=False, fontsize=8)
     buffer = io.BytesIO()

@@ -38,8 +38,8 @@ class Resolver:
         self.robots = robots(goals.problem)
         self.agents = frozenset(goals.problem.agents)
         self._named: dict[tuple[str, ...], list[int]] = {}
-        for step in table:
-            self._named.setdefault(step.name, []).append(step.index)
+        for step in range(len(table)):
+            self._named.setdefault(table[step].name, []).append(step)
 
     def find(self, words: tuple[str, ...], world: int) -> Resolved | str:
         """Return the step and whether the robot did it, or why there is none.

@@ -138,7 +138,7 @@ class Tracker:
     def _jumps(
         self, track: Track, step: int, world: int, goals: list[int], nodes: Ids
     ) -> Mapping[int, Off]:
-        """Put goals for which a step is no edge where they stand now; return those off the graph."""
+        """Put goals for which a step is no edge where they stand; return those off the graph."""
         if not goals and not track.off:
             return _NOWHERE
         off = dict(track.off)
@@ -149,7 +149,7 @@ class Tracker:
     def _jump(
         self, goal: int, node: int, step: int, track: Track, world: int, off: dict[int, Off]
     ) -> int:
-        """Return the node of a goal after a step that is no edge; note it in ``off`` if it has none."""
+        """Return the node of a goal after a step that is no edge; ``off`` notes it has none."""
         if node != self.joint.off:
             if not (track.world ^ world) & self._relevant[goal]:
                 return node

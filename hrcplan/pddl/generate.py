@@ -1,12 +1,13 @@
-"""New problems from old ones: another goal, checked like a file."""
+"""New problems from old ones: another goal, more objects, other objects in a goal."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 from hrcplan.errors import PddlError
 from hrcplan.pddl.formulas import read_formula
-from hrcplan.pddl.model import Problem
+from hrcplan.pddl.model import And, Atom, Equal, Fact, Formula, Not, Or, Problem, Quantified
 from hrcplan.pddl.reader import read_one
 from hrcplan.pddl.scope import Scope
 from hrcplan.pddl.source import Source, in_order
@@ -25,3 +26,55 @@ def with_goal(problem: Problem, goal: str, name: str) -> Problem:
     if source.has_errors:
         raise PddlError(in_order(source.diagnostics))
     return replace(problem, goal=formula, name=name, path="")
+
+
+def with_copy(problem: Problem, old: str, new: str) -> Problem:
+    """Return ``problem`` with an object ``new`` of which all is true that is true of ``old``.
+
+    Facts and values that mention both another copy and ``old`` are copied too.
+    """
+    names = {old: new}
+    facts = {_renamed(fact, names) for fact in problem.facts if old in fact[1:]}
+    values = {_renamed(k, names): v for k, v in problem.values.items() if old in k[1:]}
+    return replace(
+        problem,
+        objects={**problem.objects, new: problem.all_objects[old]},
+        facts=problem.facts | facts,
+        values={**problem.values, **values},
+    )
+
+
+def _renamed(fact: Fact, names: Mapping[str, str]) -> Fact:
+    return (fact[0], *(names.get(word, word) for word in fact[1:]))
+
+
+def renamed(formula: Formula, names: Mapping[str, str]) -> Formula:
+    """Return a formula with other objects in its atoms and equations; numbers stay as they are."""
+    match formula:
+        case Atom(name, args):
+            return Atom(name, tuple(names.get(arg, arg) for arg in args))
+        case Equal(left, right):
+            return Equal(names.get(left, left), names.get(right, right))
+        case Not(body):
+            return Not(renamed(body, names))
+        case And(parts):
+            return And(tuple(renamed(part, names) for part in parts))
+        case Or(parts):
+            return Or(tuple(renamed(part, names) for part in parts))
+        case Quantified(universal, params, body):
+            return Quantified(universal, params, renamed(body, names))
+        case _:
+            return formula
+
+
+def objects_in(formula: Formula) -> tuple[str, ...]:
+    """Return the terms of a formula's atoms, each once, in order."""
+    match formula:
+        case Atom(_, args):
+            return tuple(dict.fromkeys(args))
+        case Not(body) | Quantified(_, _, body):
+            return objects_in(body)
+        case And(parts) | Or(parts):
+            return tuple(dict.fromkeys(term for part in parts for term in objects_in(part)))
+        case _:
+            return ()

@@ -81,8 +81,9 @@ def list_plans(
         (cwd / "domain.pddl").write_text(lowered.domain_text)
         (cwd / "problem.pddl").write_text(lowered.problem_text)
         argv = [sys.executable, "-P", "-m", "kstar_planner.driver.main", "--build", str(build),
-                "domain.pddl", "problem.pddl", "--symmetries", _SYMMETRIES,
-                "--search", _SEARCH.format(heuristic="lmcut" if plain else "blind", bounds=", ".join(bounds))]  # fmt: skip
+                "domain.pddl", "problem.pddl",
+                "--translate-options", "--invariant-generation-max-time", "0",
+                "--search-options", "--symmetries", _SYMMETRIES, "--search", _SEARCH.format(heuristic="lmcut" if plain else "blind", bounds=", ".join(bounds))]  # fmt: skip
         finished = run(argv, cwd=cwd, limits=limits)
         found = tuple(_plans(lowered, cwd / "plans.json", finished))
     return Listed(found, n is None or len(found) < n)

@@ -1,0 +1,195 @@
+"""``hrcplan bank``: build, show, sample and verify policy banks."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import rich_click as click
+
+from hrcplan.cli import output
+from hrcplan.errors import UsageError
+
+if TYPE_CHECKING:
+    from hrcplan.bank import Bank, PlanGraph
+
+
+class _Factor(click.ParamType):
+    """A number of at least 1, exactly as written."""
+
+    name = "factor"
+
+    def convert(self, value: Any, param: Any, ctx: Any) -> Fraction:
+        """Return the number."""
+        try:
+            factor = Fraction(value)
+        except (ValueError, ZeroDivisionError):
+            self.fail(f"'{value}' is not a number", param, ctx)
+        if factor < 1:
+            self.fail("a multiple of the optimal cost is at least 1", param, ctx)
+        return factor
+
+
+@click.group("bank")
+def command() -> None:
+    """Policy banks: every valid plan of every goal, counted exactly."""
+
+
+@command.command("build")
+@click.argument("domain", metavar="DOMAIN")
+@click.argument("goals", required=False, metavar="[GOALS]")
+@click.option("--goal", "only", multiple=True, metavar="NAME", help="Only this goal; repeatable.")
+@click.option("--quality", type=_Factor(), metavar="Q",
+              help="All sequences up to Q times the optimal cost, not only optimal plans.")
+@click.option("--alternatives", type=_Factor(), metavar="Q",
+              help="Plans up to Q times the optimal cost of which no step can be dropped.")
+@click.option("--sample", type=click.IntRange(min=1), metavar="N",
+              help="Build from N optimal plans that K* lists, where the whole does not fit.")
+@click.option("--bank-cost", type=click.Choice(["steps", "task"]), default="steps",
+              show_default=True, help="What plans are optimal in: steps, or the task's cost.")
+@click.option("--memory", type=click.IntRange(min=1), default=2048, show_default=True,
+              metavar="MIB", help="MiB that the arrays of one goal may need.")
+@click.option("--timeout", type=click.FloatRange(0, min_open=True), metavar="S",
+              help="Seconds for all goals together; no limit if not given.")
+@click.option("-o", "--output", "target", required=True, metavar="BANK",
+              type=click.Path(path_type=Path), help="The file to write.")
+@output.common_options
+def build(
+    domain: str, goals: str | None, only: tuple[str, ...], quality: Fraction | None,
+    alternatives: Fraction | None, sample: int | None, bank_cost: str, memory: int,
+    timeout: float | None, target: Path,
+) -> int:
+    """Build the bank of the problems in GOALS, or of DOMAIN's shipped problems.
+
+    GOALS is a folder of problem files with the same objects and init, or a folder with
+    template.pddl and hyps.dat.
+    """
+    from hrcplan.bank import Recipe, build_bank, save
+
+    if target.is_dir() or not target.parent.is_dir():
+        raise UsageError(f"cannot write {target}: no such folder, or it is one", path=str(target))
+    recipe = Recipe(bank_cost, quality or Fraction(1), alternatives, sample)
+    bank = build_bank(
+        domain, goals, recipe, only=only or None, mib=memory,
+        timeout_s=float("inf") if timeout is None else timeout, report=_say,
+    )
+    save(bank, target)
+    _print(bank)
+    return 0
+
+
+def _say(graph: PlanGraph) -> None:
+    output.say(f"{graph.goal}: {graph.n_nodes} nodes")
+
+
+@command.command("show")
+@click.argument("bank", metavar="BANK")
+@output.common_options
+def show(bank: str) -> int:
+    """Show the goals of a BANK: steps, cost, exact number of plans, size of the graph."""
+    from hrcplan.bank import load
+
+    _print(load(bank))
+    return 0
+
+
+@command.command("sample")
+@click.argument("bank", metavar="BANK")
+@click.argument("goal", metavar="GOAL")
+@click.option("-n", "n", type=click.IntRange(min=0), default=1, show_default=True, metavar="N",
+              help="How many plans.")
+@click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, metavar="N",
+              help="Where chance begins.")
+@click.option("--loop-free", is_flag=True, help="Only plans that meet no state twice.")
+@click.option("--irredundant", is_flag=True, help="Only plans of which no step can be dropped.")
+@output.common_options
+def sample(
+    bank: str, goal: str, n: int, seed: int, loop_free: bool, irredundant: bool
+) -> int:
+    """Draw plans of a GOAL uniformly from a BANK and print them in IPC format."""
+    import numpy as np
+
+    from hrcplan.bank import load
+
+    loaded = load(bank)
+    index = loaded.goal_index(goal)
+    filters = [loaded.loop_free] if loop_free else []
+    filters += [loaded.irredundant(index)] if irredundant else []
+    keep = (lambda steps: all(test(steps) for test in filters)) if filters else None
+    drawn = loaded.sample(index, n, np.random.default_rng(seed), keep)
+    plans = [
+        {"steps": [str(loaded.table[step]) for step in steps],
+         "actions": [str(action) for action in loaded.as_plan(steps).actions]}
+        for steps in drawn
+    ]
+    if output.JSON:
+        output.document({"goal": goal, "agents": loaded.agents, "plans": plans})
+    for number, plan in enumerate(plans, start=1):
+        if not output.JSON:
+            output.result("\n".join([f"; plan {number}", *plan["actions"], ""]))
+    return 0
+
+
+@command.command("verify")
+@click.argument("bank", metavar="BANK")
+@output.common_options
+def verify(bank: str) -> int:
+    """Check a BANK: file, checksum, PDDL it came from, every node and edge; exit 1 if not sound."""
+    from hrcplan.bank import verify as find_fault
+
+    fault = find_fault(bank)
+    if output.JSON:
+        output.document({"valid": fault is None, "reason": fault})
+    else:
+        output.result("sound" if fault is None else f"not sound: {fault}")
+    return 0 if fault is None else 1
+
+
+def _print(bank: Bank) -> None:
+    for graph in bank.graphs:
+        if not graph.n_nodes:
+            output.warn(f"goal '{graph.goal}' has no plan")
+    if output.JSON:
+        output.document(as_json(bank))
+    else:
+        output.result(_table(bank))
+
+
+def as_json(bank: Bank) -> dict[str, Any]:
+    """Return the document of ``bank build`` and ``bank show``."""
+    return {
+        "domain": bank.goals.problem.domain.name,
+        "agents": bank.agents,
+        "goals": [
+            {
+                "name": graph.goal,
+                "steps": graph.n_steps,
+                "optimal_cost": output.number(graph.optimal_cost),
+                "plans": str(graph.plans),
+                "nodes": graph.n_nodes,
+                "edges": graph.n_edges,
+                "complete": graph.complete,
+            }
+            for graph in bank.graphs
+        ],
+        "build_s": round(bank.build_s, 6),
+    }
+
+
+def _table(bank: Bank) -> str:
+    head = ["goal", "steps", "cost", "plans", "nodes", "edges"]
+    rows = [
+        [g.goal, str(g.n_steps), str(output.number(g.optimal_cost)),
+         f"{'' if g.complete else '>= '}{g.plans:,}", f"{g.n_nodes:,}", f"{g.n_edges:,}"]
+        for g in bank.graphs
+    ]
+    widths = [max(len(row[i]) for row in [head, *rows]) for i in range(len(head))]
+    lines = [
+        "  ".join([row[0].ljust(widths[0]), *(c.rjust(w) for c, w in zip(row[1:], widths[1:], strict=True))])
+        for row in [head, *rows]
+    ]
+    agents = "dropped: plans are sequences of steps" if bank.agents == "dropped" else "kept"
+    total = sum(graph.n_nodes for graph in bank.graphs)
+    title = f"{bank.goals.problem.domain.name}: {len(bank.graphs)} goals, agents {agents}"
+    return "\n".join([title, "", *lines, "", f"{total:,} nodes, built in {bank.build_s:.2f} s"])
