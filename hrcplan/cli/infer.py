@@ -35,8 +35,8 @@ def command(
 ) -> int:  # fmt: skip
     """Infer the goal from ACTIONS, one a line.
 
-    SOURCE is a bank (`hrcplan bank build`), or a folder with template.pddl, hyps.dat and domain.pddl,
-    whose obs.dat is then the default ACTIONS.
+    SOURCE is a bank (`hrcplan bank build`), or a folder with domain.pddl, template.pddl and
+    hyps.dat, whose obs.dat is then the default ACTIONS.
     """
     from hrcplan.inference import infer
 

@@ -1,4 +1,4 @@
-"""A goal that may change: the filter over (goal, changes so far, mistake rate), and its smoother."""
+"""A goal that may change: a filter over (goal, changes so far, mistake rate), and its smoother."""
 
 from __future__ import annotations
 

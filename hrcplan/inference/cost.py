@@ -103,8 +103,10 @@ class Cost:
         order = np.argsort(-self.posterior(state), kind="stable").tolist()
         places = self.distances.next(state.places, after, done, costs[0], order, n_observed)
         note = state.note or self._note(places)
-        moved = replace(state, world=after, places=places, n_observed=n_observed, ignored=None,
-                        is_human=not robot, n_bridged=state.n_bridged + len(bridge), note=note)  # fmt: skip
+        n_bridged = state.n_bridged + len(bridge)
+        moved = Compared(
+            after, places, state.filtered, n_observed, not robot, n_bridged=n_bridged, note=note
+        )
         if robot:
             return moved
         paid = sum(self.ops[op].cost for op in done)
@@ -178,7 +180,7 @@ def _progress(first: Place, now: Place) -> float:
 
 
 def _cost_kind(goals: Goals) -> str:
-    """Return ``task`` if all costs are positive whole numbers of a moderate size, else ``steps``."""
+    """Return ``task`` if all costs are positive whole numbers, and not large; else ``steps``."""
     costs = goals.task.costs
     fine = all(isinstance(cost, int) and 0 < cost <= MAX_PRICE for cost in costs)
     return TASK if fine else STEPS

@@ -75,7 +75,7 @@ class Exact:
 
     def log_likelihood(self, seen: Evidence) -> Floats:
         """Return the log likelihood of a step under each goal."""
-        found = self._mistakes[np.maximum(0, seen.n_doable - seen.n_next)]
+        found = self._mistakes.take(seen.n_doable - seen.n_next)
         found[seen.goals] = self._right + seen.log_shares
         return found
 

@@ -196,7 +196,8 @@ class Flat:
         for _ in range(0, self._depth, _LEVELS):
             before = nodes
             for _ in range(_LEVELS):
-                nodes = self._child[2 * nodes + row[self._feature[nodes]]]
+                side = row.take(self._feature.take(nodes))
+                nodes = self._child.take(2 * nodes + side)
             if (nodes == before).all():
                 break
         found: Floats = self._values[self._leaf[nodes]].mean(axis=0, dtype=np.float64)

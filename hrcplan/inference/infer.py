@@ -1,4 +1,4 @@
-"""From a source and observed actions to a posterior per observation: what ``hrcplan infer`` does."""
+"""From observed actions to a posterior after each of them: what ``hrcplan infer`` does."""
 
 from __future__ import annotations
 

@@ -75,7 +75,7 @@ class Joint:
         """Return which nodes have an edge for a step, and the places of these edges."""
         wanted = nodes * self.n_steps + step
         places = self._moves.searchsorted(wanted)
-        return self._moves[places] == wanted, places
+        return self._moves.take(places) == wanted, places
 
     def labeled(self, nodes: Ids, label: int) -> tuple[Bools, Ids]:
         """Return which nodes a label can follow, and the places of its shares."""

@@ -67,11 +67,24 @@ class Tracker:
         self.bank = bank
         self.joint = Joint(bank)
         self._doable = Doable(self.joint)
+        self._quick = [self._rule(step) for step in range(len(bank.table))]
         self._relevant = [graph.relevant for graph in bank.graphs]
         self._known: dict[tuple[int, int], int] = {}
         self._matters: dict[int, int] = {}
         world = bank.initial
         self.start = Track(world, self.joint.roots, self._doable.of(world))
+
+    def _rule(self, step: int) -> tuple[int, int, int, int] | None:
+        """Return mask, value, kept and added facts of a step with one condition and effect."""
+        task = self.bank.goals.task
+        actions = [task.actions[index] for index in self.bank.table[step].actions]
+        if any(action.conditional for action in actions):
+            return None
+        rules = {(test, ~a.deletes, a.adds) for a in actions for test in a.tests}
+        if len(rules) != 1:
+            return None
+        (mask, value), keeps, adds = rules.pop()
+        return mask, value, keeps, adds
 
     def follow(self, track: Track, step: int) -> tuple[Track, Evidence] | None:
         """Return where everything stands after a step, and what it says; None if nobody can do it.
@@ -79,11 +92,11 @@ class Tracker:
         What it says, it says about the moment before.
         """
         joint = self.joint
-        before, world = track.world, self.bank.table.successor(track.world, step)
+        before, world = track.world, self._successor(track.world, step)
         if world is None:
             return None
         goals = joint.concerned(step, before ^ world)
-        old = track.nodes[goals]
+        old = track.nodes.take(goals)
         hit, places = joint.edges(old, step)
         found = goals[hit], places[hit]
         if joint.one_label_each:
@@ -91,17 +104,26 @@ class Tracker:
         else:
             same, named = joint.labeled(old, joint.label[step])
             says = goals[same], named[same]
-        n_next, shares = joint.n_next[track.nodes], joint.log_shares[says[1]]
+        n_next, shares = joint.n_next.take(track.nodes), joint.log_shares.take(says[1])
         seen = Evidence(says[0], shares, n_next, track.doable.bit_count())
         if track.off:
             seen = self._look_off(track, step, seen)
         if before == world:
             return track, seen
         nodes = track.nodes.copy()
-        nodes[found[0]] = joint.targets[found[1]]
-        off = self._jumps(track, step, world, goals[~hit].tolist(), nodes)
+        nodes[found[0]] = joint.targets.take(found[1])
+        missed = [] if len(found[0]) == len(goals) else goals[~hit].tolist()
+        off = self._jumps(track, step, world, missed, nodes)
         doable = self._doable.after(track.doable, before, world)
         return Track(world, nodes, doable, off), seen
+
+    def _successor(self, world: int, step: int) -> int | None:
+        """Return the state after a step; None if nobody can do it."""
+        quick = self._quick[step]
+        if quick is None:
+            return self.bank.table.successor(world, step)
+        mask, value, keeps, adds = quick
+        return world & keeps | adds if world & mask == value else None
 
     def _look_off(self, track: Track, step: int, seen: Evidence) -> Evidence:
         label, n_next = self.joint.label, seen.n_next
