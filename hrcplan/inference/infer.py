@@ -60,9 +60,7 @@ class Inference:
             "goals": list(self.goals),
             "posterior": [list(row) for row in self.posterior],
             "changes": [{"at": c.at, "probability": c.probability} for c in self.changes],
-            "ignored": [
-                {"at": i.at, "action": i.action, "reason": i.reason} for i in self.ignored
-            ],
+            "ignored": [{"at": i.at, "action": i.action, "reason": i.reason} for i in self.ignored],
             "method": self.method,
             "note": self.note,
         }
@@ -178,5 +176,3 @@ def _as_needed(kind: Any, loaded: Bank | Goals) -> Bank | Goals:
     except LimitError as error:
         hint = f"--method {GOALS_METHOD} does without plan graphs"
         raise LimitError(error.message, code=error.code, hint=hint) from None
-
-

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from functools import cached_property
 
 import numpy as np
@@ -17,6 +18,9 @@ Bools = NDArray[np.bool_]
 
 _Rule = tuple[int, int, int, int]
 """Mask and value of a test, touched facts, added facts."""
+_BitRules = tuple[tuple[int, int, int, int, int], ...]
+_Part = tuple[int, _BitRules, tuple[tuple[int, tuple[int, ...]], ...]]
+"""Labels: all others as bits, their rules with their bits, and their actions that are no rules."""
 
 
 class Joint:
@@ -37,9 +41,7 @@ class Joint:
         self.bank = bank
         labels: dict[tuple[str, ...], int] = {}
         table = bank.table
-        self.label = tuple(
-            labels.setdefault(table[i].name, len(labels)) for i in range(len(table))
-        )
+        self.label = tuple(labels.setdefault(table[i].name, len(labels)) for i in range(len(table)))
         self.n_labels, self.n_steps = len(labels), len(table)
         self.one_label_each = self.n_labels == self.n_steps
         self._concerned: dict[tuple[int, int], Ids] = {}
@@ -131,9 +133,8 @@ class Doable:
         for step in range(len(table)):
             for index in table[step].actions:
                 self._take(index, joint.label[step])
-        self._rules = [list(dict.fromkeys(rules)) for rules in self._rules]
-        self._affected: dict[int, tuple[int, ...]] = {}
-        self._all = tuple(range(joint.n_labels))
+        self._affected: dict[int, _Part] = {}
+        self._all = self._part(range(joint.n_labels))
 
     def _take(self, index: int, label: int) -> None:
         action = self._task.actions[index]
@@ -145,6 +146,15 @@ class Doable:
         for position in _positions(_mentioned(self._task, index)):
             self._mentions.setdefault(position, set()).add(label)
 
+    def _part(self, labels: Iterable[int]) -> _Part:
+        """Return how some labels are looked at."""
+        chosen = sorted(labels)
+        rules = tuple(
+            (1 << label, *rule) for label in chosen for rule in dict.fromkeys(self._rules[label])
+        )
+        odd = tuple((1 << label, tuple(self._odd[label])) for label in chosen if self._odd[label])
+        return ~sum(1 << label for label in chosen), rules, odd
+
     def of(self, state: int) -> int:
         """Return the labels that can be done in a state, as bits."""
         return self._update(state, 0, self._all)
@@ -152,26 +162,23 @@ class Doable:
     def after(self, doable: int, before: int, state: int) -> int:
         """Return the labels that can be done in ``state``, from those of a state ``before``."""
         pattern = before ^ state
-        labels = self._affected.get(pattern)
-        if labels is None:
+        part = self._affected.get(pattern)
+        if part is None:
             found: set[int] = set()
             for position in _positions(pattern):
                 found |= self._mentions.get(position, set())
-            labels = self._affected[pattern] = tuple(found)
-        return self._update(state, doable, labels)
+            part = self._affected[pattern] = self._part(found)
+        return self._update(state, doable, part)
 
-    def _update(self, state: int, doable: int, labels: tuple[int, ...]) -> int:
-        for label in labels:
-            bit = 1 << label
-            doable &= ~bit
-            for mask, value, touched, adds in self._rules[label]:
-                if state & mask == value and state & touched != adds:
-                    doable |= bit
-                    break
-            else:
-                odd = self._odd[label]
-                if odd and any(self._task.is_applicable(state, index) for index in odd):
-                    doable |= bit
+    def _update(self, state: int, doable: int, part: _Part) -> int:
+        others, rules, odd = part
+        doable &= others
+        for bit, mask, value, touched, adds in rules:
+            if state & mask == value and state & touched != adds:
+                doable |= bit
+        for bit, actions in odd:
+            if any(self._task.is_applicable(state, index) for index in actions):
+                doable |= bit
         return doable
 
 

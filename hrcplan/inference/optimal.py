@@ -127,9 +127,7 @@ def search(texts: Sequence[str], limit_s: float, total_s: float) -> list[Way | N
     return [found[i % len(lanes)][i // len(lanes)] for i in range(len(texts))]
 
 
-def _lane(
-    binary: Path, texts: Sequence[str], limit_s: float, total_s: float
-) -> list[Way | None]:
+def _lane(binary: Path, texts: Sequence[str], limit_s: float, total_s: float) -> list[Way | None]:
     with TemporaryDirectory(prefix="hrcplan-") as folder:
         cwd = Path(folder)
         for i, text in enumerate(texts):

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from itertools import product
+from itertools import pairwise, product
 
 from hrcplan.bank import Bank
 
@@ -27,14 +27,63 @@ def optimal_plans(bank: Bank, goal: int, state: int) -> list[tuple[int, ...]]:
     return []
 
 
+def facts_read(bank: Bank, goal: int, plans: Sequence[Sequence[int]]) -> int:
+    """Return the facts that a goal and the steps of its plans look at, as bits."""
+    used = {step for plan in plans for step in plan}
+    found = 0
+    for mask, _ in bank.goals.tests[goal]:
+        found |= mask
+    for op in bank.table.ops:
+        if op.step in used:
+            for mask, _ in op.tests:
+                found |= mask
+    return found
+
+
+class Standing:
+    """The plans of a goal from one state on, and what is left of them after further steps."""
+
+    def __init__(self, bank: Bank, goal: int, state: int) -> None:
+        self.bank, self.goal = bank, goal
+        plans = optimal_plans(bank, goal, state)
+        self.relevant = facts_read(bank, goal, plans)
+        self.tails: dict[int, list[tuple[int, ...]]] = {}
+        for plan in plans:
+            now: int | None = state
+            for length in range(len(plan) + 1):
+                assert now is not None
+                rest = self.tails.setdefault(now & self.relevant, [])
+                if plan[length:] not in rest:
+                    rest.append(plan[length:])
+                now = bank.table.successor(now, plan[length]) if length < len(plan) else None
+
+
+class Follower:
+    """DESIGN, "States off the graph", with lists instead of graphs."""
+
+    def __init__(self, bank: Bank, goal: int) -> None:
+        self.first = self.now = Standing(bank, goal, bank.initial)
+        self.left = self.first.tails.get(bank.initial & self.first.relevant, [])
+
+    def move(self, state: int) -> None:
+        """Take in that the world is in another state."""
+        for standing in (self.first, self.now):
+            if state & standing.relevant in standing.tails:
+                self.now = standing
+                break
+        else:
+            self.now = Standing(self.first.bank, self.first.goal, state)
+        self.left = self.now.tails.get(state & self.now.relevant, [])
+
+
 class Look:
     """For every goal what can be said about a step in a state."""
 
-    def __init__(self, bank: Bank, state: int, step: int) -> None:
+    def __init__(self, bank: Bank, followers: Sequence[Follower], state: int, step: int) -> None:
         names = [bank.table[i].name for i in range(len(bank.table))]
         self.shares, self.n_next = [], []
-        for goal in range(len(bank.names)):
-            plans = [p for p in optimal_plans(bank, goal, state) if p]
+        for follower in followers:
+            plans = [p for p in follower.left if p]
             fits = sum(names[p[0]] == names[step] for p in plans)
             self.shares.append(fits / len(plans) if plans else 0.0)
             self.n_next.append(len({names[p[0]] for p in plans}))
@@ -48,11 +97,14 @@ class Look:
 
 def looks(bank: Bank, steps: Sequence[int]) -> list[Look]:
     state, found = bank.initial, []
+    followers = [Follower(bank, goal) for goal in range(len(bank.names))]
     for step in steps:
-        found.append(Look(bank, state, step))
+        found.append(Look(bank, followers, state, step))
         after = bank.table.successor(state, step)
         assert after is not None
         state = after
+        for follower in followers:
+            follower.move(state)
     return found
 
 
@@ -77,7 +129,7 @@ def histories(
     seen = looks(bank, steps)
     for rate, fixed in product(rates, (True, False)):
         for goals in product(range(n), repeat=len(steps)):
-            changed = tuple(a != b for a, b in zip(goals, goals[1:], strict=False))
+            changed = tuple(a != b for a, b in pairwise(goals))
             if fixed and any(changed):
                 continue
             weight = (never if fixed else 1 - never) / len(rates) / n

@@ -1,4 +1,4 @@
-"""Beliefs over plan graphs, held against plans that are listed and histories that are enumerated."""
+"""Beliefs over plan graphs, held against listed plans and enumerated histories."""
 
 import math
 import random

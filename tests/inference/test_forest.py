@@ -71,10 +71,10 @@ def test_same_seed_same_forest_whatever_the_jobs(some):
     one = Forest(some, seed=5, n_samples=1000, n_trees=8)
     two = Forest(some, seed=5, n_samples=1000, n_trees=8, n_jobs=2)
     rows, _ = one.prefixes(100, np.random.default_rng(4))
-    assert np.array_equal(one.predict(rows), two.predict(rows))
+    assert np.abs(one.predict(rows) - two.predict(rows)).max() < 1e-12  # sums in another order
     assert one.training.accuracy == two.training.accuracy
     other = Forest(some, seed=6, n_samples=1000, n_trees=8)
-    assert not np.array_equal(one.predict(rows), other.predict(rows))
+    assert np.abs(one.predict(rows) - other.predict(rows)).max() > 0.01
 
 
 def test_any_classifier_can_be_plugged_in(some, prefixes):

@@ -20,10 +20,10 @@ ACTIONS = """\
 (fly human moon)
 (get human pizza)
 (get lentils)
-0.000: (get human honey) [1.000]
-(get human yogurt)
+0.000: (get human yogurt) [1.000]
 (get human mango)
 (get human glass)
+(get human eating-spoon)
 """
 
 
