@@ -81,8 +81,8 @@ def speed(bank: Bank, n_runs: int, what: str) -> None:
         belief = kind(bank)
         made_s = time.perf_counter() - began
         update, posterior = per_step_us(belief, runs)
-        print(f"{what:<14}{kind.__name__:<11} made in {made_s:6.2f} s   "
-              f"{update:8.1f} us per observation   {posterior:8.1f} us per posterior", flush=True)  # fmt: skip
+        name = f"{what:<14}{kind.__name__:<11} made in {made_s:6.2f} s"
+        print(f"{name}  {update:8.1f} us per observation  {posterior:8.1f} us per posterior")
 
 
 def forest(bank: Bank) -> None:
@@ -103,9 +103,7 @@ def forest(bank: Bank) -> None:
         belief._flat.predict(row)  # type: ignore[union-attr]
     row_ms = (time.process_time() - began) / 500 * 1e3
     print(f"forest: {belief.training}")
-    print(
-        f"uniform prefixes: forest {right:.4f}, exact ceiling {ceiling:.4f}; one row {row_ms:.2f} ms"
-    )
+    print(f"uniform prefixes: forest {right:.4f}, exact {ceiling:.4f}; one row {row_ms:.2f} ms")
 
 
 def main() -> None:

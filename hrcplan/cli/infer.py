@@ -41,7 +41,10 @@ def command(
     from hrcplan.inference import infer
 
     _check_target(plot)
-    options: dict[str, Any] = {"cost": {"timeout_s": timeout}, "forest": {"seed": seed}}
+    options: dict[str, Any] = {
+        "cost": {"timeout_s": timeout},
+        "forest": {"seed": seed, "n_jobs": -1},
+    }
     name = method or _default(source)
     found = infer(source, actions, name, **options.get(name, {}))
     if plot is not None:

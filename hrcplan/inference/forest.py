@@ -100,6 +100,15 @@ class Forest:
         """The goals' names, in order."""
         return self.bank.names
 
+    @property
+    def note(self) -> str:
+        """What training took and reached, in words."""
+        t = self.training
+        return (
+            f"trained on {t.n_train} beginnings of plans in {t.train_s:.0f} s; "
+            f"right on {100 * t.accuracy:.1f} % of {t.n_held_out} held out"
+        )
+
     def prefixes(self, n: int, rng: np.random.Generator) -> tuple[Rows, Ids]:
         """Return about ``n`` sampled beginnings of plans, shuffled: done labels, and goals.
 

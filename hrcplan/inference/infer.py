@@ -131,7 +131,7 @@ def run(belief: Any, resolver: Resolver, observed: Sequence[Words], method: str)
         tuple(Change(told[c.at][0], c.probability) for c in found_changes),
         tuple(ignored),
         method,
-        getattr(states[-1], "note", None),
+        getattr(states[-1], "note", None) or getattr(belief, "note", None),
     )
 
 

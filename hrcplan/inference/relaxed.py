@@ -143,34 +143,41 @@ class Relaxation:
 
     def _costs(self, supporter: list[int]) -> list[float | None]:
         known: dict[int, int] = {}
-        needs, op_bits = self._needs, self._op_bits
-
-        def ops_for(literal: int) -> int:
-            """Return the ops of a relaxed plan for one literal, as bits."""
-            found = known.get(literal)
-            if found is None:
-                rule = supporter[literal]
-                found = op_bits[rule]
-                known[literal] = found
-                for need in needs[rule]:
-                    if supporter[need] != HOLDS:
-                        found |= ops_for(need)
-                known[literal] = found
-            return found
-
         costs: list[float | None] = []
         for tests in self._goals:
             found: float | None = None
             for literals in tests:
                 if all(supporter[literal] != NEVER for literal in literals):
-                    ops = 0
-                    for literal in literals:
-                        if supporter[literal] != HOLDS:
-                            ops |= ops_for(literal)
-                    cost = self._cost(ops)
+                    cost = self._cost(self._ops_for(literals, supporter, known))
                     found = cost if found is None else min(found, cost)
             costs.append(found)
         return costs
+
+    def _ops_for(self, literals: Sequence[int], supporter: list[int], known: dict[int, int]) -> int:
+        """Return the ops of a relaxed plan for some literals, as bits.
+
+        ``known`` has those of single literals, and is added to. No recursion: chains may be long.
+        """
+        needs, op_bits = self._needs, self._op_bits
+        waiting = [literal for literal in literals if supporter[literal] != HOLDS]
+        while waiting:
+            literal = waiting[-1]
+            rule = supporter[literal]
+            if literal not in known:
+                known[literal] = op_bits[rule]
+                before = [n for n in needs[rule] if n not in known and supporter[n] != HOLDS]
+                if before:
+                    waiting += before
+                    continue
+            waiting.pop()
+            for need in needs[rule]:
+                if supporter[need] != HOLDS:
+                    known[literal] |= known[need]
+        ops = 0
+        for literal in literals:
+            if supporter[literal] != HOLDS:
+                ops |= known[literal]
+        return ops
 
     def _cost(self, ops: int) -> float:
         if self._is_unit:

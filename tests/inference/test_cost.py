@@ -6,12 +6,14 @@ import numpy as np
 import pytest
 
 from hrcplan.bank.ramirez_geffner import read_instance
+from hrcplan.bank.steps import Op
 from hrcplan.inference.cost import Cost
 from hrcplan.inference.distances import Distances, apply
 from hrcplan.inference.infer import infer, run
 from hrcplan.inference.optimal import Searcher, search
 from hrcplan.inference.relaxed import Relaxation
 from hrcplan.inference.resolve import Resolver
+from hrcplan.task import Change
 
 GRID, BLOCKS = "easy-ipc-grid_p5-5-5_hyp-0_full", "block-words_p01_hyp-0_full"
 LOGISTICS, KITCHEN = "logistics_p01_hyp-3_full", "kitchen_generic_hyp-0_full_0"
@@ -71,6 +73,20 @@ def test_an_estimate_is_missing_only_out_of_reach(workshop):
         state = table.successor(state, table.find(words))
     costs = Relaxation(table.ops, workshop.goals.tests).costs([state])[0]
     assert [cost is None for cost in costs] == [True, True, True, False, False]
+
+
+def test_long_chains_need_no_recursion():
+    """A corridor of three thousand places: one op each, and only the ones on the way count."""
+    ops = [Op(i, ((1 << i, 1 << i),), (Change(1 << i + 1, 0),), (), 1) for i in range(3000)]
+    goals = [((1 << place, 1 << place),) for place in (3000, 7, 0)]
+    relaxation = Relaxation(ops[:60], [((1 << 60, 1 << 60),)])
+    assert relaxation.costs([1]) == [[60.0]]
+    long = Relaxation(ops, goals)
+    literals = [long._ids[2 * place] for place in range(3001)]
+    by_number = [0] * 3001
+    for place, literal in enumerate(literals):
+        by_number[literal] = place - 1  # its supporter; the first holds
+    assert long._costs(by_number) == [3000.0, 7.0, 0.0]
 
 
 def test_a_way_is_carried_on_without_a_search(workshop):
