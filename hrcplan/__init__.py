@@ -16,16 +16,18 @@ from typing import TYPE_CHECKING, Any
 __version__ = "0.1.0"
 
 if TYPE_CHECKING:
+    from hrcplan.bank import build_bank
     from hrcplan.facade import load, plan, validate
     from hrcplan.inference import infer
     from hrcplan.planners.lowering import lower
     from hrcplan.task import Task
 
-__all__ = ["Task", "infer", "load", "lower", "plan", "validate"]
+__all__ = ["Task", "build_bank", "infer", "load", "lower", "plan", "validate"]
 _HOMES = {
     "Task": "hrcplan.task",
-    "load": "hrcplan.facade",
+    "build_bank": "hrcplan.bank",
     "infer": "hrcplan.inference",
+    "load": "hrcplan.facade",
     "lower": "hrcplan.planners.lowering",
     "plan": "hrcplan.facade",
     "validate": "hrcplan.facade",

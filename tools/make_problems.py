@@ -3,8 +3,8 @@
 
     tools/make_problems.py kitchen -n 100 --seed 7 --new-objects 10 -o kitchen-100
 
-All of them share objects and init, so `hrcplan bank build kitchen kitchen-100` makes a bank of them.
-The same arguments write the same files.
+All of them share objects and init, so `hrcplan bank build kitchen kitchen-100` makes a bank of
+them. The same arguments write the same files.
 """
 
 import argparse
@@ -30,7 +30,9 @@ def main() -> int:
     parser.add_argument("-o", "--output", type=Path, required=True, help="folder to write into")
     args = parser.parse_args()
     try:
-        found = vary(read_goals(args.domain, args.goals), args.n, args.seed, n_objects=args.new_objects)
+        found = vary(
+            read_goals(args.domain, args.goals), args.n, args.seed, n_objects=args.new_objects
+        )
         args.output.mkdir(parents=True, exist_ok=True)
         for name, goal in zip(found.names, found.formulas, strict=True):
             problem = replace(found.problem, name=name, goal=goal)

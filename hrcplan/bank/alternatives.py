@@ -20,8 +20,7 @@ from hrcplan.bank.relevance import Literals, relevant
 from hrcplan.bank.rules import Packing, positions_of
 from hrcplan.bank.search import Explored, Limits
 from hrcplan.bank.steps import MAX_TIES, Op, StepTable
-from hrcplan.task.conditions import Test
-from hrcplan.task.task import meets
+from hrcplan.task.conditions import Tests, meets
 
 NODE_BYTES = 600  # measured, with its share of edges; what a Python node takes
 CHECK_EVERY = 256  # nodes between two looks at the limits
@@ -31,11 +30,12 @@ Node = tuple[int, frozenset[int]]
 
 
 def alternatives_graph(
-    table: StepTable, goal: Sequence[Test], state: int, factor: Fraction, *, name: str = "goal",
+    table: StepTable, goal: Tests, state: int, factor: Fraction, *, name: str = "goal",
     limits: Limits = NO_LIMITS,
 ) -> PlanGraph:  # fmt: skip
-    """Return the graph of the plans that cost up to ``factor`` times the optimum and that no
-    longer reach the goal, or can no longer be done, whichever one step is left out.
+    """Return the graph of plans up to ``factor`` times the optimal cost that need all their steps.
+
+    Whichever one step is left out, the rest cannot be done, or does not reach the goal.
 
     Raises:
         LimitError: if time or memory runs out.
@@ -63,7 +63,7 @@ class _Search:
     """Forward search over states with shadows, in order of cost."""
 
     def __init__(
-        self, ops: Sequence[Op], needed: Literals, goal: Sequence[Test],
+        self, ops: Sequence[Op], needed: Literals, goal: Tests,
         marks: Sequence[Landmark], bound: int, max_ties: int,
     ) -> None:  # fmt: skip
         self.needed, self.goal, self.bound, self.max_ties = needed, goal, bound, max_ties
@@ -157,4 +157,6 @@ def _explored(
     parts = tuple(
         (part[:, 0], part[:, 1].astype(np.int32), part[:, 2]) for part in np.split(table, starts)
     )
-    return Explored(packing.rows(states), tuple(layers), parts, np.array(goals, dtype=np.bool_), None, None)
+    return Explored(
+        packing.rows(states), tuple(layers), parts, np.array(goals, dtype=np.bool_), None, None
+    )

@@ -24,16 +24,16 @@ def fault(bank: Bank, goal: int) -> str | None:
     if not graph.n_nodes:
         return None
     shape = _shape(graph, len(bank.table))
-    return shape and f"'{name}': {shape}" or _meaning(bank, goal)
+    return (shape and f"'{name}': {shape}") or _meaning(bank, goal)
 
 
 def _shape(graph: PlanGraph, n_steps: int) -> str | None:
     n, m = graph.n_nodes, graph.n_edges
     if graph.first[0] != 0 or graph.first[-1] != m or (np.diff(graph.first) < 0).any():
         return "edges are not where the nodes say"
-    if m and not (0 <= graph.targets.min() and graph.targets.max() < n):
+    if m and not (graph.targets.min() >= 0 and graph.targets.max() < n):
         return "an edge leads to no node"
-    if m and not (0 <= graph.steps.min() and graph.steps.max() < n_steps):
+    if m and not (graph.steps.min() >= 0 and graph.steps.max() < n_steps):
         return "an edge is no step"
     sources = np.repeat(np.arange(n), np.diff(graph.first))
     if (graph.layer_of[graph.targets] <= graph.layer_of[sources]).any():

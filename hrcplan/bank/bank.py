@@ -11,16 +11,18 @@ from functools import cached_property
 import numpy as np
 
 from hrcplan.bank import walk
-from hrcplan.bank.construct import bounded_graph, optimal_graph
+from hrcplan.bank.construct import NO_LIMITS, bounded_graph, optimal_graph
 from hrcplan.bank.goals import Goals
 from hrcplan.bank.graph import PlanGraph
+from hrcplan.bank.relevance import fleeting, relevant
 from hrcplan.bank.search import MAX_MIB, Limits
 from hrcplan.bank.sources import read_goals
-from hrcplan.bank.steps import STEPS, StepTable
+from hrcplan.bank.steps import STEPS, Op, StepTable
 from hrcplan.errors import UsageError
 from hrcplan.plans import Plan, PlannedAction
 
 OPTIMAL = Fraction(1)
+MAX_VARIANTS = 8  # states that are looked up for one that is off the graph
 MAX_REROOTED = 4096  # graphs from other states that are remembered
 
 
@@ -95,13 +97,13 @@ class Bank:
             raise UsageError(f"the bank has no goal '{name}'", code="unknown-goal", hint=hint)
         return self.names.index(name)
 
-    def reroot(self, goal: int, state: int, limits: Limits = Limits()) -> PlanGraph:
+    def reroot(self, goal: int, state: int, limits: Limits = NO_LIMITS) -> PlanGraph:
         """Return the graph of all optimal plans of a goal from another state; it is remembered.
 
         Raises:
             LimitError: if time or memory runs out.
         """
-        key = (goal, state)
+        key = (goal, state & self._relevant[goal][1])
         if key not in self._rerooted:
             if len(self._rerooted) >= MAX_REROOTED:
                 self._rerooted.pop(next(iter(self._rerooted)))
@@ -109,6 +111,37 @@ class Bank:
                 self.table, self.goals.tests[goal], state, name=self.names[goal], limits=limits
             )
         return self._rerooted[key]
+
+    def locate(
+        self, goal: int, state: int, limits: Limits = NO_LIMITS
+    ) -> tuple[PlanGraph, int | None]:
+        """Return a graph of a goal and the node in it that a state is at, whatever led there.
+
+        It is the goal's own graph where that holds the state, else one that begins at the state.
+        The node is None if the goal can no longer be reached.
+
+        Raises:
+            LimitError: if time or memory runs out.
+        """
+        graph = self.graphs[goal]
+        node = graph.node_of(state)
+        if node is None and self._fleeting[goal] and not self.goals.is_reached(goal, state):
+            found = map(graph.node_of, _variants(state, self._fleeting[goal]))
+            node = next((n for n in found if n is not None and not graph.is_goal[n]), None)
+        if node is not None:
+            return graph, node
+        other = self.reroot(goal, state, limits)
+        return other, 0 if other.n_nodes else None
+
+    @cached_property
+    def _relevant(self) -> list[tuple[tuple[Op, ...], int]]:
+        """For each goal the steps and facts that matter to any plan of it, from any state."""
+        found = (relevant(self.table.ops, tests) for tests in self.goals.tests)
+        return [(ops, needed.facts) for ops, needed in found]
+
+    @cached_property
+    def _fleeting(self) -> list[int]:
+        return [fleeting(ops) & facts for ops, facts in self._relevant]
 
     # Plans.
 
@@ -138,9 +171,7 @@ class Bank:
         rows = self.sampler(goal).draw(n, rng).tolist()
         return [tuple(step for step in row if step >= 0) for row in rows]
 
-    def plans(
-        self, goal: int, keep: walk.PlanFilter | None = None
-    ) -> Iterator[tuple[int, ...]]:
+    def plans(self, goal: int, keep: walk.PlanFilter | None = None) -> Iterator[tuple[int, ...]]:
         """Yield the plans of a goal as step ids, the cheapest first."""
         return walk.plans(self.graphs[goal], keep)
 
@@ -171,8 +202,9 @@ class Bank:
         return state is not None and self.goals.is_reached(goal, state)
 
     def as_plan(self, steps: Sequence[int]) -> Plan:
-        """Return a plan with ground actions; where agents are dropped, the cheapest does a step,
-        the first in ground-action order among equals.
+        """Return a plan with ground actions, where agents are dropped those of the cheapest agent.
+
+        Among equals it is the first in ground-action order.
 
         Raises:
             UsageError: if the steps cannot be done one after the other.
@@ -187,6 +219,16 @@ class Bank:
             found.append(PlannedAction(task.actions[action].name, task.actions[action].args))
             state = task.successor(state, action)
         return Plan(tuple(found))
+
+
+def _variants(state: int, facts: int) -> Iterator[int]:
+    """Yield a state with a few facts set in all possible ways."""
+    chosen = facts
+    for _ in range(MAX_VARIANTS):
+        yield state & ~facts | chosen
+        if not chosen:
+            return
+        chosen = (chosen - 1) & facts
 
 
 def build_bank(

@@ -15,13 +15,13 @@ from hrcplan.bank.rules import WORD, Ids, Packing, Rules, Words, positions_of
 from hrcplan.bank.search import Explored, Explorer, Limits, group_rows
 from hrcplan.bank.steps import Op, StepTable
 from hrcplan.pddl.model import Number
-from hrcplan.task.conditions import Test
+from hrcplan.task.conditions import Tests
 
 NO_LIMITS = Limits()
 
 
 def optimal_graph(
-    table: StepTable, goal: Sequence[Test], state: int, *, name: str = "goal",
+    table: StepTable, goal: Tests, state: int, *, name: str = "goal",
     limits: Limits = NO_LIMITS, blind: bool = False,
 ) -> PlanGraph:  # fmt: skip
     """Return the graph of all optimal plans from a state to a goal.
@@ -41,7 +41,7 @@ def optimal_graph(
 
 
 def optimal_with_price(
-    table: StepTable, goal: Sequence[Test], state: int, *, name: str = "goal",
+    table: StepTable, goal: Tests, state: int, *, name: str = "goal",
     limits: Limits = NO_LIMITS, blind: bool = False,
 ) -> tuple[PlanGraph, int | None]:  # fmt: skip
     """Return the graph of all optimal plans, and their price (None if there is none).
@@ -77,9 +77,7 @@ def optimal_with_price(
     return narrowed(graph, table, goal), found.cost
 
 
-def _useful(
-    ops: Sequence[Op], marks: Sequence[Landmark]
-) -> tuple[list[Op], tuple[Landmark, ...]]:
+def _useful(ops: Sequence[Op], marks: Sequence[Landmark]) -> tuple[list[Op], tuple[Landmark, ...]]:
     """Return the ops that are in a landmark, and the landmarks over these alone."""
     useful = sorted(frozenset[int]().union(*(mark.ops for mark in marks)))
     place = {op: i for i, op in enumerate(useful)}
@@ -88,11 +86,13 @@ def _useful(
 
 
 def bounded_graph(
-    table: StepTable, goal: Sequence[Test], state: int, quality: Fraction, *, name: str = "goal",
+    table: StepTable, goal: Tests, state: int, quality: Fraction, *, name: str = "goal",
     limits: Limits = NO_LIMITS,
 ) -> PlanGraph:  # fmt: skip
-    """Return the graph of all sequences that first reach a goal at up to ``quality`` times the
-    optimal cost, whatever steps they hold. Nodes are whole states, at one cost so far each.
+    """Return the graph of all sequences up to ``quality`` times the optimal cost.
+
+    They end where they first reach the goal, whatever steps they hold. Nodes are whole states, at
+    one cost so far each.
 
     Raises:
         LimitError: if time or memory runs out.
@@ -129,15 +129,12 @@ def assemble(table: StepTable, found: Explored, packing: Packing, name: str) -> 
         for sources, steps, targets in found.edges
         for keep in [alive[sources] & alive[targets]]
     ]
-    layers = tuple(
-        (table.in_units(paid), int(before[first])) for paid, first in found.layers
-    )
+    layers = tuple((table.in_units(paid), int(before[first])) for paid, first in found.layers)
     sources, steps, targets = (np.concatenate([part[i] for part in parts]) for i in range(3))
-    graph = PlanGraph(
+    return PlanGraph(
         name, packing, found.states[alive], _nonempty(layers, int(alive.sum())),
         *_by_source(sources, steps, targets, int(alive.sum())), found.is_goal[alive],
     )  # fmt: skip
-    return graph
 
 
 def _nonempty(
@@ -161,7 +158,7 @@ def _by_source(
     return first, steps[once], targets[once].astype(np.int32)
 
 
-def narrowed(graph: PlanGraph, table: StepTable, goal: Sequence[Test]) -> PlanGraph:
+def narrowed(graph: PlanGraph, table: StepTable, goal: Tests) -> PlanGraph:
     """Return a graph of optimal plans over fewer facts: what its steps and the goal look at.
 
     States that agree on these and have paid the same go on alike, so they become one node.

@@ -23,8 +23,7 @@ from hrcplan.pddl.model import Formula
 from hrcplan.planners import kstar, process
 from hrcplan.planners.lowering import lower
 from hrcplan.task import Task
-from hrcplan.task.conditions import Test
-from hrcplan.task.task import meets
+from hrcplan.task.conditions import Tests, meets
 
 LONGEST_S = 86_400.0  # a planner process without a limit of ours
 
@@ -52,8 +51,9 @@ def sampled_graph(
 
 
 def step_task(table: StepTable, goal: Formula) -> tuple[Task, list[int]]:
-    """Return the task with one action for each way to do a step, at the bank's cost, and the step
-    of each of its actions.
+    """Return the task with one action for each way to do a step, and the step of each action.
+
+    Actions cost what steps cost in the bank.
     """
     task = table.task.with_goal(goal)
     cheapest: dict[object, int] = {}
@@ -92,7 +92,7 @@ def graph_of_plans(
 
 def _explored(
     packing: Packing, root: tuple[int, int],
-    edges: dict[tuple[int, int, int], tuple[int, int]], goal: Sequence[Test],
+    edges: dict[tuple[int, int, int], tuple[int, int]], goal: Tests,
 ) -> Explored:  # fmt: skip
     nodes = sorted({root, *edges.values()})
     index = {node: i for i, node in enumerate(nodes)}

@@ -88,7 +88,9 @@ class Goals:
         """
         unknown = [name for name in names if name not in self.names]
         if unknown:
-            raise UsageError(f"there is no goal '{unknown[0]}'", hint=nearest(unknown[0], self.names))
+            raise UsageError(
+                f"there is no goal '{unknown[0]}'", hint=nearest(unknown[0], self.names)
+            )
         chosen = tuple(self.formulas[self.names.index(name)] for name in names)
         return replace(self, names=tuple(names), formulas=chosen)
 
@@ -128,8 +130,9 @@ def _differences(first: Problem, other: Problem) -> Iterator[str]:
         yield f"domain {other.domain.name} instead of {first.domain.name}"
     mine, theirs = first.all_objects, other.all_objects
     for name in sorted(mine.keys() | theirs.keys()):
-        if mine.get(name) != theirs.get(name):
-            yield f"object {name} is {theirs.get(name, 'missing')}, there {mine.get(name, 'missing')}"
+        here, there = theirs.get(name, "missing"), mine.get(name, "missing")
+        if here != there:
+            yield f"object {name} is {here}, there {there}"
     for fact in sorted(first.facts ^ other.facts):
         yield f"{fact_text(fact)} holds only in {(first if fact in first.facts else other).name}"
     for key in sorted(first.values.keys() | other.values.keys()):

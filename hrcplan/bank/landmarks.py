@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from hrcplan.bank.rules import positions_of
 from hrcplan.bank.steps import Op
 from hrcplan.task import Change
-from hrcplan.task.conditions import Test
+from hrcplan.task.conditions import Test, Tests
 
 MAX_LANDMARKS = 256
 
@@ -37,7 +37,7 @@ class _Relaxed:
     gives: tuple[int, ...]
 
 
-def landmarks(ops: Sequence[Op], state: int, goal: Sequence[Test]) -> tuple[Landmark, ...] | None:
+def landmarks(ops: Sequence[Op], state: int, goal: Tests) -> tuple[Landmark, ...] | None:
     """Return landmarks of all plans from a state to a goal; None if there is no plan at all.
 
     The largest costs first, at most ``MAX_LANDMARKS``. None is only returned if the goal is out
@@ -60,10 +60,11 @@ def landmarks(ops: Sequence[Op], state: int, goal: Sequence[Test]) -> tuple[Land
 class _Relaxation:
     """The task without deletes: ``2 i`` says that fact i is true, ``2 i + 1`` that it is false."""
 
-    def __init__(self, ops: Sequence[Op], state: int, goal: Sequence[Test]) -> None:
+    def __init__(self, ops: Sequence[Op], state: int, goal: Tests) -> None:
         self.costs = [op.cost for op in ops]
         changes = [change for op in ops for change in op.changes]
-        tests = [*goal, *(test for part in (*ops, *changes) for test in part.tests)]
+        tests = [*goal, *(test for op in ops for test in op.tests)]
+        tests += [test for change in changes for test in change.tests]
         facts = [state, *(mask for mask, _ in tests), *(c.adds | c.deletes for c in changes)]
         n_facts = max(facts).bit_length()
         self.goal, self.true, top = 2 * n_facts, 2 * n_facts + 1, 2 * n_facts + 2

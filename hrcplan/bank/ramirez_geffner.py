@@ -1,8 +1,8 @@
 """Folders of the goal recognition benchmarks of Ramírez and Geffner (IJCAI 2009).
 
-``template.pddl`` is a problem with ``<HYPOTHESIS>`` for its goal, ``hyps.dat`` lists the goals one a
-line, ``real_hyp.dat`` repeats the true one, ``obs.dat`` lists the observed actions. The files in
-circulation mix upper and lower case, end in blank lines, and declare actions more than once.
+``template.pddl`` is a problem with ``<HYPOTHESIS>`` for its goal, ``hyps.dat`` lists the goals, one
+a line, ``real_hyp.dat`` repeats the true one, ``obs.dat`` lists the observed actions. The files
+in circulation mix upper and lower case, end in blank lines, and declare actions more than once.
 """
 
 from __future__ import annotations
@@ -29,8 +29,10 @@ _BETWEEN = re.compile(r"\)\s*,\s*")
 
 @dataclass(frozen=True)
 class Instance:
-    """A whole folder: goals, observed actions as ``(name, *objects)`` in lower case, and the index
-    of the true goal; empty and None where the files are missing.
+    """A whole folder: goals, observed actions, and the index of the true goal.
+
+    Actions are ``(name, *objects)`` in lower case; there are none, and the true goal is None, where
+    the files are missing.
     """
 
     goals: Goals
@@ -59,12 +61,14 @@ def read_instance(folder: Path) -> Instance:
 
 
 def read_actions(text: str) -> tuple[tuple[str, ...], ...]:
-    """Return the actions of a text, one a line, as ``(name, *objects)`` in lower case.
+    r"""Return the actions of a text, one a line, as ``(name, *objects)`` in lower case.
 
-    >>> read_actions("(TAKE plate)\\n\\n(take bread)\\n")
+    >>> read_actions("(TAKE plate)\n\n(take bread)\n")
     (('take', 'plate'), ('take', 'bread'))
     """
-    lines = (re.sub(r"[()]", " ", line.split(";", 1)[0]).lower().split() for line in text.splitlines())
+    lines = (
+        re.sub(r"[()]", " ", line.split(";", 1)[0]).lower().split() for line in text.splitlines()
+    )
     return tuple(tuple(words) for words in lines if words)
 
 

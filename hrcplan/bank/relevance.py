@@ -8,10 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import reduce
+from operator import or_
 
 from hrcplan.bank.steps import Op
 from hrcplan.task import Change
-from hrcplan.task.conditions import Test
+from hrcplan.task.conditions import Test, Tests
 
 ALWAYS: tuple[Test, ...] = ((0, 0),)
 
@@ -49,7 +51,7 @@ class Literals:
         return self.true | self.false
 
 
-def relevant(ops: Sequence[Op], goal: Sequence[Test]) -> tuple[tuple[Op, ...], Literals]:
+def relevant(ops: Sequence[Op], goal: Tests) -> tuple[tuple[Op, ...], Literals]:
     """Return the ops that can help to reach a goal, in order, and the literals that matter."""
     needed = Literals()
     needed.take(goal)
@@ -75,7 +77,7 @@ def _take_op(needed: Literals, op: Op) -> None:
             needed.take_negated(change.tests)
 
 
-def read_by(ops: Iterable[Op], goal: Sequence[Test]) -> int:
+def read_by(ops: Iterable[Op], goal: Tests) -> int:
     """Return the facts that conditions of ``ops`` and a goal look at, as bits."""
     found = Literals()
     found.take(goal)
@@ -84,3 +86,16 @@ def read_by(ops: Iterable[Op], goal: Sequence[Test]) -> int:
         for change in op.changes:
             found.take(change.tests)
     return found.facts
+
+
+def fleeting(ops: Sequence[Op]) -> int:
+    """Return the facts that every op sets, whatever the state, and that none looks at, as bits.
+
+    States that differ in these alone have the same plans, unless one of them is a goal state: such
+    a fact only matters to the goal, and then the last step decides.
+    """
+    found = -1
+    for op in ops:
+        sure = (change for change in op.changes if change.tests == ALWAYS)
+        found &= reduce(or_, (change.adds | change.deletes for change in sure), 0)
+    return found & ~read_by(ops, ()) if ops else 0

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from hrcplan.bank.relevance import ALWAYS
 from hrcplan.bank.steps import Op
 from hrcplan.task import Change
-from hrcplan.task.conditions import Test
+from hrcplan.task.conditions import Tests
 
 Words = NDArray[np.uint64]
 Ids = NDArray[np.int64]
@@ -140,7 +140,7 @@ class Rules:
         ops = np.full(int(moved.sum()), index, dtype=np.int32)
         return rows[moved], ops, after[moved]
 
-    def meets(self, states: Words, tests: Sequence[Test]) -> Bools:
+    def meets(self, states: Words, tests: Tests) -> Bools:
         """Return for each row whether any of the tests holds."""
         found = np.zeros(len(states), dtype=np.bool_)
         for mask, value in tests:

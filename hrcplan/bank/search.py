@@ -18,7 +18,7 @@ from hrcplan.bank.landmarks import Landmark
 from hrcplan.bank.rules import WORD, Bools, Ids, Rules, Words
 from hrcplan.bank.steps import MAX_TIES, Op
 from hrcplan.errors import LimitError
-from hrcplan.task.conditions import Test
+from hrcplan.task.conditions import Tests
 
 MAX_MIB = 2048
 SALT = np.uint64(0x9E3779B97F4A7C15)
@@ -42,7 +42,8 @@ class Limits:
         """
         hint = "lower --quality or --alternatives, or build from enumerated plans with --sample N"
         if n_bytes > self.mib << 20:
-            message = f"the plan graph of '{goal}' needs more than {self.mib} MiB ({n_nodes} states so far)"
+            so_far = f"{n_nodes} states so far"
+            message = f"the plan graph of '{goal}' needs more than {self.mib} MiB ({so_far})"
             raise LimitError(message, code="memory", hint=f"{hint}; or raise --memory")
         if time.monotonic() > self.deadline:
             message = f"no time left for the plan graph of '{goal}' ({n_nodes} states so far)"
@@ -92,7 +93,7 @@ class Explorer:
     """
 
     def __init__(
-        self, rules: Rules, goal: Sequence[Test], marks: Sequence[Landmark], bound: int,
+        self, rules: Rules, goal: Tests, marks: Sequence[Landmark], bound: int,
         *, optimal: bool, limits: Limits, name: str, max_ties: int = MAX_TIES,
     ) -> None:  # fmt: skip
         self.max_ties = max_ties
@@ -287,8 +288,10 @@ def _n_bytes(*arrays: NDArray[np.generic]) -> int:
 
 
 def group_rows(rows: Words) -> tuple[Words, Ids, Ids, Ids]:
-    """Return the distinct rows, sorted; for each row the index of its equal; the order that brings
-    equal rows together; and where each group begins in it.
+    """Return the distinct rows, sorted, and how to get from all rows to them.
+
+    That is: for each row the index of its equal; the order that brings equal rows together; and
+    where each group begins in that order.
     """
     single = rows.shape[1] == 1
     order = np.argsort(rows[:, 0]) if single else np.lexsort(rows.T[::-1])

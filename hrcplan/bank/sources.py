@@ -1,4 +1,4 @@
-"""Where goals are read from: folders of problem files, Ramírez–Geffner folders, stored texts."""
+"""Where goals are read from: folders of problem files, goal recognition folders, stored texts."""
 
 from __future__ import annotations
 
@@ -14,8 +14,10 @@ from hrcplan.pddl.reader import Group, read
 
 
 def read_goals(domain: str, goals: str | None = None) -> Goals:
-    """Return the goals of a folder: problem files in the order of their names, or a
-    Ramírez–Geffner folder; by default the shipped problems of the domain.
+    """Return the goals of a folder, or of a domain's shipped problems.
+
+    Problem files stand in the order of their names; a folder may also be one of Ramírez and
+    Geffner's, with ``template.pddl`` and ``hyps.dat``.
 
     Args:
         domain: A path or a shipped name.
@@ -49,7 +51,9 @@ def _problem_files(domain: str, first: SourceFile, folder: Path | None) -> Itera
         return
     if not folder.is_dir():
         hint = "GOALS is a folder of problem files, or one with template.pddl and hyps.dat"
-        raise InputError(f"there is no folder '{folder}'", code="no-folder", path=str(folder), hint=hint)
+        raise InputError(
+            f"there is no folder '{folder}'", code="no-folder", path=str(folder), hint=hint
+        )
     files = [SourceFile.read(p) for p in sorted(folder.glob("*.pddl")) if p.is_file()]
     found = [file for file in files if not _is_domain(file)]
     if not found:

@@ -11,8 +11,7 @@ from math import lcm
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.model import Number
 from hrcplan.task import Change, GroundAction, Task
-from hrcplan.task.conditions import Test
-from hrcplan.task.task import meets
+from hrcplan.task.conditions import Test, meets
 
 STEPS = "steps"
 TASK = "task"
@@ -145,7 +144,9 @@ class StepTable:
             return [1] * len(self.task.actions), 1
         costs = [Fraction(cost) for cost in self.task.costs]
         if any(cost < 0 for cost in costs):
-            raise UnsupportedError("a bank needs costs that are not negative", hint="--bank-cost steps")
+            raise UnsupportedError(
+                "a bank needs costs that are not negative", hint="--bank-cost steps"
+            )
         scale = lcm(*(cost.denominator for cost in costs))
         whole = [int(cost * scale) for cost in costs]
         if all(whole):
@@ -196,8 +197,6 @@ class StepTable:
             found[way] = min(price, found.get(way, price))
         ops = [replace(way, cost=price) for way, price in found.items()]
         return tuple(sorted(ops, key=lambda op: op.step))
-
-
 
 
 def _changes(action: GroundAction) -> tuple[tuple[Change, ...], tuple[Change, ...]]:

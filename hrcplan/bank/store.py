@@ -153,7 +153,9 @@ def _open(data: bytes, shown: str) -> tuple[dict[str, Any], memoryview]:
     if version != VERSION:
         raise refuse("bank-version", f"is a bank of format {version}; this hrcplan reads {VERSION}")
     if len(data) != begin + n_head + n_body:
-        raise refuse("bank-truncated", f"has {len(data)} bytes instead of {begin + n_head + n_body}")
+        raise refuse(
+            "bank-truncated", f"has {len(data)} bytes instead of {begin + n_head + n_body}"
+        )
     view = memoryview(data)
     digest = hashlib.sha256(view[: _PREFIX.size])
     digest.update(view[begin:])

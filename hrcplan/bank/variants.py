@@ -77,7 +77,9 @@ def _enlarged(goals: Goals, rng: random.Random, n_objects: int) -> Problem:
     known = [name for name in mentioned if name in world.objects]
     for number in range(1, n_objects + 1):
         old = rng.choice(known)
-        new = next(name for i in range(number, 10**9) if (name := f"{old}-{i}") not in world.all_objects)
+        new = next(
+            name for i in range(number, 10**9) if (name := f"{old}-{i}") not in world.all_objects
+        )
         world = with_copy(world, old, new)
     return world
 

@@ -102,7 +102,7 @@ class Sampler:
 
     def _draw(self, n: int, rng: np.random.Generator) -> NDArray[np.int32]:
         graph = self.graph
-        nodes = np.zeros(n, dtype=np.int64)
+        nodes = np.zeros(n, dtype=np.int32)
         columns: list[NDArray[np.int32]] = []
         done = graph.is_goal[nodes]
         while not done.all():
@@ -119,14 +119,16 @@ class Sampler:
 
     def _choose(self, nodes: NDArray[np.integer], chance: NDArray[np.float64]) -> Ids:
         """Return an edge for each node, by halving the range of its edges."""
-        edges = self.graph.first[nodes]
+        edges: Ids = self.graph.first[nodes]
         last = self._last[nodes]
         for stride in self._strides:
             ahead = np.minimum(edges + (stride - 1), last)
             edges = edges + stride * (self._shares[ahead] <= chance)
         return edges
 
-    def draw_kept(self, n: int, rng: np.random.Generator, keep: PlanFilter) -> list[tuple[int, ...]]:
+    def draw_kept(
+        self, n: int, rng: np.random.Generator, keep: PlanFilter
+    ) -> list[tuple[int, ...]]:
         """Return ``n`` plans drawn uniformly from those that a filter keeps.
 
         Raises:
@@ -183,8 +185,9 @@ Multiset = frozenset[tuple[int, int]]
 
 
 def step_multisets(graph: PlanGraph) -> frozenset[Multiset] | None:
-    """Return the distinct multisets of steps of plans, as (step, times) pairs; None if there are
-    more than ``MAX_MULTISETS``.
+    """Return the distinct multisets of steps of plans, as (step, times) pairs.
+
+    None means that there are more than ``MAX_MULTISETS``.
     """
     if "_multisets" not in graph.__dict__:
         graph.__dict__["_multisets"] = _one_multiset(graph) or _all_multisets(graph)

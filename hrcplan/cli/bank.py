@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from hrcplan.bank import Bank, PlanGraph
 
 
-class _Factor(click.ParamType):
+class _Factor(click.ParamType):  # type: ignore[type-arg]
     """A number of at least 1, exactly as written."""
 
     name = "factor"
@@ -40,25 +40,66 @@ def command() -> None:
 @click.argument("domain", metavar="DOMAIN")
 @click.argument("goals", required=False, metavar="[GOALS]")
 @click.option("--goal", "only", multiple=True, metavar="NAME", help="Only this goal; repeatable.")
-@click.option("--quality", type=_Factor(), metavar="Q",
-              help="All sequences up to Q times the optimal cost, not only optimal plans.")
-@click.option("--alternatives", type=_Factor(), metavar="Q",
-              help="Plans up to Q times the optimal cost of which no step can be dropped.")
-@click.option("--sample", type=click.IntRange(min=1), metavar="N",
-              help="Build from N optimal plans that K* lists, where the whole does not fit.")
-@click.option("--bank-cost", type=click.Choice(["steps", "task"]), default="steps",
-              show_default=True, help="What plans are optimal in: steps, or the task's cost.")
-@click.option("--memory", type=click.IntRange(min=1), default=2048, show_default=True,
-              metavar="MIB", help="MiB that the arrays of one goal may need.")
-@click.option("--timeout", type=click.FloatRange(0, min_open=True), metavar="S",
-              help="Seconds for all goals together; no limit if not given.")
-@click.option("-o", "--output", "target", required=True, metavar="BANK",
-              type=click.Path(path_type=Path), help="The file to write.")
+@click.option(
+    "--quality",
+    type=_Factor(),
+    metavar="Q",
+    help="All sequences up to Q times the optimal cost, not only optimal plans.",
+)
+@click.option(
+    "--alternatives",
+    type=_Factor(),
+    metavar="Q",
+    help="Plans up to Q times the optimal cost of which no step can be dropped.",
+)
+@click.option(
+    "--sample",
+    type=click.IntRange(min=1),
+    metavar="N",
+    help="Build from N optimal plans that K* lists, where the whole does not fit.",
+)
+@click.option(
+    "--bank-cost",
+    type=click.Choice(["steps", "task"]),
+    default="steps",
+    show_default=True,
+    help="What plans are optimal in: steps, or the task's cost.",
+)
+@click.option(
+    "--memory",
+    type=click.IntRange(min=1),
+    default=2048,
+    show_default=True,
+    metavar="MIB",
+    help="MiB that the arrays of one goal may need.",
+)
+@click.option(
+    "--timeout",
+    type=click.FloatRange(0, min_open=True),
+    metavar="S",
+    help="Seconds for all goals together; no limit if not given.",
+)
+@click.option(
+    "-o",
+    "--output",
+    "target",
+    required=True,
+    metavar="BANK",
+    type=click.Path(path_type=Path),
+    help="The file to write.",
+)
 @output.common_options
 def build(
-    domain: str, goals: str | None, only: tuple[str, ...], quality: Fraction | None,
-    alternatives: Fraction | None, sample: int | None, bank_cost: str, memory: int,
-    timeout: float | None, target: Path,
+    domain: str,
+    goals: str | None,
+    only: tuple[str, ...],
+    quality: Fraction | None,
+    alternatives: Fraction | None,
+    sample: int | None,
+    bank_cost: str,
+    memory: int,
+    timeout: float | None,
+    target: Path,
 ) -> int:
     """Build the bank of the problems in GOALS, or of DOMAIN's shipped problems.
 
@@ -71,8 +112,13 @@ def build(
         raise UsageError(f"cannot write {target}: no such folder, or it is one", path=str(target))
     recipe = Recipe(bank_cost, quality or Fraction(1), alternatives, sample)
     bank = build_bank(
-        domain, goals, recipe, only=only or None, mib=memory,
-        timeout_s=float("inf") if timeout is None else timeout, report=_say,
+        domain,
+        goals,
+        recipe,
+        only=only or None,
+        mib=memory,
+        timeout_s=float("inf") if timeout is None else timeout,
+        report=_say,
     )
     save(bank, target)
     _print(bank)
@@ -97,16 +143,27 @@ def show(bank: str) -> int:
 @command.command("sample")
 @click.argument("bank", metavar="BANK")
 @click.argument("goal", metavar="GOAL")
-@click.option("-n", "n", type=click.IntRange(min=0), default=1, show_default=True, metavar="N",
-              help="How many plans.")
-@click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True, metavar="N",
-              help="Where chance begins.")
+@click.option(
+    "-n",
+    "n",
+    type=click.IntRange(min=0),
+    default=1,
+    show_default=True,
+    metavar="N",
+    help="How many plans.",
+)
+@click.option(
+    "--seed",
+    type=click.IntRange(min=0),
+    default=0,
+    show_default=True,
+    metavar="N",
+    help="Where chance begins.",
+)
 @click.option("--loop-free", is_flag=True, help="Only plans that meet no state twice.")
 @click.option("--irredundant", is_flag=True, help="Only plans of which no step can be dropped.")
 @output.common_options
-def sample(
-    bank: str, goal: str, n: int, seed: int, loop_free: bool, irredundant: bool
-) -> int:
+def sample(bank: str, goal: str, n: int, seed: int, loop_free: bool, irredundant: bool) -> int:
     """Draw plans of a GOAL uniformly from a BANK and print them in IPC format."""
     import numpy as np
 
@@ -114,13 +171,15 @@ def sample(
 
     loaded = load(bank)
     index = loaded.goal_index(goal)
-    filters = [loaded.loop_free] if loop_free else []
-    filters += [loaded.irredundant(index)] if irredundant else []
+    wanted = ((loop_free, loaded.loop_free), (irredundant, loaded.irredundant(index)))
+    filters = [test for asked, test in wanted if asked]
     keep = (lambda steps: all(test(steps) for test in filters)) if filters else None
     drawn = loaded.sample(index, n, np.random.default_rng(seed), keep)
     plans = [
-        {"steps": [str(loaded.table[step]) for step in steps],
-         "actions": [str(action) for action in loaded.as_plan(steps).actions]}
+        {
+            "steps": [str(loaded.table[step]) for step in steps],
+            "actions": [str(action) for action in loaded.as_plan(steps).actions],
+        }
         for steps in drawn
     ]
     if output.JSON:
@@ -180,13 +239,24 @@ def as_json(bank: Bank) -> dict[str, Any]:
 def _table(bank: Bank) -> str:
     head = ["goal", "steps", "cost", "plans", "nodes", "edges"]
     rows = [
-        [g.goal, str(g.n_steps), str(output.number(g.optimal_cost)),
-         f"{'' if g.complete else '>= '}{g.plans:,}", f"{g.n_nodes:,}", f"{g.n_edges:,}"]
+        [
+            g.goal,
+            str(g.n_steps),
+            str(output.number(g.optimal_cost)),
+            f"{'' if g.complete else '>= '}{g.plans:,}",
+            f"{g.n_nodes:,}",
+            f"{g.n_edges:,}",
+        ]
         for g in bank.graphs
     ]
     widths = [max(len(row[i]) for row in [head, *rows]) for i in range(len(head))]
     lines = [
-        "  ".join([row[0].ljust(widths[0]), *(c.rjust(w) for c, w in zip(row[1:], widths[1:], strict=True))])
+        "  ".join(
+            [
+                row[0].ljust(widths[0]),
+                *(c.rjust(w) for c, w in zip(row[1:], widths[1:], strict=True)),
+            ]
+        )
         for row in [head, *rows]
     ]
     agents = "dropped: plans are sequences of steps" if bank.agents == "dropped" else "kept"

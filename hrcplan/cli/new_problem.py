@@ -17,10 +17,20 @@ from hrcplan.pddl.model import Problem
 @click.option("--from", "origin", required=True, metavar="PROBLEM", help="Problem to start from.")
 @click.option("--goal", metavar="'(and …)'", help="The new goal, in PDDL.")
 @click.option("--vary", is_flag=True, help="The old goal with other objects in it, by chance.")
-@click.option("--new-objects", type=click.IntRange(min=0), default=0, metavar="N",
-              help="With --vary: copy N objects first, for a larger world.")
-@click.option("--seed", type=click.IntRange(min=0), default=0, metavar="N",
-              help="With --vary: where chance begins.")
+@click.option(
+    "--new-objects",
+    type=click.IntRange(min=0),
+    default=0,
+    metavar="N",
+    help="With --vary: copy N objects first, for a larger world.",
+)
+@click.option(
+    "--seed",
+    type=click.IntRange(min=0),
+    default=0,
+    metavar="N",
+    help="With --vary: where chance begins.",
+)
 @click.option("--name", required=True, metavar="N", help="The new problem's name.")
 @click.option(
     "--set",
@@ -39,8 +49,15 @@ from hrcplan.pddl.model import Problem
 )
 @output.common_options
 def command(
-    domain: str, origin: str, goal: str | None, vary: bool, new_objects: int, seed: int, name: str,
-    settings: tuple[str, ...], target: Path | None,
+    domain: str,
+    origin: str,
+    goal: str | None,
+    vary: bool,
+    new_objects: int,
+    seed: int,
+    name: str,
+    settings: tuple[str, ...],
+    target: Path | None,
 ) -> None:
     """Write a problem like PROBLEM with another goal, checked before it is written."""
     from hrcplan.cli.arguments import setting

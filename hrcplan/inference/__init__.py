@@ -5,6 +5,6 @@ The short way: ``infer(bank, actions)``. Every belief keeps the protocol of `Bel
 
 from hrcplan.inference.belief import Belief, State, batch
 from hrcplan.inference.changes import Change
-from hrcplan.inference.infer import Ignored, Inference, infer
+from hrcplan.inference.run import Ignored, Inference, infer
 
 __all__ = ["Belief", "Change", "Ignored", "Inference", "State", "batch", "infer"]

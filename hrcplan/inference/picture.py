@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 from collections.abc import Sequence
 
-from hrcplan.inference.infer import Inference
+from hrcplan.inference.run import Inference
 
 # Okabe and Ito's colors: told apart by color-blind readers too.
 COLORS = ("#0072B2", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#56B4E9", "#F0E442", "#000000")

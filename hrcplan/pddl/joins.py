@@ -5,7 +5,18 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
-from hrcplan.pddl.model import Action, And, Atom, Fact, Formula, Problem
+from hrcplan.pddl.model import (
+    Action,
+    And,
+    Atom,
+    Fact,
+    Formula,
+    Not,
+    Or,
+    Problem,
+    Quantified,
+    formula_functions,
+)
 
 Binding = dict[str, str]
 
@@ -51,7 +62,9 @@ class Join:
         self._objects = {p.name: problem.objects_of(p.types) for p in action.params}
         self._allowed = {name: frozenset(found) for name, found in self._objects.items()}
 
-    def bindings(self, index: FactIndex, first: tuple[int, Fact] | None = None) -> Iterator[Binding]:
+    def bindings(
+        self, index: FactIndex, first: tuple[int, Fact] | None = None
+    ) -> Iterator[Binding]:
         """Yield every binding whose atoms are all in ``index``.
 
         With ``first = (i, fact)`` only those that match atom ``i`` with that fact.
@@ -74,7 +87,7 @@ class Join:
         options = [index.candidates(atom, binding) for atom in atoms]
         chosen = min(range(len(atoms)), key=lambda i: len(options[i]))
         rest = atoms[:chosen] + atoms[chosen + 1 :]
-        for fact in tuple(options[chosen]):
+        for fact in options[chosen]:
             wider = self._match(atoms[chosen], fact, binding)
             if wider is not None:
                 yield from self._extend(wider, rest, index)
@@ -88,17 +101,18 @@ class Join:
             yield from self._free({**binding, missing: value})
 
     def _match(self, atom: Atom, fact: Fact, binding: Binding) -> Binding | None:
-        wider = dict(binding)
-        for term, value in zip(atom.args, fact[1:], strict=True):
-            if not term.startswith("?"):
-                if term != value:
+        """Return the binding with the variables of an atom bound to a fact; None if it differs."""
+        wider = binding
+        for position, term in enumerate(atom.args, start=1):
+            value = fact[position]
+            known = wider.get(term) if term[0] == "?" else term
+            if known is None:
+                if value not in self._allowed[term]:
                     return None
-            elif term in wider:
-                if wider[term] != value:
-                    return None
-            elif value in self._allowed[term]:
+                if wider is binding:
+                    wider = dict(binding)
                 wider[term] = value
-            else:
+            elif known != value:
                 return None
         return wider
 
@@ -110,6 +124,20 @@ def conjuncts(formula: Formula) -> Iterator[Formula]:
             yield from conjuncts(part)
     else:
         yield formula
+
+
+def lifted_names(formula: Formula) -> Iterator[str]:
+    """Yield the names of the predicates and functions that a formula looks at."""
+    match formula:
+        case Atom(name):
+            yield name
+        case Not(body) | Quantified(_, _, body):
+            yield from lifted_names(body)
+        case And(parts) | Or(parts):
+            for part in parts:
+                yield from lifted_names(part)
+        case _:
+            yield from (function.name for function in formula_functions(formula))
 
 
 def needed_atoms(action: Action) -> tuple[Atom, ...]:

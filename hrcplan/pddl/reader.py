@@ -43,7 +43,7 @@ Node = Word | Group
 
 def read(source: Source) -> Group | None:
     """Return the one ``(define …)`` group of a file, or None; faults go into ``source``."""
-    nodes = _build(mend(_tokens(source.text), source), source)
+    nodes = read_nodes(source)
     groups = [node for node in nodes if isinstance(node, Group)]
     root = next((group for group in groups if group.head == "define"), None)
     outside = next((node for node in nodes if node is not root), None)
@@ -55,16 +55,9 @@ def read(source: Source) -> Group | None:
     return root
 
 
-def read_one(source: Source) -> Group | None:
-    """Return the one group that a text consists of, or None; faults go into ``source``."""
-    nodes = _build(mend(_tokens(source.text), source), source)
-    outside = nodes[1] if len(nodes) > 1 else None
-    first = nodes[0] if nodes else None
-    if outside is not None:
-        source.error(outside.at, "outside", "one expression in parentheses, and nothing after it")
-    elif not isinstance(first, Group) and not source.has_errors:
-        source.error(0, "empty", "an expression in parentheses is needed")
-    return first if isinstance(first, Group) else None
+def read_nodes(source: Source) -> list[Node]:
+    """Return everything that a text holds side by side; faults go into ``source``."""
+    return _build(mend(_tokens(source.text), source), source)
 
 
 def notes(source: Source) -> Iterator[tuple[int, str]]:

@@ -75,6 +75,8 @@ def list_plans(
     plain = not lowered.conditional and "(or " not in lowered.problem_text
     bounds = [f"k={n}"] if n is not None else []
     bounds += [f"q={quality}"] if quality is not None else []
+    heuristic = "lmcut" if plain else "blind"
+    search = _SEARCH.format(heuristic=heuristic, bounds=", ".join(bounds))
     build = Path(spec.origin).parent / "builds" / "release" / "bin"
     with TemporaryDirectory(prefix="hrcplan-") as folder:
         cwd = Path(folder)
@@ -83,15 +85,13 @@ def list_plans(
         argv = [sys.executable, "-P", "-m", "kstar_planner.driver.main", "--build", str(build),
                 "domain.pddl", "problem.pddl",
                 "--translate-options", "--invariant-generation-max-time", "0",
-                "--search-options", "--symmetries", _SYMMETRIES, "--search", _SEARCH.format(heuristic="lmcut" if plain else "blind", bounds=", ".join(bounds))]  # fmt: skip
+                "--search-options", "--symmetries", _SYMMETRIES, "--search", search]  # fmt: skip
         finished = run(argv, cwd=cwd, limits=limits)
         found = tuple(_plans(lowered, cwd / "plans.json", finished))
     return Listed(found, n is None or len(found) < n)
 
 
-def _plans(
-    lowered: Lowered, path: Path, finished: Finished
-) -> Iterator[tuple[GroundAction, ...]]:
+def _plans(lowered: Lowered, path: Path, finished: Finished) -> Iterator[tuple[GroundAction, ...]]:
     if finished.ended in (Ended.TIMEOUT, Ended.MEMORY, Ended.OUTPUT):
         message = f"K* reached its limit ({finished.ended.value}) before it had listed the plans"
         raise LimitError(message, code=finished.ended.value, hint="a smaller --sample")

@@ -58,7 +58,9 @@ class Brute:
                     waiting.append(after)
         return None
 
-    def plans(self, bound: Fraction, max_steps: int = 1000) -> dict[tuple[tuple[str, ...], ...], Fraction]:
+    def plans(
+        self, bound: Fraction, max_steps: int = 1000
+    ) -> dict[tuple[tuple[str, ...], ...], Fraction]:
         """Return label sequences that first reach the goal within a cost, and what they cost."""
         found: dict[tuple[tuple[str, ...], ...], Fraction] = {}
 

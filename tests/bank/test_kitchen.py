@@ -133,10 +133,27 @@ def test_states_between_two_recipes_are_nodes_of_both(kitchen):
         del plan
 
 
+def test_serving_too_early_is_no_change_of_place(kitchen):
+    """The next step undoes it, so every recipe stays where it was in its graph."""
+    state = kitchen.table.successor(kitchen.initial, kitchen.table.find(["serve"]))
+    for goal, graph in enumerate(kitchen.graphs):
+        assert graph.node_of(state) is None
+        assert kitchen.locate(goal, state) == (graph, 0)
+        rerooted = kitchen.reroot(goal, state)
+        assert rerooted.plans == graph.plans
+        assert rerooted.next(0).keys() == graph.next(0).keys()
+        if goal == 2:
+            break
+
+
 def test_fruit_and_yogurt_in_the_glass_tell_a_parfait(kitchen):
     """A smoothie is blended and never poured into the glass (the paper's Fig. 4)."""
     for graph in kitchen.graphs:
-        into = {kitchen.table[s].words[-1] for s in graph.used_steps if kitchen.table[s].words[0] == "pour"}
+        into = {
+            kitchen.table[s].words[-1]
+            for s in graph.used_steps
+            if kitchen.table[s].words[0] == "pour"
+        }
         assert ("glass" in into) == (meal(graph.goal) == "parfait")
         assert ("blender" in into) == (meal(graph.goal) == "smoothie")
 

@@ -36,7 +36,9 @@ def listed(bank, goal, quality):
 )
 def test_shipped_domains(problem, goal, cost):
     loaded = load_problem(*problem)
-    bank = build(from_problems([with_goal(loaded, goal, "g") if goal else loaded]), Recipe(cost=cost))
+    bank = build(
+        from_problems([with_goal(loaded, goal, "g") if goal else loaded]), Recipe(cost=cost)
+    )
     wanted = listed(bank, 0, 1)
     found = list(plans(bank.graphs[0]))
     assert len(wanted) == len(set(wanted)) == len(found) == bank.graphs[0].plans >= 50

@@ -1,4 +1,4 @@
-"""Sampling is uniform, also where plans differ in length; counts stay exact where they are large."""
+"""Sampling is uniform, also where plans differ in length; large counts stay exact."""
 
 from collections import Counter
 from fractions import Fraction
@@ -32,7 +32,9 @@ def test_every_plan_has_the_same_chance(recipe):
 
 
 def test_filtered_samples_are_uniform():
-    bank = build(from_problems([load_problem("transport", "two-boxes")]), Recipe(quality=Fraction(9, 8)))
+    bank = build(
+        from_problems([load_problem("transport", "two-boxes")]), Recipe(quality=Fraction(9, 8))
+    )
     keep = bank.irredundant(0)
     kept = set(bank.plans(0, keep))
     drawn = Counter(bank.sample(0, 10 * len(kept), np.random.default_rng(5), keep))
@@ -111,7 +113,8 @@ def test_too_many_kinds_of_plans(read_world):
     n = 16
     facts = " ".join(f"(p{i})" for i in range(n))
     steps = " ".join(
-        f"(:action {s}{i} :parameters () :precondition (and {f'(p{i - 1})' if i else ''}) :effect (p{i}))"
+        f"(:action {s}{i} :parameters () :precondition (and {f'(p{i - 1})' if i else ''})"
+        f" :effect (p{i}))"
         for i in range(n) for s in ("left", "right")
     )  # fmt: skip
     domain = f"(define (domain d) (:requirements :strips) (:predicates {facts}) {steps})"
@@ -167,7 +170,8 @@ def test_costs_that_a_bank_cannot_hold(read_world):
     world = read_world(
         """(define (domain d) (:requirements :strips :action-costs) (:predicates (p))
         (:functions (total-cost) (gain))
-        (:action a :parameters () :precondition (and) :effect (and (p) (increase (total-cost) (gain)))))""",
+        (:action a :parameters () :precondition (and)
+          :effect (and (p) (increase (total-cost) (gain)))))""",
         "(define (problem g) (:domain d) (:init (= (total-cost) 0) (= (gain) -1)) (:goal (p)))",
     )
     assert build(world).graphs[0].plans == 1

@@ -17,6 +17,11 @@ from hrcplan.bank.walk import plans
 from hrcplan.errors import InputError, UsageError
 
 ROOT = Path(__file__).parents[2]
+RECIPES = [
+    Recipe(),
+    Recipe(quality=Fraction(3, 2)),
+    Recipe(cost="task", alternatives=Fraction(5, 4)),
+]
 
 
 @pytest.fixture
@@ -32,8 +37,7 @@ def world(tmp_path):
     return tmp_path
 
 
-@pytest.mark.parametrize("recipe", [Recipe(), Recipe(quality=Fraction(3, 2)),
-                                    Recipe(cost="task", alternatives=Fraction(5, 4))], ids=str)  # fmt: skip
+@pytest.mark.parametrize("recipe", RECIPES, ids=str)
 def test_what_goes_in_comes_out(recipe, tmp_path, instances):
     folder = instances / "block-words_p01_hyp-0_full"
     bank = build_bank(str(folder / "domain.pddl"), str(folder), recipe, only=HYPOTHESES)

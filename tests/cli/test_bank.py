@@ -79,7 +79,9 @@ def test_a_goal_recognition_folder(capsys, tmp_path):
 
 @pytest.mark.parametrize("options", [[], ["--loop-free"], ["--irredundant"]])
 def test_samples_are_valid_plans(capsys, bank, options):
-    code, out, _ = run(capsys, "bank", "sample", bank, "smoothie-oat", "-n", "4", "--seed", 3, *options)
+    code, out, _ = run(
+        capsys, "bank", "sample", bank, "smoothie-oat", "-n", "4", "--seed", 3, *options
+    )
     assert code == 0
     texts = [part for part in out.split("; plan") if part.strip()]
     assert len(texts) == 4
@@ -99,9 +101,13 @@ def test_samples_are_valid_plans(capsys, bank, options):
 def test_a_goal_without_a_plan(capsys, tmp_path):
     shutil.copy(ROOT / "problems" / "kitchen" / "stew-bean.pddl", tmp_path)
     text = (ROOT / "problems" / "kitchen" / "stew-bean.pddl").read_text()
-    other = text.replace("problem stew-bean", "problem never").replace("(cooked onion)", "(cooked honey)")
+    other = text.replace("problem stew-bean", "problem never").replace(
+        "(cooked onion)", "(cooked honey)"
+    )
     (tmp_path / "never.pddl").write_text(other)
-    code, out, err = run(capsys, "bank", "build", "kitchen", tmp_path, "-o", tmp_path / "b", "--json")
+    code, out, err = run(
+        capsys, "bank", "build", "kitchen", tmp_path, "-o", tmp_path / "b", "--json"
+    )
     never = json.loads(out)["goals"][0]
     assert (code, never["plans"], never["optimal_cost"], never["nodes"]) == (0, "0", None, 0)
     assert "goal 'never' has no plan" in err

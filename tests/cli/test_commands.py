@@ -191,6 +191,9 @@ def test_validate_names_the_first_wrong_step(plan_file: Path) -> None:
     value = document("validate", "transport/two-boxes", str(plan_file), code=1)
     assert value["failed_step"] == 2
     assert value["reason"].startswith("(grasp human blue wp4) needs (idle human)")
+    found = run("validate", "transport/two-boxes", str(plan_file))
+    assert "step 3: (grasp human blue wp4) needs (idle human)" in found.stdout
+    assert "state there: (box-at blue wp4) (box-at green wp3) (free human)" in found.stdout
 
 
 def test_validate_names_an_unknown_action(plan_file: Path) -> None:
@@ -224,7 +227,7 @@ def test_new_problem_is_checked_before_it_is_written(tmp_path: Path) -> None:
     words = ["new-problem", "transport", "--from", "two-boxes", "--name", "new", "-o", str(target)]
     found = run(*words, "--goal", "(and (box-at green wp9) (box-at blu wp2))")
     assert found.exit_code == 3
-    assert "<goal>:1:21: error[unknown-object]" in found.stderr
+    assert "<goal>:1:20: error[unknown-object]" in found.stderr
     assert "did you mean 'blue'?" in found.stderr
     assert not target.exists()
     words += ["--goal", "(box-at green wp5)", "--set", "motivation human=4"]

@@ -9,7 +9,7 @@ from hrcplan.bank.ramirez_geffner import read_instance
 from hrcplan.bank.steps import Op
 from hrcplan.inference.cost import Cost
 from hrcplan.inference.distances import Distances, apply
-from hrcplan.inference.infer import infer, run
+from hrcplan.inference.run import infer, run
 from hrcplan.inference.optimal import Searcher, search
 from hrcplan.inference.relaxed import Relaxation
 from hrcplan.inference.resolve import Resolver
