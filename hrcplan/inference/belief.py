@@ -59,7 +59,7 @@ class Belief(Protocol[S]):
 def normalized(log_scores: Floats) -> Floats:
     """Return probabilities in proportion to scores that are given as logarithms.
 
-    >>> normalized(np.log([0.2, 0.2, 0.4])).tolist()
+    >>> normalized(np.log([0.2, 0.2, 0.4])).round(6).tolist()
     [0.25, 0.25, 0.5]
     """
     highest = log_scores.max()
