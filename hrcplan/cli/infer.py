@@ -22,7 +22,7 @@ MAX_NAME = 28
 @click.argument("actions", required=False, metavar="[ACTIONS]")
 @click.option("--method", metavar="NAME",
               help="exact, switching, forest, recursive, cost, or module:Class.")  # fmt: skip
-@click.option("--timeout", type=click.FloatRange(0, min_open=True), default=30.0,
+@click.option("--timeout", type=click.FloatRange(0, min_open=True), default=25.0,
               show_default=True, metavar="S",
               help="Seconds for the distances of method cost; then it estimates.")  # fmt: skip
 @click.option("--seed", type=int, default=0, show_default=True, help="Of method forest.")

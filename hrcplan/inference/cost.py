@@ -21,13 +21,14 @@ from hrcplan.inference.changes import NEVER, Change, ChangeFilter, Filtered
 from hrcplan.inference.distances import Distances, Place, apply
 from hrcplan.inference.exact import IMPOSSIBLE
 
-TIMEOUT_S = 30.0
+TIMEOUT_S = 25.0
 BETA = 1.0  # per cost of an average step
 CHOICE = 0.5  # weight of the number of actions that would have served as well
 HAZARD = 0.01
 MAX_DETOUR = 10.0  # no single action speaks more strongly against a goal
 PROGRESS = 1e-3  # between goals that are otherwise alike, the one that is nearer to its end
-MAX_SIBLINGS, MIN_SIBLINGS = 48, 8  # as long as there is time, and when there is none
+MAX_SIBLINGS, FEW_SIBLINGS = 48, 8  # as long as there is time, and when it runs short
+LATE = 0.1  # beyond this part of the time nothing is spent on actions that were not taken
 MAX_PRICE = 10_000
 
 
@@ -131,7 +132,11 @@ class Cost:
 
     def _siblings(self, world: int, n_observed: int) -> list[int]:
         """Return the states that one action leads to; an even choice of them if there are many."""
-        most = MAX_SIBLINGS if self.distances.clock.left_s(n_observed) > 0 else MIN_SIBLINGS
+        clock = self.distances.clock
+        left_s = clock.left_s(n_observed)
+        if left_s < -LATE * clock.timeout_s:
+            return []
+        most = MAX_SIBLINGS if left_s > 0 else FEW_SIBLINGS
         task = self.goals.task
         found = list(dict.fromkeys(task.successor(world, i) for i in task.applicable(world)))
         stride = -(-len(found) // most) or 1

@@ -58,8 +58,10 @@ class Distances:
         self, ops: Sequence[Op], goals: Sequence[Sequence[Test]], timeout_s: float
     ) -> None:
         self.ops, self.goals = ops, goals
-        self.relaxation = Relaxation(ops, goals)
         self.clock = Clock(timeout_s)
+        began = time.monotonic()
+        self.relaxation = Relaxation(ops, goals)
+        self.clock.spent_s += time.monotonic() - began
         self._simple = all(is_simple(op) for op in ops)
         self._searchers: dict[int, Searcher] = {}
         self._known: dict[tuple[int, int], Way | None] = {}
@@ -131,19 +133,19 @@ class Distances:
 
     def _ways(self, state: int, goals: Sequence[int], n_observed: int) -> dict[int, Way | None]:
         """Return cheapest ways to goals, where they are found in time."""
-        if not self._simple:
+        if not self._simple or self.clock.left_s(n_observed) <= MIN_S:
             return {}
+        began = time.monotonic()
         goals = [goal for goal in goals if len(self.goals[goal]) == 1]
         keys = {goal: (goal, self._searcher(goal).key(state)) for goal in goals}
         new = [goal for goal in goals if keys[goal] not in self._known]
         left_s = self.clock.left_s(n_observed)
         if new and left_s > MIN_S:
-            began = time.monotonic()
             limit_s = max(MIN_S, min(MAX_S, 2 * left_s / len(new)))
             texts = [self._searcher(goal).text(state) for goal in new]
             for goal, way in zip(new, search(texts, limit_s, left_s), strict=True):
                 self._known[keys[goal]] = way
-            self.clock.spent_s += time.monotonic() - began
+        self.clock.spent_s += time.monotonic() - began
         return {goal: self._known.get(keys[goal]) for goal in goals}
 
     def bridge(self, state: int, tests: Sequence[Test], limit_s: float = 1.0) -> Way | None:

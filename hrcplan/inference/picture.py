@@ -35,9 +35,11 @@ def draw(found: Inference, form: str) -> bytes:
         if goal not in shown:
             axes.plot([row[goal] for row in found.posterior], color=GRAY, linewidth=0.6, zorder=1)
     for i, (color, goal) in enumerate(zip(COLORS, shown, strict=False)):
-        # Goals that are alike lie on one another: the lower lines are wider, so that they show.
-        axes.plot([row[goal] for row in found.posterior], color=color, linewidth=4.4 - 0.45 * i,
-                  zorder=3, label=_short(found.goals[goal]))  # fmt: skip
+        # Goals that are alike lie on one another: upper lines are thinner and have gaps.
+        axes.plot(
+            [row[goal] for row in found.posterior], color=color, linewidth=3.6 - 0.3 * i, zorder=3,
+            linestyle=(5 * i, (8, 2 * i)) if i else "-", label=_short(found.goals[goal]),
+        )  # fmt: skip
     for i, change in enumerate(found.changes):
         axes.axvline(change.at + 0.5, color="black", linestyle="--", linewidth=1, zorder=2,
                      label="goal change" if not i else None)  # fmt: skip
