@@ -51,7 +51,7 @@ class Searcher:
     """
 
     def __init__(self, ops: Sequence[Op], goal: Test) -> None:
-        useful, literals = relevant(ops, [goal])
+        useful, literals = relevant(ops, (goal,))
         index = {id(op): i for i, op in enumerate(ops)}
         self.ops = [index[id(op)] for op in useful]
         self._useful = useful

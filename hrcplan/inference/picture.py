@@ -35,10 +35,10 @@ def draw(found: Inference, form: str) -> bytes:
         if goal not in shown:
             axes.plot([row[goal] for row in found.posterior], color=GRAY, linewidth=0.6, zorder=1)
     for i, (color, goal) in enumerate(zip(COLORS, shown, strict=False)):
-        # Goals that are alike lie on one another: upper lines are thinner and have gaps.
+        # Goals that are alike lie on one another: upper lines are thinner, every other has gaps.
         axes.plot(
             [row[goal] for row in found.posterior], color=color, linewidth=3.6 - 0.3 * i, zorder=3,
-            linestyle=(5 * i, (8, 2 * i)) if i else "-", label=_short(found.goals[goal]),
+            linestyle=(0, (3, 1.5)) if i % 2 else "-", label=_short(found.goals[goal]),
         )  # fmt: skip
     for i, change in enumerate(found.changes):
         axes.axvline(change.at + 0.5, color="black", linestyle="--", linewidth=1, zorder=2,

@@ -9,10 +9,10 @@ from hrcplan.bank.ramirez_geffner import read_instance
 from hrcplan.bank.steps import Op
 from hrcplan.inference.cost import Cost
 from hrcplan.inference.distances import Distances, apply
-from hrcplan.inference.run import infer, run
 from hrcplan.inference.optimal import Searcher, search
 from hrcplan.inference.relaxed import Relaxation
 from hrcplan.inference.resolve import Resolver
+from hrcplan.inference.run import infer, run
 from hrcplan.task import Change
 
 GRID, BLOCKS = "easy-ipc-grid_p5-5-5_hyp-0_full", "block-words_p01_hyp-0_full"
