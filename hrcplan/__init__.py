@@ -19,14 +19,16 @@ if TYPE_CHECKING:
     from hrcplan.bank import build_bank
     from hrcplan.execution.execute import execute
     from hrcplan.facade import load, plan, validate
+    from hrcplan.inference import infer
     from hrcplan.planners.lowering import lower
     from hrcplan.task import Task
 
-__all__ = ["Task", "build_bank", "execute", "load", "lower", "plan", "validate"]
+__all__ = ["Task", "build_bank", "execute", "infer", "load", "lower", "plan", "validate"]
 _HOMES = {
     "Task": "hrcplan.task",
     "build_bank": "hrcplan.bank",
     "execute": "hrcplan.execution.execute",
+    "infer": "hrcplan.inference",
     "load": "hrcplan.facade",
     "lower": "hrcplan.planners.lowering",
     "plan": "hrcplan.facade",

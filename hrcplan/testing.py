@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from typing import Any
 
 from hrcplan.facade import validate
 from hrcplan.pddl.model import Problem
@@ -53,3 +54,44 @@ def check_planner(
         compare([mine, solve(problem, timeout_s=timeout_s)])
         results.append(mine)
     return results
+
+
+def check_belief(belief: Any, runs: Iterable[Sequence[int]]) -> None:
+    """Hold a belief to the laws of beliefs.
+
+    Its posterior sums to one, before and after every step; one step at a time gives what a second
+    walk gives, also if a state is followed in another direction in between; states never change;
+    a step of the robot that changes nothing is allowed.
+
+    Args:
+        belief: An object with ``names``, ``start``, ``observe`` and ``posterior`` (see
+            inference/belief.py).
+        runs: Observed steps, as ids of the step table that the belief speaks of.
+
+    Raises:
+        AssertionError: if it breaks a law.
+    """
+    runs = [tuple(run) for run in runs]
+    for run, other in zip(runs, [*runs[1:], *runs[:1]], strict=True):
+        states, seen = [belief.start()], []
+        for step in run:
+            seen.append(_posterior(belief, states[-1]))
+            states.append(belief.observe(states[-1], step))
+        state = belief.start()
+        for step in other:
+            state = belief.observe(state, step, robot=True)
+            _posterior(belief, state)
+        again = [_posterior(belief, earlier) for earlier in states]
+        assert again[:-1] == seen, "a state has changed after it was followed"
+        state = belief.start()
+        for place, step in enumerate(run):
+            state = belief.observe(state, step)
+            assert _posterior(belief, state) == again[place + 1], "a second walk differs"
+
+
+def _posterior(belief: Any, state: Any) -> list[float]:
+    found = [float(p) for p in belief.posterior(state)]
+    assert len(found) == len(belief.names), "one probability for each goal"
+    assert all(0 <= p <= 1 for p in found), f"not probabilities: {found}"
+    assert abs(sum(found) - 1) < 1e-9, f"the posterior sums to {sum(found)}"
+    return found

@@ -25,6 +25,7 @@ COMMANDS = {
     "check": "hrcplan.cli.check",
     "new-problem": "hrcplan.cli.new_problem",
     "bank": "hrcplan.cli.bank",
+    "infer": "hrcplan.cli.infer",
     "planners": "hrcplan.cli.planners",
     "doctor": "hrcplan.cli.doctor",
 }

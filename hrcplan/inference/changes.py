@@ -1,0 +1,141 @@
+"""A goal that may change: a filter over (goal, changes so far, mistake rate), and its smoother."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+
+HAZARD = 0.1
+NEVER = 0.3
+MAX_CHANGES = 4
+DECLARED = 0.5
+SPREAD = 2  # a change is that sure within so many steps around its likeliest place
+
+_TINY = 1e-300
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """A change of goal just before observation ``at`` (0-based), and how probable it is."""
+
+    at: int
+    probability: float
+
+
+@dataclass(frozen=True, slots=True)
+class Filtered:
+    """The filter after some human steps.
+
+    ``weights[m, k, g]`` is the probability of rate m, k changes so far (the last entry: never
+    changes) and goal g. ``unchanged`` is the part of it in which nothing has changed since the
+    last declared change. ``likelihood[m, g]`` is that of the last human step; None before any.
+    """
+
+    weights: Floats
+    unchanged: Floats
+    likelihood: Floats | None = None
+    n_declared: int = 0
+
+
+@dataclass(frozen=True)
+class ChangeFilter:
+    """A hidden Markov model of goals that change at random.
+
+    With probability ``hazard`` the goal changes before a human step (not before the first) to one
+    of the others, all alike; ``never`` is the prior probability that it never changes.
+    """
+
+    n_goals: int
+    n_rates: int
+    hazard: float = HAZARD
+    never: float = NEVER
+
+    def start(self) -> Filtered:
+        """Return the prior: goals and mistake rates uniform, no change yet."""
+        weights = np.zeros((self.n_rates, MAX_CHANGES + 2, self.n_goals))
+        weights[:, 0] = (1 - self._never) / (self.n_rates * self.n_goals)
+        weights[:, -1] = self._never / (self.n_rates * self.n_goals)
+        return Filtered(weights, weights)
+
+    @property
+    def _never(self) -> float:
+        return self.never if self.n_goals > 1 else 1.0
+
+    def step(self, before: Filtered, likelihood: Floats) -> Filtered:
+        """Return the filter after a human step with this likelihood, by rate and goal."""
+        weights, unchanged = before.weights, before.unchanged
+        if before.likelihood is not None:
+            weights, unchanged = self._changed(weights), self._kept(unchanged)
+        weights = weights * likelihood[:, None, :]
+        total = max(float(weights.sum()), _TINY)
+        weights /= total
+        unchanged = unchanged * likelihood[:, None, :] / total
+        declared = 1 - float(unchanged.sum()) > DECLARED
+        return Filtered(
+            weights, weights if declared else unchanged, likelihood, before.n_declared + declared
+        )
+
+    def _kept(self, weights: Floats) -> Floats:
+        kept = weights * (1 - self.hazard)
+        kept[:, -1] = weights[:, -1]
+        return kept
+
+    def _changed(self, weights: Floats) -> Floats:
+        """Return the weights once the goal has, or has not, changed."""
+        found = self._kept(weights)
+        if self.n_goals > 1:
+            moving = weights[:, :-1] * (self.hazard / (self.n_goals - 1))
+            moving = moving.sum(axis=2, keepdims=True) - moving
+            found[:, 1:-1] += moving[:, :-1]
+            found[:, -2] += moving[:, -1]
+        return found
+
+    def goals(self, filtered: Filtered) -> Floats:
+        """Return the probability of each goal."""
+        found: Floats = filtered.weights.sum(axis=(0, 1))
+        return found
+
+    def changes(self, steps: Sequence[tuple[int, Filtered]]) -> tuple[Change, ...]:
+        """Return the changes that are probable once everything was seen, in order of time.
+
+        Args:
+            steps: For each human step its place among the observations, and the filter after it.
+        """
+        places = [at for at, _ in steps]
+        left = self._smoothed([filtered for _, filtered in steps])
+        found: list[Change] = []
+        while len(left) and left.max() > 0:
+            peak = int(left.argmax())
+            near = slice(max(0, peak - SPREAD), peak + SPREAD + 1)
+            mass = float(left[near].sum())
+            if mass <= DECLARED:
+                break
+            found.append(Change(places[peak], min(1.0, mass)))
+            left[near] = 0
+        return tuple(sorted(found, key=lambda change: change.at))
+
+    def _smoothed(self, steps: Sequence[Filtered]) -> Floats:
+        """Return for each human step the probability, given all, that a change precedes it."""
+        found = np.zeros(len(steps))
+        if not steps or self.n_goals < 2:
+            return found
+        behind = np.ones_like(steps[0].weights)
+        for t in range(len(steps) - 1, 0, -1):
+            likelihood = steps[t].likelihood
+            assert likelihood is not None
+            ahead = likelihood[:, None, :] * behind
+            moved = ahead.sum(axis=2, keepdims=True) - ahead
+            moved *= self.hazard / (self.n_goals - 1)
+            behind = self._kept(ahead)
+            after_change = np.concatenate([moved[:, 1:-1], moved[:, -2:-1]], axis=1)
+            behind[:, :-1] += after_change
+            before = steps[t - 1].weights
+            total = float((before * behind).sum())
+            found[t] = float((before[:, :-1] * after_change).sum()) / max(total, _TINY)
+            behind /= max(float(behind.max()), _TINY)
+        return found

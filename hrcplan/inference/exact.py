@@ -1,0 +1,84 @@
+"""The exact posterior: how many of each goal's plans begin with what was seen."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from hrcplan.bank import Bank
+from hrcplan.inference.belief import Floats, normalized
+from hrcplan.inference.track import Evidence, Track, Tracker
+
+MISTAKE_RATE = 0.01
+UNEXPLAINED = "no goal explains this step"
+IMPOSSIBLE = "nobody can do this step here"
+
+
+@dataclass(frozen=True, slots=True)
+class Counted:
+    """The state of `Exact`: where everything stands, and the log score of each goal."""
+
+    track: Track
+    scores: Floats
+    ignored: str | None = None
+
+    @property
+    def world(self) -> int:
+        """The state of the task, as bits."""
+        return self.track.world
+
+
+class Exact:
+    """Bayes over plans that are all equally likely, with a rate of mistakes.
+
+    A step that goes on with a share s of a goal's plans has likelihood (1 - p) s; a mistake p,
+    divided by the number of steps that could be done and that the goal does not need. If no goal
+    explains a step, the belief stays.
+
+    >>> from hrcplan.bank import build_bank
+    >>> belief = Exact(build_bank("kitchen", only=["pasta-bean", "pasta-tomato"]))
+    >>> step = belief.tracker.bank.table.find(("get", "beans"))
+    >>> belief.posterior(belief.observe(belief.start(), step)).round(3).tolist()
+    [0.996, 0.004]
+    """
+
+    def __init__(self, bank: Bank, mistake_rate: float = MISTAKE_RATE) -> None:
+        self.tracker = Tracker(bank)
+        self.mistake_rate = mistake_rate
+        self._right, self._wrong = math.log1p(-mistake_rate), math.log(mistake_rate)
+        n_most = self.tracker.joint.n_labels
+        # By the number of steps that would be a mistake; at least one is being seen.
+        self._mistakes = self._wrong - np.log(np.maximum(1, np.arange(n_most + 1)))
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The goals' names, in order."""
+        return self.tracker.bank.names
+
+    def start(self) -> Counted:
+        """Return the uniform belief in the initial state."""
+        return Counted(self.tracker.start, np.zeros(len(self.names)))
+
+    def observe(self, state: Counted, step: int, *, robot: bool = False) -> Counted:
+        """Return the belief after one more step; the robot's own steps are no evidence."""
+        followed = self.tracker.follow(state.track, step)
+        if followed is None:
+            return replace(state, ignored=IMPOSSIBLE)
+        moved, seen = followed
+        if robot:
+            return Counted(moved, state.scores)
+        if not len(seen.goals):
+            return Counted(moved, state.scores, UNEXPLAINED)
+        return Counted(moved, state.scores + self.log_likelihood(seen))
+
+    def log_likelihood(self, seen: Evidence) -> Floats:
+        """Return the log likelihood of a step under each goal."""
+        found = self._mistakes.take(seen.n_doable - seen.n_next)
+        found[seen.goals] = self._right + seen.log_shares
+        return found
+
+    def posterior(self, state: Counted) -> Floats:
+        """Return the probability of each goal, in order."""
+        return normalized(state.scores)

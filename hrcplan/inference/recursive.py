@@ -1,0 +1,134 @@
+"""Recursive Bayes (Jain and Argall, THRI 2019): the goal may change a little at every step."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+import numpy as np
+
+from hrcplan.bank import Bank
+from hrcplan.inference.belief import Floats, weights_to_posterior
+from hrcplan.inference.exact import IMPOSSIBLE
+from hrcplan.inference.track import Evidence, Track, Tracker
+
+STAY = 0.9
+EPSILON = 0.01
+RATIO = 3.0
+
+
+class Likelihood(Protocol):
+    """How likely a human step is under each goal."""
+
+    def __call__(self, tracker: Tracker, step: int, seen: Evidence) -> Floats:
+        """Return the likelihood by goal."""
+        ...
+
+
+@dataclass(frozen=True)
+class Needed:
+    """One over the number of steps that a goal needs; ``epsilon`` over the rest if it is none.
+
+    It does not look at what was done before, as the paper's attractor fields do not.
+    """
+
+    epsilon: float = EPSILON
+
+    def __call__(self, tracker: Tracker, step: int, seen: Evidence) -> Floats:
+        """Return the likelihood by goal."""
+        needs = tracker.joint.needs
+        sizes = needs.sum(axis=1)
+        rest = np.maximum(1, tracker.joint.n_labels - sizes)
+        helps = needs[:, tracker.joint.label[step]]
+        found: Floats = np.where(
+            helps, (1 - self.epsilon) / np.maximum(1, sizes), self.epsilon / rest
+        )
+        return found
+
+
+@dataclass(frozen=True)
+class Attractor:
+    """``ratio`` times as likely if the goal needs the step: the soft attractor field."""
+
+    ratio: float = RATIO
+
+    def __call__(self, tracker: Tracker, step: int, seen: Evidence) -> Floats:
+        """Return the likelihood by goal."""
+        needs = tracker.joint.needs
+        weights = np.where(needs, self.ratio, 1.0)
+        found: Floats = weights[:, tracker.joint.label[step]] / weights.sum(axis=1)
+        return found
+
+
+@dataclass(frozen=True)
+class Next:
+    """One over the number of steps that could come next; ``epsilon`` over the others that can."""
+
+    epsilon: float = EPSILON
+
+    def __call__(self, tracker: Tracker, step: int, seen: Evidence) -> Floats:
+        """Return the likelihood by goal."""
+        found: Floats = self.epsilon / np.maximum(1, seen.n_doable - seen.n_next)
+        found[seen.goals] = (1 - self.epsilon) / seen.n_next[seen.goals]
+        return found
+
+
+@dataclass(frozen=True, slots=True)
+class Weighted:
+    """The state of `Recursive`: where everything stands, and the probability of each goal."""
+
+    track: Track
+    weights: Floats
+    n_human: int = 0
+    ignored: str | None = None
+
+    @property
+    def world(self) -> int:
+        """The state of the task, as bits."""
+        return self.track.world
+
+
+class Recursive:
+    """Bayes' rule after each human step, with a goal that stays with probability ``stay``.
+
+    Args:
+        bank: The plans.
+        stay: The probability that the goal stays; the rest is spread over the others.
+        likelihood: What a step says; the paper leaves it open.
+    """
+
+    def __init__(
+        self, bank: Bank, stay: float = STAY, likelihood: Likelihood | None = None
+    ) -> None:
+        self.tracker = Tracker(bank)
+        self.stay = stay if len(bank.names) > 1 else 1.0
+        self.likelihood = likelihood or Needed()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The goals' names, in order."""
+        return self.tracker.bank.names
+
+    def start(self) -> Weighted:
+        """Return the uniform belief in the initial state."""
+        n = len(self.names)
+        return Weighted(self.tracker.start, np.full(n, 1 / n))
+
+    def observe(self, state: Weighted, step: int, *, robot: bool = False) -> Weighted:
+        """Return the belief after one more step; the robot's own steps are no evidence."""
+        followed = self.tracker.follow(state.track, step)
+        if followed is None:
+            return replace(state, ignored=IMPOSSIBLE)
+        moved, seen = followed
+        if robot:
+            return replace(state, track=moved, ignored=None)
+        weights = state.weights
+        if state.n_human:
+            others = (weights.sum() - weights) / max(1, len(weights) - 1)
+            weights = self.stay * weights + (1 - self.stay) * others
+        weights = weights * self.likelihood(self.tracker, step, seen)
+        return Weighted(moved, weights / weights.sum(), state.n_human + 1)
+
+    def posterior(self, state: Weighted) -> Floats:
+        """Return the probability of each goal, in order."""
+        return weights_to_posterior(state.weights)

@@ -1,0 +1,99 @@
+"""A human who may change goals and make mistakes: exact filtering over plan graphs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from hrcplan.bank import Bank
+from hrcplan.inference.belief import Floats, weights_to_posterior
+from hrcplan.inference.changes import HAZARD, NEVER, Change, ChangeFilter, Filtered
+from hrcplan.inference.exact import IMPOSSIBLE
+from hrcplan.inference.track import Evidence, Track, Tracker
+
+MISTAKE_RATES = (0.002, 0.1)
+
+
+@dataclass(frozen=True, slots=True)
+class Watched:
+    """The state of `Switching`: where everything stands, and the filter.
+
+    ``is_human`` says whether the last observation was a human step that told something.
+    """
+
+    track: Track
+    filtered: Filtered
+    is_human: bool = False
+    ignored: str | None = None
+
+    @property
+    def world(self) -> int:
+        """The state of the task, as bits."""
+        return self.track.world
+
+    @property
+    def n_declared(self) -> int:
+        """How many changes of goal were declared so far."""
+        return self.filtered.n_declared
+
+
+class Switching:
+    """The posterior of the present goal; see DESIGN, "Beliefs".
+
+    A step of the goal has likelihood (1 - p) over the number of steps that could come next in its
+    plans; a mistake p over the number of steps that could be done and would not.
+
+    Args:
+        bank: The plans.
+        hazard: The probability of a change before each human step.
+        mistake_rates: Equally likely rates of mistakes p.
+        never: The prior probability that the goal never changes.
+    """
+
+    def __init__(
+        self, bank: Bank, hazard: float = HAZARD,
+        mistake_rates: Sequence[float] = MISTAKE_RATES, never: float = NEVER,
+    ) -> None:  # fmt: skip
+        self.tracker = Tracker(bank)
+        self.filter = ChangeFilter(len(bank.names), len(mistake_rates), hazard, never)
+        self.rates = np.array(mistake_rates)[:, None]
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The goals' names, in order."""
+        return self.tracker.bank.names
+
+    def start(self) -> Watched:
+        """Return the uniform belief in the initial state."""
+        return Watched(self.tracker.start, self.filter.start())
+
+    def observe(self, state: Watched, step: int, *, robot: bool = False) -> Watched:
+        """Return the belief after one more step; the robot's own steps are no evidence."""
+        followed = self.tracker.follow(state.track, step)
+        if followed is None:
+            return replace(state, is_human=False, ignored=IMPOSSIBLE)
+        moved, seen = followed
+        if robot:
+            return Watched(moved, state.filtered)
+        filtered = self.filter.step(state.filtered, self.likelihood(seen))
+        return Watched(moved, filtered, is_human=True)
+
+    def likelihood(self, seen: Evidence) -> Floats:
+        """Return the likelihood of a step, by mistake rate and goal."""
+        found: Floats = self.rates / np.maximum(1, seen.n_doable - seen.n_next)
+        found[:, seen.goals] = (1 - self.rates) / seen.n_next[seen.goals]
+        return found
+
+    def posterior(self, state: Watched) -> Floats:
+        """Return the probability of each goal, in order."""
+        return weights_to_posterior(self.filter.goals(state.filtered))
+
+    def changes(self, states: Sequence[Watched]) -> tuple[Change, ...]:
+        """Return the changes that are probable once everything was seen.
+
+        Args:
+            states: The belief after each observation, in order.
+        """
+        return self.filter.changes([(i, s.filtered) for i, s in enumerate(states) if s.is_human])

@@ -1,0 +1,211 @@
+"""Beliefs over plan graphs, held against listed plans and enumerated histories."""
+
+import math
+import random
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from hrcplan.bank import build
+from hrcplan.inference import batch
+from hrcplan.inference.changes import ChangeFilter
+from hrcplan.inference.cost import Cost
+from hrcplan.inference.exact import Exact
+from hrcplan.inference.forest import Forest
+from hrcplan.inference.recursive import Attractor, Next, Recursive
+from hrcplan.inference.switching import Switching
+from hrcplan.testing import check_belief
+
+WORLDS = ["workshop", "hall"]
+
+
+def possible(bank, steps):
+    """Return the steps that can be done one after the other, without the others."""
+    state, found = bank.initial, []
+    for step in steps:
+        after = bank.table.successor(state, step)
+        if after not in (None, state):
+            state = after
+            found.append(step)
+    return tuple(found)
+
+
+def runs(bank, walk, brute):
+    """Return plans, walks without a purpose, and plans of one goal that turn to another."""
+    plans = [brute.optimal_plans(bank, goal, bank.initial)[0] for goal in range(len(bank.names))]
+    turned = [possible(bank, (*a[:2], *b)) for a, b in pairwise(plans)]
+    return [*plans, *turned, *(walk(bank, seed, 6) for seed in range(4))]
+
+
+@pytest.fixture(params=WORLDS)
+def bank(request):
+    return request.getfixturevalue(request.param)
+
+
+def test_the_worlds_are_of_both_kinds(workshop, hall):
+    assert (workshop.agents, hall.agents) == ("dropped", "kept")
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        Exact, Switching, Recursive,
+        lambda bank: Recursive(bank, likelihood=Next()),
+        lambda bank: Recursive(bank, likelihood=Attractor(2)),
+        lambda bank: Forest(bank, n_samples=400, n_trees=10),
+        lambda bank: Cost(bank.goals, timeout_s=10),
+        lambda bank: Cost(bank.goals, timeout_s=1e-6),
+    ],
+    ids=["exact", "switching", "recursive", "next", "attractor", "forest", "cost", "estimated"],
+)  # fmt: skip
+def test_every_belief_keeps_the_laws(bank, walk, brute, make):
+    belief = make(bank)
+    sequences = runs(bank, walk, brute)
+    check_belief(belief, sequences[:6] if isinstance(belief, Cost) else sequences)
+
+
+def test_exact_equals_bayes_over_listed_plans(bank, walk, brute):
+    """Also after mistakes, steps that no goal explains, and on graphs from other states."""
+    belief = Exact(bank, mistake_rate=0.05)
+    for steps in runs(bank, walk, brute):
+        for length, row in enumerate(batch(belief, steps)):
+            assert row.tolist() == pytest.approx(brute.exact(bank, steps[:length], 0.05), abs=1e-8)
+
+
+def test_the_share_of_plans_decides(workshop, brute):
+    """The first step of a plan is as likely as the share of plans that begin with it."""
+    goal = 0
+    plans = brute.optimal_plans(workshop, goal, workshop.initial)
+    first = plans[0][0]
+    belief = Exact(workshop)
+    seen = belief.tracker.follow(belief.start().track, first)
+    assert seen is not None
+    share = sum(plan[0] == first for plan in plans) / len(plans)
+    place = seen[1].goals.tolist().index(goal)
+    assert math.exp(seen[1].log_shares[place]) == pytest.approx(share)
+
+
+def test_switching_equals_all_histories(bank, walk, brute):
+    rates, hazard, never = (0.01, 0.2), 0.15, 0.3
+    belief = Switching(bank, hazard=hazard, mistake_rates=rates, never=never)
+    for steps in [run[:4] for run in runs(bank, walk, brute)]:
+        rows = batch(belief, steps)
+        for length in range(1, len(steps) + 1):
+            expected = np.zeros(len(bank.names))
+            for goals, _, weight in brute.histories(bank, steps[:length], rates, hazard, never):
+                expected[goals[-1]] += weight
+            assert rows[length].tolist() == pytest.approx((expected / expected.sum()).tolist())
+
+
+def test_smoothed_changes_equal_all_histories(bank, walk, brute):
+    rates, hazard, never = (0.01, 0.2), 0.15, 0.3
+    belief = Switching(bank, hazard=hazard, mistake_rates=rates, never=never)
+    for steps in [run[:4] for run in runs(bank, walk, brute)]:
+        states = [belief.start()]
+        for step in steps:
+            states.append(belief.observe(states[-1], step))
+        found = belief.filter._smoothed([state.filtered for state in states[1:]])
+        expected = np.zeros(len(steps))
+        total = 0.0
+        for _, changed, weight in brute.histories(bank, steps, rates, hazard, never):
+            expected += weight * np.array(changed)
+            total += weight
+        assert found.tolist() == pytest.approx((expected / total).tolist())
+
+
+def test_more_changes_than_are_counted_keep_their_weight():
+    """Changes beyond the cap stay in the last count: nothing is lost."""
+    chain = ChangeFilter(3, 1, hazard=0.9, never=0.0)
+    state = chain.start()
+    for goal in (0, 1, 2, 0, 1, 2, 0, 1):
+        likelihood = np.full((1, 3), 0.01)
+        likelihood[0, goal] = 1.0
+        state = chain.step(state, likelihood)
+        assert state.weights.sum() == pytest.approx(1)
+        assert int(chain.goals(state).argmax()) == goal
+    assert state.n_declared >= 4
+
+
+def test_goal_order_does_not_matter(bank, walk, brute):
+    order = list(bank.names)
+    random.Random(3).shuffle(order)
+    other = build(bank.goals.only(order))
+    for kind in (Exact, Switching, Recursive):
+        mine, theirs = kind(bank), kind(other)
+        for steps in runs(bank, walk, brute):
+            for a, b in zip(batch(mine, steps), batch(theirs, steps), strict=True):
+                named = dict(zip(order, b.tolist(), strict=True))
+                assert a.tolist() == pytest.approx([named[name] for name in bank.names], abs=1e-8)
+
+
+@pytest.mark.parametrize("kind", [Exact, Switching, Recursive])
+def test_robot_steps_move_the_world_and_are_no_evidence(workshop, kind):
+    table = workshop.table
+    unfold, cut = table.find(("unfold", "red")), table.find(("cut", "rope"))
+    belief = kind(workshop)
+    after = belief.observe(belief.start(), unfold, robot=True)
+    assert belief.posterior(after).tolist() == pytest.approx([0.2] * 5)
+    # What the robot did need not be done again, and sealing at once fits no goal now.
+    assert belief.observe(after, unfold).world == after.world
+    assert belief.posterior(belief.observe(after, cut)).argmax() in (0, 2)
+
+
+def test_a_step_that_no_goal_explains_is_reported_and_the_belief_stays(workshop):
+    belief = Exact(workshop)
+    table = workshop.table
+    steps = [table.find(("unfold", "red")), table.find(("seal", "blue"))]
+    state = belief.observe(belief.start(), steps[0])
+    before = belief.posterior(state).tolist()
+    refused = belief.observe(state, steps[1])
+    assert (refused.ignored, refused.world) == ("nobody can do this step here", state.world)
+    odd = belief.observe(state, table.find(("seal", "red")))
+    assert odd.ignored == "no goal explains this step"
+    assert belief.posterior(odd).tolist() == before
+    assert odd.world != state.world
+
+
+def kitchen_run(kitchen, rng, first, second, at, mistakes=()):
+    """Return steps of one recipe, then of another, with mistakes between them."""
+    state, found = kitchen.initial, []
+    for turn in range(60):
+        goal = first if turn < at else second
+        graph = kitchen.reroot(goal, state)
+        following = list(graph.next(0)) if graph.n_nodes else []
+        if not following:
+            break
+        step = int(rng.choice(following))
+        if turn in mistakes:
+            wrong = set(kitchen.table.applicable(state)) - set(following)
+            step = int(rng.choice(sorted(s for s in wrong if "serve" not in str(kitchen.table[s]))))
+        found.append(step)
+        state = kitchen.table.successor(state, step)
+    return found
+
+
+def test_switching_finds_a_change_and_survives_mistakes(kitchen):
+    rng = np.random.default_rng(11)
+    belief = Switching(kitchen)
+    first, second = kitchen.names.index("stew-lentil"), kitchen.names.index("parfait-mango")
+    steps = kitchen_run(kitchen, rng, first, second, at=9, mistakes=(4, 14))
+    states = [belief.start()]
+    for step in steps:
+        states.append(belief.observe(states[-1], step))
+    assert belief.posterior(states[9]).argmax() == first
+    assert belief.posterior(states[-1]).argmax() == second
+    assert 1 <= states[-1].n_declared <= 3  # live, a mistake may look like a change at first
+    changes = belief.changes(states[1:])
+    assert [abs(change.at - 9) <= 1 for change in changes] == [True]
+    assert changes[0].probability > 0.9
+
+
+def test_no_change_is_declared_without_one(kitchen):
+    rng = np.random.default_rng(12)
+    belief = Switching(kitchen)
+    for goal in range(0, 30, 5):
+        states = [belief.start()]
+        for step in kitchen_run(kitchen, rng, goal, goal, at=99):
+            states.append(belief.observe(states[-1], step))
+        assert belief.posterior(states[-1]).argmax() == goal
+        assert states[-1].n_declared == 0
+        assert belief.changes(states[1:]) == ()

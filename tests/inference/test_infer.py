@@ -1,0 +1,143 @@
+"""``hrcplan infer`` as a user calls it."""
+
+import json
+
+import pytest
+from click.testing import CliRunner
+
+from hrcplan import infer
+from hrcplan.bank import build
+from hrcplan.bank.store import save
+from hrcplan.cli import main
+from hrcplan.errors import UsageError
+
+KEYS = {"goals", "posterior", "changes", "ignored", "method", "note"}
+ACTIONS = """\
+; comments and empty lines are no observations
+
+(GET HUMAN LENTILS)
+(get robot pan)
+(fly human moon)
+(get human pizza)
+(get lentils)
+0.000: (get human yogurt) [1.000]
+(get human mango)
+(get human glass)
+(get human eating-spoon)
+"""
+
+
+def call(*words, code=0):
+    found = CliRunner().invoke(main, ["infer", *map(str, words)])
+    assert found.exit_code == code, found.output
+    return found
+
+
+@pytest.fixture(scope="module")
+def files(kitchen, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("infer")
+    names = ["stew-lentil", "pasta-bean", "parfait-mango", "smoothie-mango"]
+    save(build(kitchen.goals.only(names)), folder / "some.bank")
+    (folder / "actions.txt").write_text(ACTIONS)
+    return folder
+
+
+def test_json_of_a_bank(files):
+    found = json.loads(call(files / "some.bank", files / "actions.txt", "--json").stdout)
+    assert found.keys() == KEYS
+    assert found["method"] == "switching"
+    assert found["goals"] == ["stew-lentil", "pasta-bean", "parfait-mango", "smoothie-mango"]
+    rows = found["posterior"]
+    assert len(rows) == 10
+    assert rows[0] == [0.25] * 4
+    assert all(sum(row) == pytest.approx(1) for row in rows)
+    assert rows[1][0] > 0.8
+    assert [i["at"] for i in found["ignored"]] == [2, 3, 4]
+    reasons = [i["reason"] for i in found["ignored"]]
+    assert reasons[0].startswith("there is no action 'fly'")
+    assert reasons[1] == "there is no object 'pizza'"
+    assert reasons[2] == "nobody can do this step here"
+    assert rows[1] == rows[2] == rows[3] == rows[4] == rows[5]  # the robot's step is no evidence
+    assert rows[-1][2] == max(rows[-1])
+    assert [change["at"] for change in found["changes"]] == [5]
+
+
+@pytest.mark.parametrize("method", ["exact", "recursive", "cost"])
+def test_other_methods_on_a_bank(files, method):
+    words = (files / "some.bank", files / "actions.txt", "--json", "--method", method)
+    found = json.loads(call(*words).stdout)
+    assert found["method"] == method
+    assert len(found["posterior"]) == 10
+    assert len({len(row) for row in found["posterior"]}) == 1
+    assert found["posterior"][1][0] == max(found["posterior"][1])
+
+
+def test_methods_with_plan_graphs_on_a_folder(instances):
+    folder = instances / "easy-ipc-grid_p5-5-5_hyp-0_full"
+    found = infer(str(folder), method="exact")
+    assert len(found.posterior) == 7
+    assert max(found.posterior[-1]) == found.posterior[-1][0]
+
+
+def test_table_shows_changes_and_reasons(files):
+    text = call(files / "some.bank", files / "actions.txt").stdout
+    lines = text.splitlines()
+    assert sum("goal change" in line for line in lines) == 1
+    assert sum("[ignored:" in line for line in lines) == 3
+    assert "0.25 each of 4 goals" in lines[1]
+
+
+def test_long_names_are_numbered_and_listed(instances):
+    text = call(instances / "block-words_p01_hyp-0_full", "--timeout", "2").stdout
+    assert "goal 1: (CLEAR D),(ONTABLE W),(ON D R),(ON R A),(ON A W)" in text
+
+
+@pytest.mark.parametrize("form", ["png", "svg"])
+def test_picture(files, tmp_path, form):
+    target = tmp_path / f"posterior.{form}"
+    call(files / "some.bank", files / "actions.txt", "--plot", target)
+    data = target.read_bytes()
+    assert data.startswith(b"\x89PNG") if form == "png" else b"stew-lentil" in data
+    again = tmp_path / f"again.{form}"
+    call(files / "some.bank", files / "actions.txt", "--plot", again)
+    assert again.read_bytes() == data
+
+
+def test_wrong_calls(files, tmp_path):
+    bank, actions = files / "some.bank", files / "actions.txt"
+    call(bank, code=3)  # no ACTIONS beside a bank
+    call(bank, tmp_path / "none.txt", code=3)
+    call(tmp_path / "none.bank", actions, code=3)
+    call(tmp_path, actions, code=3)  # a folder without template.pddl
+    call(actions, actions, code=3)  # not a bank
+    call(bank, actions, "--method", "magic", code=2)
+    call(bank, actions, "--method", "no.such:Class", code=2)
+    call(bank, actions, "--plot", tmp_path / "x.bmp", code=2)
+    error = json.loads(call(bank, actions, "--method", "exat", "--json", code=2).stdout)["error"]
+    assert (error["code"], error["hint"]) == ("unknown-method", "did you mean 'exact'?")
+
+
+def test_a_belief_from_elsewhere(kitchen, monkeypatch, tmp_path):
+    (tmp_path / "elsewhere.py").write_text(
+        "import numpy as np\n"
+        "class State:\n    world, ignored = 0, None\n"
+        "class Last:\n"
+        "    def __init__(self, bank): self.names = bank.names\n"
+        "    def start(self): return State()\n"
+        "    def observe(self, state, step, *, robot=False): return state\n"
+        "    def posterior(self, state): return np.eye(len(self.names))[-1]\n"
+    )
+    monkeypatch.syspath_prepend(str(tmp_path))
+    found = infer(kitchen, [("get", "human", "lentils")], method="elsewhere:Last")
+    assert [row[-1] for row in found.posterior] == [1.0, 1.0]
+    with pytest.raises(UsageError, match="cannot load"):
+        infer(kitchen, [], method="elsewhere:First")
+
+
+def test_actions_without_agents_where_agents_matter(hall):
+    """Where plans say who acts, an action without an agent is the human's, if one can do it."""
+    found = infer(hall, [("go", "ann", "b", "a"), ("take", "cup", "a")], method="exact")
+    assert found.ignored == ()
+    assert found.posterior[-1][0] > 0.4
+    named = infer(hall, [("go", "ann", "b", "a"), ("take", "ann", "cup", "a")], method="exact")
+    assert named.posterior == found.posterior
