@@ -19,33 +19,90 @@ WORLDS = ("simulated",)
 
 @click.command("execute")
 @click.argument("names", nargs=-1, required=True, metavar="DOMAIN PROBLEM")
-@click.option("--profile", "profile_name", default="hrcplan", show_default=True, metavar="NAME",
-              help="paper, hrcplan, or a .toml file: when to replan, what planners are told.")
-@click.option("--human", default="steady", show_default=True, metavar="SPEC",
-              help="steady, case1 or case2; with commas: random, attempt, before, during, after.")
+@click.option(
+    "--profile",
+    "profile_name",
+    default="hrcplan",
+    show_default=True,
+    metavar="NAME",
+    help="paper, hrcplan, or a .toml file: when to replan, what planners are told.",
+)
+@click.option(
+    "--human",
+    default="steady",
+    show_default=True,
+    metavar="SPEC",
+    help="steady, case1 or case2; with commas: random, attempt, before, during, after.",
+)
 @click.option("--world", type=click.Choice(WORLDS), default="simulated", show_default=True)
-@click.option("--planner", default="auto", show_default=True, metavar="NAME",
-              help="Asked first; another one takes over if it fails.")
-@click.option("--timeout", type=click.FloatRange(0, min_open=True), default=20.0,
-              show_default=True, metavar="S", help="Seconds per plan.")
+@click.option(
+    "--planner",
+    default="auto",
+    show_default=True,
+    metavar="NAME",
+    help="Asked first; another one takes over if it fails.",
+)
+@click.option(
+    "--timeout",
+    type=click.FloatRange(0, min_open=True),
+    default=20.0,
+    show_default=True,
+    metavar="S",
+    help="Seconds per plan.",
+)
 @click.option("--no-model", is_flag=True, help="Do not use what is sensed of the human.")
-@click.option("--change", "changes", multiple=True, metavar="'F OBJ…=N@T'",
-              help="At T seconds a state or fact changes: 'motivation human=9@0', 'not at a b@60'.")
-@click.option("--set", "settings", multiple=True, metavar="'F OBJ…=N'",
-              help="Change a value of the initial state.")
-@click.option("--replan-limit", type=click.IntRange(0), default=None, metavar="N",
-              help="Instead of the profile's.")
+@click.option(
+    "--change",
+    "changes",
+    multiple=True,
+    metavar="'F OBJ…=N@T'",
+    help="At T seconds a state or fact changes: 'motivation human=9@0', 'not at a b@60'.",
+)
+@click.option(
+    "--set",
+    "settings",
+    multiple=True,
+    metavar="'F OBJ…=N'",
+    help="Change a value of the initial state.",
+)
+@click.option(
+    "--replan-limit",
+    type=click.IntRange(0),
+    default=None,
+    metavar="N",
+    help="Instead of the profile's.",
+)
 @click.option("--seed", type=int, default=1, show_default=True)
-@click.option("--journal", type=click.Path(path_type=Path), metavar="FILE",
-              help="Write everything down, so that the run can be resumed and replayed.")
+@click.option(
+    "--journal",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Write everything down, so that the run can be resumed and replayed.",
+)
 @click.option("--resume", is_flag=True, help="Go on with the run in the journal.")
-@click.option("--speed", type=click.FloatRange(0, min_open=True), default=None, metavar="X",
-              help="Simulated seconds per second; as fast as possible if not given.")
+@click.option(
+    "--speed",
+    type=click.FloatRange(0, min_open=True),
+    default=None,
+    metavar="X",
+    help="Simulated seconds per second; as fast as possible if not given.",
+)
 @output.common_options
 def command(
-    names: tuple[str, ...], profile_name: str, human: str, world: str, planner: str,
-    timeout: float, no_model: bool, changes: tuple[str, ...], settings: tuple[str, ...],
-    replan_limit: int | None, seed: int, journal: Path | None, resume: bool, speed: float | None,
+    names: tuple[str, ...],
+    profile_name: str,
+    human: str,
+    world: str,
+    planner: str,
+    timeout: float,
+    no_model: bool,
+    changes: tuple[str, ...],
+    settings: tuple[str, ...],
+    replan_limit: int | None,
+    seed: int,
+    journal: Path | None,
+    resume: bool,
+    speed: float | None,
 ) -> int:
     """Carry out DOMAIN PROBLEM with a simulated human, and replan before actions fail."""
     from hrcplan.cli.arguments import problem_of, split_names
@@ -105,4 +162,3 @@ def _check_fact(fact: tuple[str, ...], problem: Problem) -> None:
     for word, param in zip(fact[1:], known.params, strict=True):
         if word not in problem.objects_of(param.types):
             raise UsageError(f"'{word}' is no object for {param}", code="bad-change")
-

@@ -277,5 +277,3 @@ class Writer:
     def resume(cls, journal: Journal) -> Writer:
         """Return the writer that goes over a journal and then on; a torn last line is cut off."""
         return cls(journal.path, journal.lines, journal.n_bytes)
-
-

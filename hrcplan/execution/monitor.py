@@ -21,9 +21,8 @@ from hrcplan.execution.observer import Observer, Stepped
 from hrcplan.execution.order import Waits, rest_of, waits
 from hrcplan.execution.run import Phase, Pursuit, Run, Running, plus
 from hrcplan.pddl.model import Number
-from hrcplan.planners.solve import objective
 from hrcplan.plans import Plan, PlannedAction
-from hrcplan.validation import validate
+from hrcplan.validation import objective, validate
 
 MAX_ASKED_AGAIN = 3  # times that one replan may ask anew because something changed meanwhile
 _TIE = 1e-3  # relative; the gaps between printed actions differ by less between plans
@@ -203,9 +202,7 @@ class Monitor(Observer):
             run, state=state, running=(*run.running, action), pursuit=pursuit,
             n_dispatched=run.n_dispatched + 1,
         )  # fmt: skip
-        return run, ev.Dispatch(
-            run.t, action.number, step.agent, planned.name, planned.args, lasts
-        )
+        return run, ev.Dispatch(run.t, action.number, step.agent, planned.name, planned.args, lasts)
 
     def _finish(self, run: Run, ending: str, why: str) -> Stepped:
         run = replace(run, phase=Phase.OVER, ending=ending, why=why)

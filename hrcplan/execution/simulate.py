@@ -82,9 +82,7 @@ class Engine:
     monitor: Monitor
     planner: Asked
 
-    def run(
-        self, nature: Nature, record: Record | None = None, watch: Watch | None = None
-    ) -> Run:
+    def run(self, nature: Nature, record: Record | None = None, watch: Watch | None = None) -> Run:
         """Return one finished run in a simulated world."""
         problem, monitor = self.monitor.problem, self.monitor
         world = SimulatedWorld(problem, nature, monitor.acting, monitor.agents)

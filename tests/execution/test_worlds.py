@@ -65,9 +65,7 @@ def test_the_human_fails_and_the_robot_does_not(problem: Problem) -> None:
     assert ("at", "human", "wp1") in world.state.facts
 
 
-@pytest.mark.parametrize(
-    ("sensed", "t"), [("before", 0.0), ("during", 25.0), ("after", 50.0)]
-)
+@pytest.mark.parametrize(("sensed", "t"), [("before", 0.0), ("during", 25.0), ("after", 50.0)])
 def test_when_a_change_is_sensed(problem: Problem, sensed: str, t: float) -> None:
     world = SimulatedWorld(problem, Nature(changes=(lost(0.0),), sensed=sensed))
     first = [e.t for e in world.begin() if isinstance(e, ev.Sensed)]
