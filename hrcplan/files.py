@@ -12,11 +12,17 @@ from hrcplan.errors import UsageError
 def write_atomically(path: Path, data: str | bytes) -> None:
     """Write a file by rename, with the permissions that a new file gets.
 
+    A link stays and its target is written; a device such as ``/dev/stdout`` is written to directly.
+
     Raises:
         UsageError: if the folder is missing or may not be written.
     """
     raw = data.encode() if isinstance(data, str) else data
     try:
+        path = path.resolve()
+        if path.exists() and not path.is_file():
+            path.write_bytes(raw)
+            return
         handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
         try:
             with os.fdopen(handle, "wb") as file:
