@@ -14,6 +14,7 @@ from hrcplan.errors import (
     UnsupportedError,
 )
 from hrcplan.pddl.model import TOTAL_COST, Number, Problem, number_text
+from hrcplan.pddl.possible import possible
 from hrcplan.planners import registry
 from hrcplan.planners.answer import Answer, Card, Planner, Request, Status
 from hrcplan.planners.lanes import schedule
@@ -92,7 +93,7 @@ def solve(
         LimitError: if grounding ran out of bounds and no other planner was left.
     """
     begun = time.monotonic()
-    request = Request(problem, begun + timeout_s, any_plan)
+    request = Request(possible(problem), begun + timeout_s, any_plan)
     if planner != AUTO:
         chosen = registry.make(planner) if isinstance(planner, str) else planner
         result = _attempt(chosen, request, lanes, "it was asked for")

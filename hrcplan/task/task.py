@@ -29,7 +29,9 @@ class Task:
 
     ``facts`` are the fluents in bit order; facts that never change are compiled away. ``actions``
     stand in ground-action order: by schema as declared, then by objects as declared. An action
-    that would leave the state unchanged is not offered.
+    that would leave the state unchanged is not offered. ``reached`` are the values, in bit order, of
+    the functions that actions change. Tasks with the same ``structure`` differ in costs and in the
+    initial state only, so what was found out about one holds for the others.
 
     Raises:
         UnsupportedError: if an action changes a number that is neither total-cost nor agent state,
@@ -54,7 +56,9 @@ class Task:
         self.facts = (*fluents, *values)
         self.bits: Mapping[Fact, int] = {fact: i for i, fact in enumerate(self.facts)}
         grounder = Grounder(problem, self.bits, fixed)
+        self.reached: Reached = reached
         self.actions = ground_actions(grounder, found, reached)
+        self.structure: object = self.actions
         given = [value_fact(k, problem.values[k]) for k in reached if k in problem.values]
         self.initial = self.state_of([*problem.facts, *given])
         self.goal: tuple[Test, ...] = _goal(grounder, reached)
