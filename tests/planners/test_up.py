@@ -56,6 +56,24 @@ def test_symk_proves_what_fast_downward_proves(request_: Request) -> None:
     assert validate(request_.problem, answer.plan).metric == theirs.objective
 
 
+def test_conditions_on_the_state_arrive(tmp_path: Path) -> None:
+    (tmp_path / "d.pddl").write_text("""
+(define (domain lamps) (:requirements :adl) (:predicates (p) (q) (r))
+  (:action a :effect (and (p) (when (q) (r))))
+  (:action b :precondition (or (p) (and (q) (not (r)))) :effect (and (q) (not (p)))))
+""")
+    (tmp_path / "p.pddl").write_text(
+        "(define (problem x) (:domain lamps) (:init) (:goal (or (and (p) (q)) (and (r) (p)))))"
+    )
+    problem = read_problem(load_domain(tmp_path / "d.pddl"), tmp_path / "p.pddl")
+    request = Request(problem, time.monotonic() + 60)
+    answer = UnifiedPlanning("symk-opt").solve(request)
+    assert answer.status is Status.OPTIMAL
+    check(request, answer)
+    assert answer.plan is not None
+    assert len(answer.plan.actions) == 3
+
+
 def test_pyperplan_knows_no_costs_and_proves_nothing(request_: Request) -> None:
     answer = UnifiedPlanning("pyperplan-opt").solve(request_)
     assert answer.status is Status.SOLVED
