@@ -63,10 +63,12 @@ class Profile:
         Every element has a value, also those at their low value, so that equal beliefs are equal.
         """
         blame = memory.blame() if self.memory else {}
-        return {
+        told = {
             key: self._value(sensed.get(key, low), low, blame.get(key, 0.0))
             for key, low in model.low.items()
         }
+        left = model.problem.values
+        return told | {key: self._value(left[key], low, 0.0) for key, low in model.left.items()}
 
     def _value(self, value: Number, low: Number, blame: float) -> Number:
         p = 0.0 if value <= low else min(1.0, float(value) / 10)

@@ -14,8 +14,16 @@ from functools import cached_property
 
 from hrcplan.errors import UsageError
 from hrcplan.pddl.conventions import CONTROLLABLE, ROBOT
-from hrcplan.pddl.model import TOTAL_COST, Action, FluentKey, Number, Problem, functions_in
-from hrcplan.pddl.semantics import ground_key
+from hrcplan.pddl.model import (
+    TOTAL_COST,
+    Action,
+    FluentKey,
+    Function,
+    Number,
+    Problem,
+    functions_in,
+)
+from hrcplan.pddl.semantics import State, bind, changes, ground_key
 from hrcplan.task.numbers import agent_state_functions
 
 LEAST, MOST = 0, 10
@@ -106,6 +114,44 @@ class AgentModel:
             for effect in action.effects
             if effect.target.name in self.functions and effect.kind in ("decrease", "assign")
         )
+
+    def helped(
+        self, name: str, args: tuple[str, ...], sensed: Mapping[FluentKey, Number]
+    ) -> dict[FluentKey, Number]:
+        """Return the sensed values that a ground interaction leaves, within their range.
+
+        >>> from hrcplan.facade import load_problem
+        >>> model = AgentModel(load_problem("transport", "two-boxes-coached"))
+        >>> model.helped("remind", ("robot", "human"), {("motivation", "human"): 8})
+        {('motivation', 'human'): 1}
+        """
+        if not self.is_interaction(name):
+            return {}
+        values = {**self.problem.values, **self.low, **sensed}
+        schema = self._schemas[name]
+        binding = bind(schema, args, self.problem)
+        assert not isinstance(binding, str)
+        effects = [e for e in schema.effects if e.target.name in self.functions]
+        found = changes(effects, State(frozenset(), values), binding, self.problem).values
+        return {key: min(MOST, max(LEAST, value)) for key, value in found.items()}
+
+    @cached_property
+    def left(self) -> Mapping[FluentKey, Number]:
+        """The functions whose value interactions leave, each with the least low value it stands for.
+
+        They are sensed values as the elements are, so planners are told of them in the same way.
+        """
+        found: dict[FluentKey, Number] = {}
+        for action in self.problem.domain.actions:
+            for effect in action.effects:
+                source = effect.value
+                if effect.target.name not in self.functions or not isinstance(source, Function):
+                    continue
+                key = (source.name, *source.args)
+                lows = [v for k, v in self.low.items() if k[0] == effect.target.name]
+                if effect.kind == "assign" and key in self.problem.values and lows:
+                    found[key] = min([*lows, found.get(key, MOST)])
+        return found
 
     def failure_probability(self, key: FluentKey, values: Mapping[FluentKey, Number]) -> float:
         """Return how likely one element makes an action fail; unknown values count as low."""

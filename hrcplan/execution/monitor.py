@@ -23,6 +23,7 @@ from hrcplan.execution.order import Waits, rest_of, waits
 from hrcplan.execution.run import Phase, Pursuit, Run, Running, plus
 from hrcplan.pddl.model import FluentKey, Number, Problem, fact_text, number_text
 from hrcplan.pddl.semantics import State
+from hrcplan.planners.retries import expected_retries
 from hrcplan.planners.solve import objective
 from hrcplan.plans import Plan, PlannedAction
 from hrcplan.validation import validate
@@ -41,12 +42,14 @@ class Monitor:
     sensing: bool = True
     agents: AgentModel = field(init=False)
     acting: Acting = field(init=False)
+    _priced: Problem = field(init=False, repr=False)
     _orders: dict[Plan, Waits] = field(init=False, default_factory=dict, repr=False)
 
     def __post_init__(self) -> None:
         """Look up what depends on the problem alone."""
         object.__setattr__(self, "agents", AgentModel(self.problem))
         object.__setattr__(self, "acting", Acting(self.problem))
+        object.__setattr__(self, "_priced", expected_retries(self.problem))
 
     def begin(self) -> Run:
         """Return a run at time 0, before its first plan."""
@@ -81,11 +84,20 @@ class Monitor:
             tally, done=plus(tally.done, [step.agent]), last_end_s=run.t,
             interactions=tally.interactions + self.agents.is_interaction(step.schema.name),
         )  # fmt: skip
-        return replace(
+        run = replace(
             run, running=run.without(action), pursuit=pursuit, tally=tally,
             state=self.acting.finish(run.state, action.step, _number(action.duration_s)),
             memory=run.memory.went_well(self._touching(action.step)),
         )  # fmt: skip
+        return self._helped(run, step)
+
+    def _helped(self, run: Run, step: Step) -> Run:
+        """Take in what an interaction does: expected, so when it is sensed nothing is new."""
+        args = tuple(step.binding.values())
+        for key, value in self.agents.helped(step.schema.name, args, run.sensed).items():
+            sensed = {**run.sensed, key: value} if self.sensing else run.sensed
+            run = replace(run, sensed=sensed, memory=run.memory.sensed(key))
+        return run
 
     def _undone(self, run: Run, action: Running, outcome: str) -> Run:
         """Take a failed or cancelled action back: no effect, the time is used up."""
@@ -105,7 +117,12 @@ class Monitor:
         return replace(run, tally=tally, memory=memory).because(ev.FAILURE, text)
 
     def _suspects(self, run: Run, step: Step) -> Iterable[FluentKey]:
-        """Return the elements that can have made an action fail: those sensed high, if any."""
+        """Return the elements that can have made an action fail: those sensed high, if any.
+
+        An interaction fails by itself.
+        """
+        if self.agents.is_interaction(step.schema.name):
+            return ()
         touched = self._touching(step)
         if not self.sensing:
             return touched
@@ -280,9 +297,9 @@ class Monitor:
         return None if not report.valid or value is None else (rest, value)
 
     def now(self, run: Run) -> Problem:
-        """Return the problem from here on, as it is believed to be."""
+        """Return the problem from here on, as it is believed to be, as planners get it."""
         values = {**self.problem.values, **run.state.values, **self.told(run)}
-        return replace(self.problem, facts=frozenset(run.state.facts), values=values)
+        return replace(self._priced, facts=frozenset(run.state.facts), values=values)
 
     # Dispatch: every action whose turn has come, if it still can be done.
 

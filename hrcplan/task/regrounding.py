@@ -32,6 +32,7 @@ from hrcplan.task.changing import value_fact
 from hrcplan.task.numbers import grounded, numeric_effects
 from hrcplan.task.task import Task
 
+MAX_KEPT = 32
 Roles = Mapping[FluentKey, tuple[Number, ...]]
 """Values of each function that actions change, in the order of their bits."""
 
@@ -50,6 +51,29 @@ def regrounded(task: Task, problem: Problem) -> Task | None:
         return None
     roles = _roles(task, problem)
     return None if roles is None else _with(task, problem, roles)
+
+
+class Groundings:
+    """The groundings of one running task: one for each set of agent states that can be bettered."""
+
+    def __init__(self) -> None:
+        self._kept: list[Task] = []
+
+    def task(self, problem: Problem) -> Task:
+        """Return the task of a problem, with the structure of an earlier one if any holds it.
+
+        Raises:
+            UnsupportedError: if bits cannot hold it.
+            LimitError: if there are too many ground actions.
+        """
+        for kept in self._kept:
+            found = regrounded(kept, problem)
+            if found is not None:
+                return found
+        new = Task(problem)
+        # The smallest that holds a problem is the quickest.
+        self._kept = sorted([*self._kept[-MAX_KEPT:], new], key=lambda task: len(task.actions))
+        return new
 
 
 def _same_shape(task: Task, problem: Problem) -> bool:

@@ -48,7 +48,8 @@ class Nature:
     ``sensed``: a change is sensed when it happens (``before`` the next action), in the middle of
     the human's first action under it (``during``), or when that action has ended (``after``).
     ``draws``: whether an element makes actions fail is drawn ``once`` per simulation or anew at
-    every ``attempt``. ``can_fail``: the actions that can fail, None for all.
+    every ``attempt``. ``can_fail``: the actions that can fail, None for all; an interaction
+    succeeds with the probability that the domain's note says, drawn at every attempt.
     """
 
     seed: object = 0
@@ -182,11 +183,24 @@ class SimulatedWorld:
             self.state = self.acting.undo(self.state, action.undo)
             return [ev.Ended(t, number, ev.FAILED)]
         self.state = self.acting.finish(self.state, action.step, action.duration)
-        return [ev.Ended(t, number, ev.DONE)]
+        return [ev.Ended(t, number, ev.DONE), *self._help(t, action.step)]
+
+    def _help(self, t: float, step: Step) -> Sequence[Event]:
+        """Return what is sensed anew after an interaction; nothing after another action."""
+        args = tuple(step.binding.values())
+        helped = self.agents.helped(step.schema.name, args, self.values)
+        self.values.update(helped)
+        for key in helped:
+            self._unsensed.pop(key, None)
+        return [ev.Sensed(t, helped)] if helped else []
 
     def _succeeds(self, number: int, action: _Acted) -> bool:
         """Return the outcome of an action, from the true agent state and what was drawn for it."""
         name = action.step.schema.name
+        if self.agents.is_interaction(name):
+            attempt = self._n_attempts[name] = self._n_attempts.get(name, 0) + 1
+            p = self.acting.problem.domain.success(name)
+            return chance.uniform(self.nature.seed, "interaction", name, attempt) < p
         if not self._is_human(action.step) or name not in (self.nature.can_fail or {name}):
             return True
         agent = action.step.agent
