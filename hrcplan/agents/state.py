@@ -137,7 +137,7 @@ class AgentModel:
 
     @cached_property
     def left(self) -> Mapping[FluentKey, Number]:
-        """The functions whose value interactions leave, each with the least low value it stands for.
+        """The functions whose value interactions leave, with the least low value of each.
 
         They are sensed values as the elements are, so planners are told of them in the same way.
         """

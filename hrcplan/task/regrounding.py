@@ -1,7 +1,7 @@
 """A task again, for the problem as it is now: grounded anew only where that matters.
 
-While a plan is carried out, facts and agent state change but not what is possible. Bits, actions and
-everything that hangs on them (``Task.structure``) then stay, and only the initial state and the
+While a plan is carried out, facts and agent state change, but not what is possible. Bits, actions
+and everything that hangs on them (``Task.structure``) then stay; only the initial state and the
 costs are new. That includes the agent state that interactions change: its value facts stand for
 *roles* (the value now, the value that an interaction leaves), and a role may take another number.
 """
@@ -9,7 +9,7 @@ costs are new. That includes the agent state that interactions change: its value
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 
 from hrcplan.pddl.model import (
@@ -37,27 +37,69 @@ Roles = Mapping[FluentKey, tuple[Number, ...]]
 """Values of each function that actions change, in the order of their bits."""
 
 
-def regrounded(task: Task, problem: Problem) -> Task | None:
-    """Return the task of ``problem`` with the structure of ``task``; None if that does not hold it.
+class Grounding:
+    """One structure: a task, and what it takes to say whether another problem has it, too."""
 
-    >>> from hrcplan import load
-    >>> task = load("transport", "two-boxes")
-    >>> moved = {("at", "human", "wp4")} | task.problem.facts - {("at", "human", "wp1")}
-    >>> now = regrounded(task, replace(task.problem, facts=moved))
-    >>> now.structure is task.structure, ("at", "human", "wp4") in now.facts_of(now.initial)
-    (True, True)
-    """
-    if not _same_shape(task, problem):
-        return None
-    roles = _roles(task, problem)
-    return None if roles is None else _with(task, problem, roles)
+    def __init__(self, task: Task) -> None:
+        self.task = task
+        self._fixed = task.problem.facts - task.bits.keys()
+        self._left = _assignments(task)
+        actions = task.problem.domain.actions
+        self._shaping = frozenset(f.name for action in actions for f in _shaping(action))
+
+    def again(self, problem: Problem) -> Task | None:
+        """Return the task of ``problem`` with this structure; None if that does not hold it.
+
+        >>> from hrcplan import load
+        >>> task = load("transport", "two-boxes")
+        >>> moved = {("at", "human", "wp4")} | task.problem.facts - {("at", "human", "wp1")}
+        >>> now = Grounding(task).again(replace(task.problem, facts=moved))
+        >>> now.structure is task.structure, ("at", "human", "wp4") in now.facts_of(now.initial)
+        (True, True)
+        """
+        if not self._has_shape(problem):
+            return None
+        roles = self._roles(problem)
+        return None if roles is None else _with(self.task, problem, roles)
+
+    def _has_shape(self, problem: Problem) -> bool:
+        """Return whether the same facts and actions are possible, numbers that change aside.
+
+        What can follow a state that can follow the initial one was grounded with it.
+        """
+        before, reached = self.task.problem, self.task.reached
+        if (problem.domain is not before.domain or problem.objects != before.objects
+                or problem.goal != before.goal):  # fmt: skip
+            return False
+        if problem.facts - self.task.bits.keys() != self._fixed:
+            return False
+        old, new = before.values, problem.values
+        if old.keys() != new.keys():
+            return False
+        changed = [key for key in old if old[key] != new[key]]
+        return all(key in reached or key[0] not in self._shaping for key in changed)
+
+    def _roles(self, problem: Problem) -> Roles | None:
+        """Return the numbers of all roles now; None if other or more roles are needed."""
+        if self._left is None:
+            return None
+        old, new = self.task.problem.values, problem.values
+        found: dict[FluentKey, tuple[Number, ...]] = {}
+        for key, values in self.task.reached.items():
+            left = {evaluate(e, old, b): evaluate(e, new, b) for e, b in self._left.get(key, ())}
+            after = {evaluate(e, new, b) for e, b in self._left.get(key, ())}
+            numbers = _renumbered(tuple(values), left, new[key])
+            if numbers is None or after.difference(numbers):
+                return None
+            found[key] = numbers
+        return found
 
 
 class Groundings:
     """The groundings of one running task: one for each set of agent states that can be bettered."""
 
     def __init__(self) -> None:
-        self._kept: list[Task] = []
+        self._kept: list[Grounding] = []
 
     def task(self, problem: Problem) -> Task:
         """Return the task of a problem, with the structure of an earlier one if any holds it.
@@ -67,31 +109,14 @@ class Groundings:
             LimitError: if there are too many ground actions.
         """
         for kept in self._kept:
-            found = regrounded(kept, problem)
+            found = kept.again(problem)
             if found is not None:
                 return found
-        new = Task(problem)
+        new = Grounding(Task(problem))
         # The smallest that holds a problem is the quickest.
-        self._kept = sorted([*self._kept[-MAX_KEPT:], new], key=lambda task: len(task.actions))
-        return new
-
-
-def _same_shape(task: Task, problem: Problem) -> bool:
-    """Return whether the same facts and actions are possible, numbers that change aside.
-
-    What can follow a state that can follow the initial one was grounded with it.
-    """
-    before = task.problem
-    if (problem.domain is not before.domain or problem.objects != before.objects
-            or problem.goal != before.goal):  # fmt: skip
-        return False
-    if problem.facts - task.bits.keys() != before.facts - task.bits.keys():
-        return False
-    old, new = before.values, problem.values
-    changed = [k for k in old.keys() | new.keys() if old.get(k) != new.get(k)]
-    shaping = {f.name for a in problem.domain.actions for f in _shaping(a)}
-    return all(k in old and k in new and (k in task.reached or k[0] not in shaping)
-               for k in changed)  # fmt: skip
+        kept = [*self._kept[-MAX_KEPT:], new]
+        self._kept = sorted(kept, key=lambda grounding: len(grounding.task.actions))
+        return new.task
 
 
 def _shaping(action: Action) -> Iterator[Function]:
@@ -100,25 +125,6 @@ def _shaping(action: Action) -> Iterator[Function]:
         yield from formula_functions(formula)
     for _, duration in action.durations:
         yield from functions_in(duration)
-
-
-def _roles(task: Task, problem: Problem) -> Roles | None:
-    """Return the numbers of all roles now; None if other or more roles are needed."""
-    if not task.reached:
-        return task.reached  # type: ignore[return-value]
-    left = _assignments(task)
-    if left is None:
-        return None
-    found: dict[FluentKey, tuple[Number, ...]] = {}
-    for key, values in task.reached.items():
-        before = [evaluate(e, task.problem.values, b) for e, b in left.get(key, ())]
-        after = [evaluate(e, problem.values, b) for e, b in left.get(key, ())]
-        numbers = _renumbered(tuple(values), dict(zip(before, after, strict=True)),
-                              problem.values[key])  # fmt: skip
-        if numbers is None or set(after) - set(numbers):
-            return None
-        found[key] = numbers
-    return found
 
 
 def _renumbered(
@@ -139,16 +145,15 @@ def _renumbered(
 
 
 def _assignments(task: Task) -> dict[FluentKey, list[tuple[Expr, Binding]]] | None:
-    """Return what interactions leave each function at; None if that depends on more than costs do."""
+    """Return what interactions leave each function at; None if actions do more with them."""
     found: dict[FluentKey, list[tuple[Expr, Binding]]] = {}
     schemas = {action.name: action for action in task.problem.domain.actions}
     moving = {key[0] for key in task.reached}
+    used = {action.name for action in task.actions}
+    if any(_looks_closer(schemas[name], moving) for name in used):
+        return None
     for name, args in dict.fromkeys((a.name, a.args) for a in task.actions):
         action = schemas[name]
-        changes = any(numeric_effects(action))
-        costs = {f.name for e in action.effects for f in functions_in(e.value)} if changes else set()
-        if (costs | {f.name for f in _shaping(action)}) & moving:
-            return None
         for effect in numeric_effects(action):
             assert effect.value is not None
             plain = effect.kind == "assign" and effect.given == TRUE and not effect.params
@@ -157,6 +162,14 @@ def _assignments(task: Task) -> dict[FluentKey, list[tuple[Expr, Binding]]] | No
             binding = _binding(action, args)
             found.setdefault(ground_key(effect.target, binding), []).append((effect.value, binding))
     return found
+
+
+def _looks_closer(action: Action, moving: set[str]) -> bool:
+    """Return whether an action does with changing functions more than count them as a cost."""
+    found = {function.name for function in _shaping(action)}
+    if any(numeric_effects(action)):
+        found.update(f.name for effect in action.effects for f in functions_in(effect.value))
+    return not moving.isdisjoint(found)
 
 
 def _binding(action: Action, args: tuple[str, ...]) -> Binding:

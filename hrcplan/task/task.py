@@ -30,9 +30,9 @@ class Task:
 
     ``facts`` are the fluents in bit order; facts that never change are compiled away. ``actions``
     stand in ground-action order: by schema as declared, then by objects as declared. An action
-    that would leave the state unchanged is not offered. ``reached`` are the values, in bit order, of
-    the functions that actions change. Tasks with the same ``structure`` differ in costs and in the
-    initial state only, so what was found out about one holds for the others.
+    that would leave the state unchanged is not offered. ``reached`` are the values, in bit order,
+    of the functions that actions change. Tasks with the same ``structure`` differ in costs and in
+    the initial state only, so what was found out about one holds for the others.
 
     Raises:
         UnsupportedError: if an action changes a number that is neither total-cost nor agent state,
