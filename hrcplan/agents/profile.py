@@ -13,6 +13,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+from hrcplan.agents.estimate import Estimate, Prior
 from hrcplan.agents.memory import Memory
 from hrcplan.agents.state import AgentModel
 from hrcplan.errors import InputError, UsageError
@@ -21,6 +22,7 @@ from hrcplan.pddl.source import nearest
 
 _SHIPPED = Path(__file__).with_name("profiles.toml")
 _PLACES = 100  # function values are rounded to hundredths: planners scale costs to integers
+Experience = Memory | Estimate
 _CHOICES = {
     "values": ("sensed", "log"),
     "replan": ("change", "worse"),
@@ -35,6 +37,7 @@ class Profile:
     name: str
     values: str = "sensed"
     memory: bool = False
+    estimate: bool = False
     replan: str = "change"
     while_draining: str = "finish"
     replan_limit: int = 5
@@ -55,14 +58,18 @@ class Profile:
             message = f"profile '{self.name}': limits, scale and cap are positive"
             raise InputError(message, code="bad-profile")
 
+    def begin(self, model: AgentModel) -> Experience:
+        """Return what is remembered, or believed, before anything has happened."""
+        return Estimate.begin(Prior.of(model)) if self.estimate else Memory()
+
     def told(
-        self, model: AgentModel, sensed: Mapping[FluentKey, Number], memory: Memory
+        self, model: AgentModel, sensed: Mapping[FluentKey, Number], memory: Experience
     ) -> dict[FluentKey, Number]:
         """Return the function values that the planner is given for a belief about the agents.
 
         Every element has a value, also those at their low value, so that equal beliefs are equal.
         """
-        blame = memory.blame() if self.memory else {}
+        blame = memory.blame() if self.memory or self.estimate else {}
         told = {
             key: self._value(sensed.get(key, low), low, blame.get(key, 0.0))
             for key, low in model.low.items()
@@ -96,7 +103,7 @@ def profile_names() -> tuple[str, ...]:
     """Return the names of the shipped profiles.
 
     >>> profile_names()
-    ('paper', 'hrcplan')
+    ('paper', 'hrcplan', 'estimated')
     """
     return tuple(_read(_SHIPPED))
 

@@ -53,7 +53,7 @@ class Monitor:
 
     def begin(self) -> Run:
         """Return a run at time 0, before its first plan."""
-        return Run(self.acting.initial())
+        return Run(self.acting.initial(), memory=self.profile.begin(self.agents))
 
     def step(self, run: Run, event: Event) -> Stepped:
         """Return the run after an event, and what is to be done, in order."""
