@@ -214,7 +214,20 @@ def child() -> None:
 def _survey() -> dict[str, str | None]:
     from unified_planning.engines.factory import DEFAULT_ENGINES
 
-    return {name: _fault(name) for name in DEFAULT_ENGINES}
+    return {name: _fault(name) for name in DEFAULT_ENGINES if _may_plan(name)}
+
+
+def _may_plan(name: str) -> bool:
+    """Return whether an engine solves problems, as far as one can tell if it does not load."""
+    from importlib import import_module
+
+    from unified_planning.engines.factory import DEFAULT_ENGINES
+
+    module, attribute = DEFAULT_ENGINES[name]
+    try:
+        return bool(getattr(import_module(module), attribute).is_oneshot_planner())
+    except Exception:  # noqa: BLE001 - a stranger's import may raise anything
+        return True
 
 
 def _fault(name: str) -> str | None:
