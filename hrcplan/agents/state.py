@@ -23,7 +23,7 @@ from hrcplan.pddl.model import (
     Problem,
     functions_in,
 )
-from hrcplan.pddl.semantics import State, bind, changes, ground_key
+from hrcplan.pddl.semantics import ground_key
 from hrcplan.task.numbers import agent_state_functions
 
 LEAST, MOST = 0, 10
@@ -114,26 +114,6 @@ class AgentModel:
             for effect in action.effects
             if effect.target.name in self.functions and effect.kind in ("decrease", "assign")
         )
-
-    def helped(
-        self, name: str, args: tuple[str, ...], sensed: Mapping[FluentKey, Number]
-    ) -> dict[FluentKey, Number]:
-        """Return the sensed values that a ground interaction leaves, within their range.
-
-        >>> from hrcplan.facade import load_problem
-        >>> model = AgentModel(load_problem("transport", "two-boxes-coached"))
-        >>> model.helped("remind", ("robot", "human"), {("motivation", "human"): 8})
-        {('motivation', 'human'): 1}
-        """
-        if not self.is_interaction(name):
-            return {}
-        values = {**self.problem.values, **self.low, **sensed}
-        schema = self._schemas[name]
-        binding = bind(schema, args, self.problem)
-        assert not isinstance(binding, str)
-        effects = [e for e in schema.effects if e.target.name in self.functions]
-        found = changes(effects, State(frozenset(), values), binding, self.problem).values
-        return {key: min(MOST, max(LEAST, value)) for key, value in found.items()}
 
     @cached_property
     def left(self) -> Mapping[FluentKey, Number]:
