@@ -29,7 +29,7 @@ from hrcplan.pddl.model import (
 from hrcplan.pddl.semantics import Binding, evaluate, ground_key
 from hrcplan.task.actions import GroundAction
 from hrcplan.task.changing import value_fact
-from hrcplan.task.numbers import grounded, numeric_effects
+from hrcplan.task.numbers import divisors, grounded, numeric_effects
 from hrcplan.task.task import Task
 
 MAX_KEPT = 32
@@ -114,8 +114,8 @@ class Groundings:
                 return found
         new = Grounding(Task(problem))
         # The smallest that holds a problem is the quickest.
-        kept = [*self._kept[-MAX_KEPT:], new]
-        self._kept = sorted(kept, key=lambda grounding: len(grounding.task.actions))
+        all_kept = [*self._kept[-MAX_KEPT:], new]
+        self._kept = sorted(all_kept, key=lambda grounding: len(grounding.task.actions))
         return new.task
 
 
@@ -125,6 +125,8 @@ def _shaping(action: Action) -> Iterator[Function]:
         yield from formula_functions(formula)
     for _, duration in action.durations:
         yield from functions_in(duration)
+    for effect in action.effects:
+        yield from divisors(effect.value)  # a cost that divides by zero is none
 
 
 def _renumbered(

@@ -21,7 +21,7 @@ from hrcplan.task.actions import Change, ground_actions
 from hrcplan.task.changing import Reached, combinations, reached_values, value_fact
 from hrcplan.task.conditions import Grounder, Test, Tests, all_of, any_of, meets, single_bits
 from hrcplan.task.lookup import Lookup
-from hrcplan.task.numbers import check_supported, divisors, exact, functions_read, numeric_effects
+from hrcplan.task.numbers import check_supported, divisors, exact, functions_read
 from hrcplan.task.reachable import Instance, reachable
 
 
@@ -136,7 +136,7 @@ class Task:
         """
         old, problem = self.problem.values, self.problem.with_values(values)
         changed = [key for key, value in values.items() if old.get(key) != value]
-        if any(key not in old or key[0] in self._structural for key in changed):
+        if any(k not in old or k in self.reached or k[0] in self._structural for k in changed):
             return Task(problem)
         other = object.__new__(Task)
         other.__dict__.update(self.__dict__)
@@ -174,11 +174,10 @@ class Task:
 
     @cached_property
     def _structural(self) -> frozenset[str]:
-        """The functions that decide more than costs."""
+        """The functions that decide more than costs, those of ``reached`` aside."""
         found = {function.name for function in formula_functions(self.problem.goal)}
         for action in self.problem.domain.actions:
             found.update(function.name for function in functions_read(action))
-            found.update(effect.target.name for effect in numeric_effects(action))
             # A cost that divides by zero is none: the action cannot run.
             found.update(f.name for effect in action.effects for f in divisors(effect.value))
         return frozenset(found)
