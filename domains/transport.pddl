@@ -3,8 +3,7 @@
 ;;         in Human-Robot Collaboration (sections III and IV: the actions, the agent model, the cost sum)
 ;; changed: conditions and effects are ours (the paper prints move without them); take is added, so that
 ;;          a box in the hand of an agent that stopped contributing is no dead end; the map (path) and
-;;          the reach of each agent (reach) are facts of the problem; the interactions (remind, instruct,
-;;          assist) are an extension, their numbers are ours
+;;          the reach of each agent (reach) are facts of the problem
 ;; time-unit: s
 ;; abstraction: every action lasts 50 s; a hand holds one box; waypoints hold any number of agents and boxes;
 ;;              agent state (knowledge, motivation, capacity) is a cost per action, low = contributing
@@ -17,7 +16,6 @@
   (:predicates
     (controllable ?a - agent)           ; static: the robot
     (partner ?a ?other - agent)         ; static: ?a may take a box out of the hand of ?other
-    (coach ?a ?other - agent)           ; static: ?a may remind, instruct and assist ?other
     (path ?from ?to - wp)               ; static: the map
     (reach ?a - agent ?w - wp)          ; static: where ?a can go
     (at ?a - agent ?w - wp)
@@ -30,8 +28,6 @@
     (knowledge ?a - agent)
     (motivation ?a - agent)
     (capacity ?a - agent ?w - wp)
-    (help-price)                        ; what an interaction costs whoever does it
-    (residual)                          ; the agent state that an interaction leaves
     (total-cost))
 
   (:durative-action move
@@ -105,58 +101,4 @@
       (at end (free ?from))
       (at end (idle ?a))
       (at end (idle ?from))
-      (at start (increase (total-cost) (+ (+ (knowledge ?a) (motivation ?a)) (capacity ?a ?w))))))
-
-  ;; Interactions: both agents stand still, and afterwards the other one's state is better. They are
-  ;; offered where the problem has a coach, and planned where they pay. One that fails (it succeeds
-  ;; with the probability below) leaves everything as it was.
-  ;; hrcplan: success remind 0.8
-  ;; hrcplan: success instruct 0.8
-  ;; hrcplan: success assist 0.8
-
-  (:durative-action remind
-    :parameters (?a ?other - agent)
-    :duration (= ?duration 50)
-    :condition (and
-      (at start (coach ?a ?other))
-      (at start (idle ?a))
-      (at start (idle ?other)))
-    :effect (and
-      (at start (not (idle ?a)))
-      (at start (not (idle ?other)))
-      (at end (assign (motivation ?other) (residual)))
-      (at end (idle ?a))
-      (at end (idle ?other))
-      (at start (increase (total-cost) (help-price)))))
-
-  (:durative-action instruct
-    :parameters (?a ?other - agent)
-    :duration (= ?duration 50)
-    :condition (and
-      (at start (coach ?a ?other))
-      (at start (idle ?a))
-      (at start (idle ?other)))
-    :effect (and
-      (at start (not (idle ?a)))
-      (at start (not (idle ?other)))
-      (at end (assign (knowledge ?other) (residual)))
-      (at end (idle ?a))
-      (at end (idle ?other))
-      (at start (increase (total-cost) (help-price)))))
-
-  (:durative-action assist
-    :parameters (?a ?other - agent ?w - wp)
-    :duration (= ?duration 50)
-    :condition (and
-      (at start (coach ?a ?other))
-      (at start (idle ?a))
-      (at start (idle ?other))
-      (at start (at ?a ?w))
-      (over all (at ?a ?w)))
-    :effect (and
-      (at start (not (idle ?a)))
-      (at start (not (idle ?other)))
-      (at end (assign (capacity ?other ?w) (residual)))
-      (at end (idle ?a))
-      (at end (idle ?other))
-      (at start (increase (total-cost) (help-price))))))
+      (at start (increase (total-cost) (+ (+ (knowledge ?a) (motivation ?a)) (capacity ?a ?w)))))))

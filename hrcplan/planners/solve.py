@@ -14,7 +14,6 @@ from hrcplan.errors import (
     UnsupportedError,
 )
 from hrcplan.pddl.model import TOTAL_COST, Number, Problem, number_text
-from hrcplan.pddl.possible import possible
 from hrcplan.planners import registry
 from hrcplan.planners.answer import Answer, Card, Planner, Request, Status
 from hrcplan.planners.lanes import schedule
@@ -96,7 +95,7 @@ def solve(
         LimitError: if grounding ran out of bounds and no other planner was left.
     """
     begun = time.monotonic()
-    request = Request(possible(problem), begun + timeout_s, any_plan)
+    request = Request(problem, begun + timeout_s, any_plan)
     if task is not None:
         request.__dict__["task"] = task
     if planner != AUTO:

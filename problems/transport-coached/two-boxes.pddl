@@ -1,8 +1,8 @@
-;; two-boxes with a robot that can help: it may remind, instruct and assist the human (extension, not in the
-;; paper). An interaction costs 3 and leaves an agent state of 1; while both contribute none ever pays.
+;; transport/two-boxes with a robot that may remind, instruct and assist the human. While both contribute no
+;; interaction pays, and the best plan is the same.
 
-(define (problem two-boxes-coached)
-  (:domain transport)
+(define (problem two-boxes)
+  (:domain transport-coached)
   (:objects
     robot human - agent
     wp0 wp1 wp2 wp3 wp4 wp5 - wp
