@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 
-from hrcplan.errors import LimitError
+from hrcplan.errors import LimitError, UnsupportedError
 from hrcplan.pddl.model import TOTAL_COST, Number, Problem
 from hrcplan.planners.answer import Answer, Card, Request, Status
 from hrcplan.planners.exact.frame import Frame, frame
@@ -108,9 +108,11 @@ class Exact:
             UnsupportedError: if the task is outside the class that ``frame.py`` describes.
         """
         until = time.monotonic() + 60 if deadline is None else deadline
-        wanted = metric(task.problem)
         try:
+            wanted = metric(task.problem)
             return _answer(task, self._find(task), wanted, until, any_plan)
+        except UnsupportedError as error:
+            raise UnsupportedError(f"exact declines: {error.message}", hint=error.hint) from None
         except LimitError as error:
             return Answer(Status.UNSOLVED, note=error.message)
 
