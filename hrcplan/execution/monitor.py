@@ -151,8 +151,9 @@ class Monitor(Observer):
         if pursuit is None:
             return None
         rest = rest_of(pursuit.plan, pursuit.order, pursuit.ended, self.problem.domain.is_temporal)
-        report = validate(self.now(run), rest)
-        value = objective(report)
+        now = self.now(run)
+        report = validate(now, rest)
+        value = objective(now, report)
         return None if not report.valid or value is None else (rest, value)
 
     # Dispatch: every action whose turn has come, if it still can be done.

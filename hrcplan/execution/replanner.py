@@ -13,7 +13,7 @@ from hrcplan.pddl.model import Problem
 from hrcplan.planners import registry
 from hrcplan.planners.answer import Planner, Status
 from hrcplan.planners.retries import expected_retries
-from hrcplan.planners.solve import Result, objective, solve
+from hrcplan.planners.solve import Result, solve
 from hrcplan.task import Task
 from hrcplan.task.regrounding import Groundings
 
@@ -75,7 +75,7 @@ class Replanner:
             if result.plan is None:
                 return ev.Planned(ask.t, None, None, result.planner, "the goal is unsolvable")
             assert result.report is not None
-            value, note = objective(result.report), "; ".join(failures)
+            value, note = result.objective, "; ".join(failures)
             return ev.Planned(ask.t, result.plan, value, result.planner, note)
         return ev.Planned(ask.t, None, note="; ".join(failures))
 
