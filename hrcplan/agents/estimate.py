@@ -38,7 +38,7 @@ class Prior:
     changed: float = 0.5
     hazard: float = 0.05
     lasting: float = 0.8
-    slip: float = 0.01
+    slip: float = 0.001
     levels: tuple[int, ...] = LEVELS
 
     @classmethod
