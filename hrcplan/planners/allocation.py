@@ -88,7 +88,7 @@ class Diagram:
         None if there is no flip in the range.
         """
         now = self.value if value is None else value
-        away = [abs(flip - now) for flip in self.flips]
+        away = [max(flip - now, now - flip) for flip in self.flips]
         return min(away) if away else None
 
     def _corners(self) -> tuple[Number, ...]:
