@@ -26,7 +26,7 @@ from hrcplan.plans import Plan, PlannedAction
 from hrcplan.validation import validate
 
 MAX_ASKED_AGAIN = 3  # times that one replan may ask anew because something changed meanwhile
-_TIE = 1e-4  # relative; the gaps between printed actions differ by less between plans
+_TIE = 1e-3  # relative; the gaps between printed actions differ by less between plans
 
 
 class Monitor(Observer):

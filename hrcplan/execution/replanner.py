@@ -74,9 +74,8 @@ class Replanner:
                 continue
             if result.plan is None:
                 return ev.Planned(ask.t, None, None, result.planner, "the goal is unsolvable")
-            assert result.report is not None
-            value, note = result.objective, "; ".join(failures)
-            return ev.Planned(ask.t, result.plan, value, result.planner, note)
+            note = "; ".join(failures)
+            return ev.Planned(ask.t, result.plan, result.objective, result.planner, note)
         return ev.Planned(ask.t, None, note="; ".join(failures))
 
     def _try(
