@@ -188,9 +188,7 @@ class _Best:
         return line_of(self.problem, found.plan, self.key)
 
 
-def _pieces(
-    best: _Best, first: tuple[Number, Line], last: tuple[Number, Line]
-) -> Sequence[Piece]:
+def _pieces(best: _Best, first: tuple[Number, Line], last: tuple[Number, Line]) -> Sequence[Piece]:
     """Return the pieces between two values with their best lines."""
     waiting, found = [(first, last)], list[Piece]()
     while waiting:
@@ -210,9 +208,7 @@ def _pieces(
     return found
 
 
-def _extend(
-    found: list[Piece], least: Number, most: Number, line: Line, problem: Problem
-) -> None:
+def _extend(found: list[Piece], least: Number, most: Number, line: Line, problem: Problem) -> None:
     """Add a piece, or make the last one longer if it is the same line; nothing if it is empty."""
     if least == most:
         return

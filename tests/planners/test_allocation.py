@@ -59,7 +59,7 @@ def assert_concave(found: Diagram) -> None:
 
 
 def test_by_hand(two_boxes: Problem) -> None:
-    """Four actions each in 200 s, or all eight of the robot in 400 s: 24 + 34 + 4 (v - 1), or 92."""
+    """Four actions each in 200 s, or the robot's eight in 400 s: 24 + 34 + 4 (v - 1), or 92."""
     found = diagram(two_boxes, MOTIVATION)
     assert found.flips == (Fraction(19, 2),)
     assert [dict(p.n_actions) for p in found.pieces] == [

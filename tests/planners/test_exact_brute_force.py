@@ -148,9 +148,7 @@ def undisturbed(jobs: list[Job], facts: Facts, running: Running) -> bool:
 # others are (or are not) somewhere. With `wild`, actions also delete what they do not move.
 
 
-def random_task(
-    seed: int, folder: Path, late: bool = False
-) -> tuple[Problem, Fraction, Fraction]:
+def random_task(seed: int, folder: Path, late: bool = False) -> tuple[Problem, Fraction, Fraction]:
     """Return a random task of two agents, and the weights of its metric."""
     rng = random.Random(seed)
     n_things, n_actions = rng.randint(2, 3), rng.randint(7, 12)
@@ -208,7 +206,9 @@ def random_action(rng: random.Random, i: int, n_things: int, wild: bool, late: b
     tokens = [f"(idle {agent})" for agent in who]
     away = [f"(not {token})" for token in tokens]
     lasts = rng.choice(["1", "2", "3", "1.5", "(/ 4 3)"])
-    at_start, ending = (away, tokens + adds + deletes) if at_end else (away + deletes, tokens + adds)
+    at_start, ending = (
+        (away, tokens + adds + deletes) if at_end else (away + deletes, tokens + adds)
+    )
     return f"""(:durative-action do{i}
       :parameters ({" ".join(who)} - agent) :duration (= ?duration {lasts})
       :condition (and (at start (can ?a n{i})) {at("at start", tokens + needs)}

@@ -1,7 +1,6 @@
 """Interactions in PDDL: chosen by cost alone, exactly where they pay."""
 
 from collections.abc import Iterator
-from dataclasses import replace
 from fractions import Fraction
 from heapq import heappop, heappush
 from itertools import count, product
