@@ -106,7 +106,7 @@
       (at end (idle ?from))
       (at start (increase (total-cost) (+ (+ (knowledge ?a) (motivation ?a)) (capacity ?a ?w))))))
 
-  ;; Interactions, planned where they pay: afterwards the other agent's state is what they leave. One
+  ;; Interactions, planned where they pay: they better a state down to what they leave (residual). One
   ;; that fails leaves everything as it was. Help with a place (capacity) is given at the place.
 
   (:durative-action remind
@@ -114,6 +114,7 @@
     :duration (= ?duration 50)
     :condition (and
       (at start (coach ?a ?other))
+      (at start (> (motivation ?other) (residual)))
       (at start (idle ?a))
       (at start (idle ?other)))
     :effect (and
@@ -129,6 +130,7 @@
     :duration (= ?duration 50)
     :condition (and
       (at start (coach ?a ?other))
+      (at start (> (knowledge ?other) (residual)))
       (at start (idle ?a))
       (at start (idle ?other)))
     :effect (and
@@ -144,6 +146,7 @@
     :duration (= ?duration 50)
     :condition (and
       (at start (coach ?a ?other))
+      (at start (> (capacity ?other ?w) (residual)))
       (at start (idle ?a))
       (at start (idle ?other))
       (at start (at ?a ?w))

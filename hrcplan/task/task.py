@@ -21,7 +21,7 @@ from hrcplan.task.actions import Change, ground_actions
 from hrcplan.task.changing import Reached, combinations, reached_values, value_fact
 from hrcplan.task.conditions import Grounder, Test, Tests, all_of, any_of, meets, positions
 from hrcplan.task.lookup import lookup
-from hrcplan.task.numbers import check_supported, divisors, exact, functions_read
+from hrcplan.task.numbers import check_supported, divisors, exact, functions_read, numeric_effects
 from hrcplan.task.reachable import Instance, reachable
 
 
@@ -31,8 +31,9 @@ class Task:
     ``facts`` are the fluents in bit order; facts that never change are compiled away. ``actions``
     stand in ground-action order: by schema as declared, then by objects as declared. An action
     that would leave the state unchanged is not offered. ``reached`` are the values, in bit order,
-    of the functions that actions change. Tasks with the same ``structure`` differ in costs and in
-    the initial state only, so what was found out about one holds for the others.
+    of the functions that actions change, and ``movers`` the instances that could change them. Tasks
+    with the same ``structure`` differ in costs and in the initial state only, so what was found out
+    about one holds for the others.
 
     Raises:
         UnsupportedError: if an action changes a number that is neither total-cost nor agent state,
@@ -58,6 +59,7 @@ class Task:
         self.bits: Mapping[Fact, int] = {fact: i for i, fact in enumerate(self.facts)}
         grounder = Grounder(problem, self.bits, fixed)
         self.reached: Reached = reached
+        self.movers = tuple(i for i in found if any(numeric_effects(i.action)))
         self.actions = ground_actions(grounder, found, reached)
         self.structure: object = self.actions
         given = [value_fact(k, problem.values[k]) for k in reached if k in problem.values]
