@@ -190,7 +190,7 @@ class Monitor(Observer):
         step = self.acting.step(planned)
         assert step is not None
         assert run.pursuit is not None
-        obstacle = self.acting.obstacle(run.state, step)
+        obstacle = self.acting.obstacle(run.state, step, self.told(run))
         if obstacle is not None:
             return run.because(ev.DEVIATION, f"{planned} needs {obstacle}"), None
         duration = planned.duration_s if step.schema.durative else None
