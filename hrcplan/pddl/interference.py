@@ -4,21 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from hrcplan.pddl.model import (
-    Action,
-    And,
-    Atom,
-    Compare,
-    Equal,
-    Fact,
-    FluentKey,
-    Formula,
-    Not,
-    Or,
-    Problem,
-    functions_in,
-)
-from hrcplan.pddl.semantics import Binding, ground_key, instances
+from hrcplan.pddl.model import Action, Fact, FluentKey, Formula, Problem, functions_in
+from hrcplan.pddl.semantics import Binding, ground_key, instances, mentions
 
 _ROLE = {"add": "add", "delete": "delete", "increase": "sum", "decrease": "sum"}
 
@@ -53,42 +40,23 @@ def access(problem: Problem, action: Action, binding: Binding, when: str) -> Acc
     """Return what the ``start`` or ``end`` of an action under a binding reads and writes."""
     atoms: set[Fact] = set()
     functions: set[FluentKey] = set()
+
+    def look(formula: Formula, bound: Binding) -> None:
+        for is_fact, key in mentions(formula, bound, problem):
+            (atoms if is_fact else functions).add(key)
+
     for condition in action.conditions:
         if condition.when == when:
-            _collect(condition.formula, binding, problem, atoms, functions)
+            look(condition.formula, binding)
     written: dict[str, set[Fact]] = {role: set() for role in ("add", "delete", "sum", "assign")}
     for effect in action.effects:
         if effect.when != when:
             continue
         for inner in instances(effect.params, binding, problem):
-            _collect(effect.given, inner, problem, atoms, functions)
+            look(effect.given, inner)
             functions.update(ground_key(f, inner) for f in functions_in(effect.value))
             written[_ROLE.get(effect.kind, "assign")].add(ground_key(effect.target, inner))
     return Access(
         frozenset(atoms), frozenset(written["add"]), frozenset(written["delete"]),
         frozenset(functions), frozenset(written["sum"]), frozenset(written["assign"]),
     )  # fmt: skip
-
-
-def _collect(
-    formula: Formula, binding: Binding, problem: Problem, atoms: set[Fact], functions: set[FluentKey]
-) -> None:
-    """Add every fact and function that a formula looks at."""
-    match formula:
-        case Atom():
-            atoms.add(ground_key(formula, binding))
-        case Not(body):
-            _collect(body, binding, problem, atoms, functions)
-        case And(parts) | Or(parts):
-            for part in parts:
-                _collect(part, binding, problem, atoms, functions)
-        case Compare(_, left, right):
-            for side in (left, right):
-                functions.update(ground_key(f, binding) for f in functions_in(side))
-        case Equal():
-            pass
-        case _:
-            for inner in instances(formula.params, binding, problem):
-                _collect(formula.body, inner, problem, atoms, functions)
-
-

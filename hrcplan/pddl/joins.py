@@ -5,7 +5,18 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
-from hrcplan.pddl.model import Action, And, Atom, Fact, Formula, Problem
+from hrcplan.pddl.model import (
+    Action,
+    And,
+    Atom,
+    Fact,
+    Formula,
+    Not,
+    Or,
+    Problem,
+    Quantified,
+    formula_functions,
+)
 
 Binding = dict[str, str]
 
@@ -51,7 +62,9 @@ class Join:
         self._objects = {p.name: problem.objects_of(p.types) for p in action.params}
         self._allowed = {name: frozenset(found) for name, found in self._objects.items()}
 
-    def bindings(self, index: FactIndex, first: tuple[int, Fact] | None = None) -> Iterator[Binding]:
+    def bindings(
+        self, index: FactIndex, first: tuple[int, Fact] | None = None
+    ) -> Iterator[Binding]:
         """Yield every binding whose atoms are all in ``index``.
 
         With ``first = (i, fact)`` only those that match atom ``i`` with that fact.
@@ -110,6 +123,20 @@ def conjuncts(formula: Formula) -> Iterator[Formula]:
             yield from conjuncts(part)
     else:
         yield formula
+
+
+def lifted_names(formula: Formula) -> Iterator[str]:
+    """Yield the names of the predicates and functions that a formula looks at."""
+    match formula:
+        case Atom(name):
+            yield name
+        case Not(body) | Quantified(_, _, body):
+            yield from lifted_names(body)
+        case And(parts) | Or(parts):
+            for part in parts:
+                yield from lifted_names(part)
+        case _:
+            yield from (function.name for function in formula_functions(formula))
 
 
 def needed_atoms(action: Action) -> tuple[Atom, ...]:

@@ -1,7 +1,7 @@
 """What formulas and effects mean in a state: the lifted reading of PDDL, without grounding.
 
 States are a set of facts and a mapping of function values. Validation replays plans with it,
-and the bit representation of ``task.py`` is tested against it.
+and the bit representation of ``task`` is tested against it.
 """
 
 from __future__ import annotations
@@ -31,14 +31,15 @@ from hrcplan.pddl.model import (
     Param,
     Problem,
     Quantified,
+    functions_in,
 )
 
 Values = Mapping[FluentKey, Number]
 Binding = Mapping[str, str]
 
 
-class Undefined(ArithmeticError):
-    """A function without a value, or a division by zero; ``key`` says which."""
+class Undefined(ArithmeticError):  # noqa: N818  # a value that is missing, caught where it occurs
+    """A function without a value, or a division by zero."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,8 +123,7 @@ def holds(formula: Formula, state: State, binding: Binding, problem: Problem) ->
         case Quantified(universal, params, body):
             test = all if universal else any
             return test(
-                holds(body, state, inner, problem)
-                for inner in instances(params, binding, problem)
+                holds(body, state, inner, problem) for inner in instances(params, binding, problem)
             )
 
 
@@ -148,8 +148,33 @@ def ground_text(formula: Formula, binding: Binding) -> str:
     return text.replace("( ", "(").replace(" )", ")")
 
 
+def mentions(
+    formula: Formula, binding: Binding, problem: Problem
+) -> Iterator[tuple[bool, tuple[str, ...]]]:
+    """Yield what a condition looks at: (True, fact) or (False, function) for each that it names."""
+    match formula:
+        case Atom():
+            yield True, ground_key(formula, binding)
+        case Compare(_, left, right):
+            for side in (left, right):
+                yield from ((False, ground_key(f, binding)) for f in functions_in(side))
+        case Not(body):
+            yield from mentions(body, binding, problem)
+        case And(parts) | Or(parts):
+            for part in parts:
+                yield from mentions(part, binding, problem)
+        case Quantified(_, params, body):
+            for inner in instances(params, binding, problem):
+                yield from mentions(body, inner, problem)
+        case Equal():
+            return
+
+
 def instances(params: Sequence[Param], binding: Binding, problem: Problem) -> Iterator[Binding]:
     """Yield ``binding`` extended by every choice of objects for ``params``."""
+    if not params:
+        yield binding
+        return
     names = [param.name for param in params]
     for chosen in product(*(problem.objects_of(param.types) for param in params)):
         yield {**binding, **dict(zip(names, chosen, strict=True))}
@@ -181,9 +206,7 @@ class Changes:
         return State((state.facts - self.deletes) | self.adds, {**state.values, **self.values})
 
 
-def changes(
-    effects: Sequence[Effect], state: State, binding: Binding, problem: Problem
-) -> Changes:
+def changes(effects: Sequence[Effect], state: State, binding: Binding, problem: Problem) -> Changes:
     """Return what ``effects`` change in ``state``; all of them read the state before.
 
     Raises:
@@ -202,11 +225,16 @@ def changes(
             else:
                 amount = evaluate(effect.value, state.values, inner)
                 before = values.get(key, state.values.get(key))
-                values[key] = _assigned(effect.kind, key, before, amount)
+                values[key] = assigned(effect.kind, key, before, amount)
     return Changes(frozenset(adds), frozenset(deletes), values)
 
 
-def _assigned(kind: str, key: FluentKey, before: Number | None, amount: Number) -> Number:
+def assigned(kind: str, key: FluentKey, before: Number | None, amount: Number) -> Number:
+    """Return the value of a function after an effect on it.
+
+    Raises:
+        Undefined: if it had none and is not simply assigned one, or is divided by zero.
+    """
     if kind == "assign":
         return amount
     if before is None:

@@ -2,16 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from hrcplan.pddl.model import TOTAL_COST, TRUE, Expr, Fact, FluentKey, Number, number_text
-from hrcplan.pddl.semantics import Binding, Values, evaluate, ground_key, instances
-from hrcplan.task.conditions import Grounder, Literals, Test, merge
-from hrcplan.task.numbers import changed
+from hrcplan.errors import UnsupportedError
+from hrcplan.pddl.model import (
+    DURATION,
+    TOTAL_COST,
+    TRUE,
+    Constant,
+    Expr,
+    FluentKey,
+    Number,
+    functions_in,
+)
+from hrcplan.pddl.semantics import Undefined, Values, ground_key, instances
+from hrcplan.task.changing import Reached, combinations, keys_read, moves, timed, value_fact
+from hrcplan.task.conditions import (
+    ALWAYS,
+    Grounder,
+    Test,
+    Tests,
+    all_of,
+    any_of,
+    negation,
+    single_bits,
+)
+from hrcplan.task.numbers import grounded
 from hrcplan.task.reachable import Instance
-
-Index = Mapping[Fact, int]
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,7 +38,7 @@ class Change:
 
     adds: int
     deletes: int
-    tests: tuple[Test, ...] = ((0, 0),)
+    tests: tuple[Test, ...] = ALWAYS
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,7 +48,8 @@ class GroundAction:
     ``tests``, ``adds`` and ``deletes`` are the sequential reading (start, then end); ``start``,
     ``over`` and ``end`` hold the conditions of the temporal one, ``at_start`` and ``at_end`` its
     changes. Several tests are alternatives. ``conditional`` says that some change depends on the
-    state, and that ``adds`` and ``deletes`` are then not the whole of it.
+    state, and that ``adds`` and ``deletes`` are then not the whole of it. ``costs`` are sums over
+    functions that no action changes; ``values`` are those that the action needs of the others.
     """
 
     index: int
@@ -49,161 +68,189 @@ class GroundAction:
     at_start: tuple[Change, ...]
     at_end: tuple[Change, ...]
     conditional: bool
-    values: Values
-    binding: Binding
+    values: Mapping[FluentKey, Number]
 
     def __str__(self) -> str:
         return f"({' '.join([self.name, *self.args])})"
 
 
-def value_fact(key: FluentKey, value: Number) -> Fact:
-    """Return the fact that says that a changing function has a value."""
-    return ("=", *key, number_text(value))
+def ground_actions(
+    grounder: Grounder, found: Iterable[Instance], reached: Reached
+) -> tuple[GroundAction, ...]:
+    """Return the ground actions of instances: those that can run and change something.
+
+    Raises:
+        UnsupportedError: if a condition or an effect cannot be held in bits.
+    """
+    builder = _Builder(grounder, reached)
+    actions: list[GroundAction] = []
+    for instance in found:
+        for chosen in combinations(keys_read(grounder, instance, reached), reached):
+            try:
+                action = builder.build(len(actions), instance, chosen)
+            except Undefined:
+                continue  # what it needs has no value, so it can never run
+            if action is not None:
+                actions.append(action)
+    return tuple(actions)
 
 
 @dataclass(frozen=True)
-class Builder:
+class _Builder:
     """Turns instances into ground actions over one set of fluents."""
 
     grounder: Grounder
-    bits: Index
-    moving: Mapping[FluentKey, tuple[Number, ...]]
+    reached: Reached
 
-    def build(self, instance: Instance, values: Values, read: Iterable[FluentKey]) -> GroundAction | None:
+    def build(
+        self, index: int, instance: Instance, chosen: Mapping[FluentKey, Number]
+    ) -> GroundAction | None:
         """Return the ground action, or None if it can never run or never changes anything."""
-        binding = instance.binding
-        given: Literals = {value_fact(k, values[k]): True for k in read if k in self.moving}
-        start = self._conditions(instance, binding, values, "start", given)
-        over = self._conditions(instance, binding, values, "all", {})
-        end = self._conditions(instance, binding, values, "end", {})
-        at_start = self._changes(instance, binding, values, "start")
-        at_end = self._changes(instance, binding, values, "end")
-        tests = self._sequential(start, over, end, at_start)
+        values = timed(instance, {**self.grounder.problem.values, **chosen} if chosen
+                       else self.grounder.problem.values)  # fmt: skip
+        start = self._conditions(instance, "start", values, chosen)
+        if not start:
+            return None
+        at_start, later = self._changes(instance, "start", values)
+        over = self._conditions(instance, "all", later)
+        end = self._conditions(instance, "end", later)
+        at_end, _ = self._changes(instance, "end", later)
+        tests = all_of([start, _before(all_of([over, end]), at_start)])
         if not tests or not (at_start or at_end):
             return None
-        adds, deletes = _both(at_start, at_end)
-        problem = self.grounder.problem
-        agent = next((arg for arg in instance.args if arg in problem.agents), None)
-        rest = list(instance.args)
-        if agent is not None:
-            rest.remove(agent)
+        adds, deletes = _net((*at_start, *at_end))
+        agent, step = self._who(instance)
         return GroundAction(
-            index=-1,
+            index=index,
             name=instance.action.name,
             args=instance.args,
             agent=agent,
-            step=(instance.action.name, *rest),
-            duration=_duration(instance, binding, values),
-            costs=_costs(instance),
-            tests=self._bits(tests),
+            step=step,
+            duration=values.get((DURATION,)) if instance.action.durative else 0,
+            costs=self._costs(instance, values, later),
+            tests=tests,
             adds=adds,
-            deletes=deletes & ~adds,
-            start=self._bits(start),
-            over=self._bits(over),
-            end=self._bits(end),
+            deletes=deletes,
+            start=start,
+            over=over,
+            end=end,
             at_start=at_start,
             at_end=at_end,
-            conditional=any(c.tests != ((0, 0),) for c in (*at_start, *at_end)),
-            values=values,
-            binding=binding,
+            conditional=any(c.tests != ALWAYS for c in (*at_start, *at_end)),
+            values=chosen,
         )
+
+    def _who(self, instance: Instance) -> tuple[str | None, tuple[str, ...]]:
+        """Return the agent, and the step: the action without its agent."""
+        agents = self.grounder.problem.agents
+        place = next((i for i, arg in enumerate(instance.args) if arg in agents), None)
+        if place is None:
+            return None, (instance.action.name, *instance.args)
+        rest = instance.args[:place] + instance.args[place + 1 :]
+        return instance.args[place], (instance.action.name, *rest)
 
     def _conditions(
-        self, instance: Instance, binding: Binding, values: Values, when: str, given: Literals
-    ) -> tuple[Literals, ...]:
-        found: tuple[Literals, ...] = (given,)
-        for condition in instance.action.conditions:
-            if condition.when == when:
-                more = self.grounder.alternatives(condition.formula, binding, values)
-                merged = (merge(one, other) for one in found for other in more)
-                found = tuple(literals for literals in merged if literals is not None)
-        return found
+        self, instance: Instance, when: str, values: Values, given: Mapping[FluentKey, Number] = {}
+    ) -> Tests:
+        """Return the conditions of one phase, and that changing functions have these values."""
+        found = self.grounder.conditions(instance.action, when, instance.binding, values)
+        if not self.reached:
+            return found
+        keys = given or keys_read(self.grounder, instance, self.reached, when)
+        bits = (self.grounder.bit(value_fact(key, values[key])) for key in keys)
+        return all_of([found, *(((bit, bit),) for bit in bits)])
 
     def _changes(
-        self, instance: Instance, binding: Binding, values: Values, when: str
-    ) -> tuple[Change, ...]:
-        plain = [0, 0]
+        self, instance: Instance, when: str, values: Values
+    ) -> tuple[tuple[Change, ...], Values]:
+        """Return the changes of one instant, and the function values after it."""
+        adds = deletes = 0
         conditional: list[Change] = []
         for effect in instance.action.effects:
-            if effect.when != when or effect.target.name == TOTAL_COST:
+            if effect.when != when or effect.value is not None:
                 continue
-            for inner in instances(effect.params, binding, self.grounder.problem):
-                key = ground_key(effect.target, inner)
-                if effect.value is None:
-                    adds, deletes = self._bit(key), 0
-                    if effect.kind == "delete":
-                        adds, deletes = deletes, adds
-                else:
-                    after = changed(effect, key, values, inner)
-                    adds = self._bit(value_fact(key, after))
-                    deletes = self._bit(value_fact(key, values[key])) & ~adds
-                if effect.given == TRUE:
-                    plain = [plain[0] | adds, plain[1] | deletes]
-                else:
-                    tests = self.grounder.alternatives(effect.given, inner, values)
-                    if tests and (adds or deletes):
-                        conditional.append(Change(adds, deletes, self._bits(tests)))
-        first = [Change(plain[0], plain[1] & ~plain[0])] if any(plain) else []
-        return (*first, *conditional)
+            for inner in instances(effect.params, instance.binding, self.grounder.problem):
+                bit = self.grounder.bit(ground_key(effect.target, inner))
+                added, deleted = (bit, 0) if effect.kind == "add" else (0, bit)
+                tests = ALWAYS if effect.given == TRUE else self.grounder.tests(
+                    effect.given, inner, values)  # fmt: skip
+                if tests == ALWAYS:
+                    adds, deletes = adds | added, deletes | deleted
+                elif tests and bit:
+                    conditional.append(Change(added, deleted, tests))
+        after = dict[FluentKey, Number]()
+        for move in moves(self.grounder, instance, when, values) if self.reached else ():
+            after[move.key] = move.value
+            new = self.grounder.bit(value_fact(move.key, move.value))
+            old = self._values_of(move.key) & ~new
+            if move.tests == ALWAYS:
+                adds, deletes = adds | new, deletes | old
+            else:
+                conditional.append(Change(new, old, move.tests))
+        sure = (Change(adds, deletes & ~adds),) if adds | deletes else ()
+        return (*sure, *conditional), {**values, **after} if after else values
 
-    def _sequential(
-        self,
-        start: tuple[Literals, ...],
-        over: tuple[Literals, ...],
-        end: tuple[Literals, ...],
-        at_start: tuple[Change, ...],
-    ) -> tuple[Literals, ...]:
-        """Return what must hold before the start for the whole action to run undisturbed."""
-        adds, deletes = _both(at_start, ())
-        found: list[Literals] = []
-        for one in start:
-            for later in (m for o in over for e in end if (m := merge(o, e)) is not None):
-                rest: Literals | None = one
-                for fact, value in later.items():
-                    bit = self._bit(fact)
-                    if rest is None or (bit & adds and value) or (bit & deletes and not value):
-                        continue
-                    known_wrong = bit & (adds | deletes)
-                    rest = None if known_wrong else merge(rest, {fact: value})
-                if rest is not None and rest not in found:
-                    found.append(rest)
+    def _values_of(self, key: FluentKey) -> int:
+        """Return the bits of all values of a changing function."""
+        return sum(self.grounder.bit(value_fact(key, value)) for value in self.reached[key])
+
+    def _costs(self, instance: Instance, values: Values, later: Values) -> tuple[Expr, ...]:
+        """Return what the action adds to total-cost, over ground functions that never change.
+
+        Raises:
+            UnsupportedError: if a cost needs a duration that is not fixed.
+            Undefined: if a cost needs a function without a value.
+        """
+        fixed = [expression for op, expression in instance.action.durations if op == "="]
+        found: list[Expr] = []
+        for effect in instance.action.effects:
+            if effect.target.name != TOTAL_COST or effect.value is None:
+                continue
+            now = values if effect.when == "start" else later
+            known: dict[FluentKey, Expr] = {k: Constant(now[k]) for k in self.reached if k in now}
+            if len(fixed) == 1:
+                known[DURATION,] = grounded(fixed[0], instance.binding, known)
+            cost = grounded(effect.value, instance.binding, known)
+            for function in functions_in(cost):
+                if function.name == DURATION:
+                    message = f"the cost of '{instance.action.name}' needs a fixed duration"
+                    raise UnsupportedError(message)
+                if (function.name, *function.args) not in self.grounder.problem.values:
+                    raise Undefined(f"{function} has no value")
+            found.append(cost)
         return tuple(found)
 
-    def _bit(self, fact: Fact) -> int:
-        position = self.bits.get(fact)
-        return 0 if position is None else 1 << position
 
-    def _bits(self, alternatives: tuple[Literals, ...]) -> tuple[Test, ...]:
-        return tuple(
-            (
-                sum(self._bit(fact) for fact in literals),
-                sum(self._bit(fact) for fact, value in literals.items() if value),
-            )
-            for literals in alternatives
-        )
-
-
-def _both(at_start: tuple[Change, ...], at_end: tuple[Change, ...]) -> tuple[int, int]:
-    """Return adds and deletes of the unconditional changes, start and then end."""
+def _net(changes: Sequence[Change]) -> tuple[int, int]:
+    """Return adds and deletes of the unconditional changes, one after the other."""
     adds = deletes = 0
-    for change in (*at_start, *at_end):
-        if change.tests == ((0, 0),):
+    for change in changes:
+        if change.tests == ALWAYS:
             adds = adds & ~change.deletes | change.adds
             deletes = (deletes | change.deletes) & ~change.adds
     return adds, deletes
 
 
-def _duration(instance: Instance, binding: Binding, values: Values) -> Number | None:
-    """Return the fixed duration in seconds, 0 if instantaneous, None if it may be chosen."""
-    if not instance.action.durative:
-        return 0
-    fixed = [expr for op, expr in instance.action.durations if op == "="]
-    return evaluate(fixed[0], values, binding) if len(fixed) == 1 else None
+def _before(tests: Tests, changes: Sequence[Change]) -> Tests:
+    """Return what must hold before changes of one instant for ``tests`` to hold after them."""
+    touched = 0
+    for change in changes:
+        touched |= change.adds | change.deletes
+    if not any(mask & touched for mask, _ in tests):
+        return tests
+    return any_of(
+        all_of([
+            ((mask & ~touched, value & ~touched),),
+            *(_bit_before(bit, bool(bit & value), changes) for bit in single_bits(mask & touched)),
+        ])
+        for mask, value in tests
+    )  # fmt: skip
 
 
-def _costs(instance: Instance) -> tuple[Expr, ...]:
-    return tuple(
-        effect.value
-        for effect in instance.action.effects
-        if effect.target.name == TOTAL_COST and effect.value is not None
-    )
+def _bit_before(bit: int, wanted: bool, changes: Sequence[Change]) -> Tests:
+    """Return what must hold before changes for one fact to hold, or not to hold, after them."""
+    added = any_of(change.tests for change in changes if change.adds & bit)
+    deleted = any_of(change.tests for change in changes if change.deletes & bit)
+    if wanted:
+        return any_of([added, all_of([((bit, bit),), negation(deleted)])])
+    return all_of([negation(added), any_of([((bit, 0),), deleted])])

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable, Mapping, Set
 from dataclasses import dataclass
 
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.model import (
+    Action,
     And,
     Atom,
     Compare,
@@ -18,92 +19,124 @@ from hrcplan.pddl.model import (
     Problem,
     Quantified,
 )
-from hrcplan.pddl.semantics import Binding, State, Values, ground_key, holds, instances
+from hrcplan.pddl.semantics import Binding, State, Undefined, Values, ground_key, holds, instances
 
 MAX_ALTERNATIVES = 256
 
-Literals = dict[Fact, bool]
 Test = tuple[int, int]
 """``(mask, value)``: true in a state if ``state & mask == value``."""
+Tests = tuple[Test, ...]
+"""Alternatives: true in a state if any of them is."""
 
-NEVER: tuple[Literals, ...] = ()
-ALWAYS: tuple[Literals, ...] = ({},)
+NEVER: Tests = ()
+ALWAYS: Tests = ((0, 0),)
 
 
 @dataclass(frozen=True)
 class Grounder:
-    """Formulas of one problem over its fluents: the facts that can change.
+    """Formulas of one problem over the bits of its fluents.
 
-    ``fixed`` says of a fact that cannot change whether it holds.
+    ``fixed`` are the facts that hold and never change; any other fact without a bit never holds.
     """
 
     problem: Problem
-    fluents: frozenset[Fact]
-    fixed: Callable[[Fact], bool]
+    bits: Mapping[Fact, int]
+    fixed: Set[Fact]
 
-    def alternatives(
+    def bit(self, fact: Fact) -> int:
+        """Return a state in which only this fact holds; 0 if it never changes."""
+        position = self.bits.get(fact)
+        return 0 if position is None else 1 << position
+
+    def conditions(self, action: Action, when: str, binding: Binding, values: Values) -> Tests:
+        """Return the alternatives that mean an action's conditions of one phase."""
+        parts = (c.formula for c in action.conditions if c.when == when)
+        return all_of(self.tests(part, binding, values) for part in parts)
+
+    def tests(
         self, formula: Formula, binding: Binding, values: Values, positive: bool = True
-    ) -> tuple[Literals, ...]:
-        """Return a disjunction of conjunctions of literals that means ``formula`` (or its
-        negation); empty if it is never true.
+    ) -> Tests:
+        """Return the alternatives that mean ``formula`` (or its negation) under a binding.
+
+        A comparison of a function without a value holds in neither sense.
 
         Raises:
             UnsupportedError: if there are more than ``MAX_ALTERNATIVES``.
         """
         match formula:
             case Atom():
-                return self._atom(ground_key(formula, binding), positive)
-            case Not(body):
-                return self.alternatives(body, binding, values, not positive)
-            case Equal() | Compare():
-                state = State(frozenset(), values)
-                return _constant(holds(formula, state, binding, self.problem) == positive)
+                fact = ground_key(formula, binding)
+                bit = self.bit(fact)
+                return ((bit, bit * positive),) if bit else _known((fact in self.fixed) == positive)
             case And(parts) | Or(parts):
-                inner = (self.alternatives(part, binding, values, positive) for part in parts)
-                return _all(inner) if isinstance(formula, And) == positive else _any(inner)
+                inner = (self.tests(part, binding, values, positive) for part in parts)
+                return all_of(inner) if isinstance(formula, And) == positive else any_of(inner)
+            case Not(body):
+                return self.tests(body, binding, values, not positive)
+            case Equal() | Compare():
+                try:
+                    truth = holds(formula, State(frozenset(), values), binding, self.problem)
+                except Undefined:
+                    return NEVER
+                return _known(truth == positive)
             case Quantified(universal, params, body):
                 inner = (
-                    self.alternatives(body, bound, values, positive)
+                    self.tests(body, bound, values, positive)
                     for bound in instances(params, binding, self.problem)
                 )
-                return _all(inner) if universal == positive else _any(inner)
-
-    def _atom(self, fact: Fact, positive: bool) -> tuple[Literals, ...]:
-        if fact in self.fluents:
-            return ({fact: positive},)
-        return _constant(self.fixed(fact) == positive)
+                return all_of(inner) if universal == positive else any_of(inner)
 
 
-def _constant(value: bool) -> tuple[Literals, ...]:
-    return ALWAYS if value else NEVER
+def _known(truth: bool) -> Tests:
+    return ALWAYS if truth else NEVER
 
 
-def _any(parts: Iterable[tuple[Literals, ...]]) -> tuple[Literals, ...]:
-    found: list[Literals] = []
+def meets(state: int, tests: Tests) -> bool:
+    """Return whether any of the alternatives holds in a state."""
+    return any(state & mask == value for mask, value in tests)
+
+
+def any_of(parts: Iterable[Tests]) -> Tests:
+    """Return alternatives of which one holds where any part holds."""
+    found: dict[Test, None] = {}
     for part in parts:
-        found += [literals for literals in part if literals not in found]
-        if {} in found:
+        found.update(dict.fromkeys(part))
+        if (0, 0) in found:
             return ALWAYS
-    return _bounded(found)
+    return _bounded(tuple(found))
 
 
-def _all(parts: Iterable[tuple[Literals, ...]]) -> tuple[Literals, ...]:
-    found: list[Literals] = [{}]
+def all_of(parts: Iterable[Tests]) -> Tests:
+    """Return alternatives of which one holds where all parts hold."""
+    found = ALWAYS
     for part in parts:
-        merged = [merge(one, other) for one in found for other in part]
-        found = [literals for literals in merged if literals is not None]
-        _bounded(found)
-    return tuple(found)
+        found = _bounded(
+            tuple(
+                dict.fromkeys(
+                    (mask | other_mask, value | other_value)
+                    for mask, value in found
+                    for other_mask, other_value in part
+                    if not (value ^ other_value) & mask & other_mask
+                )
+            )
+        )
+    return found
 
 
-def merge(one: Literals, other: Literals) -> Literals | None:
-    """Return both conjunctions in one, or None if they contradict each other."""
-    if any(one.get(fact, value) != value for fact, value in other.items()):
-        return None
-    return {**one, **other}
+def negation(tests: Tests) -> Tests:
+    """Return alternatives of which one holds where none of ``tests`` does."""
+    return all_of(tuple((bit, ~value & bit) for bit in single_bits(mask)) for mask, value in tests)
 
 
-def _bounded(found: list[Literals]) -> tuple[Literals, ...]:
+def single_bits(bits: int) -> Iterable[int]:
+    """Yield the powers of two that make up a number, from low to high."""
+    while bits:
+        low = bits & -bits
+        yield low
+        bits ^= low
+
+
+def _bounded(found: Tests) -> Tests:
     if len(found) > MAX_ALTERNATIVES:
         raise UnsupportedError(f"a condition has more than {MAX_ALTERNATIVES} alternatives")
-    return tuple(found)
+    return found

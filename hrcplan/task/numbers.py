@@ -1,14 +1,14 @@
-"""Numbers of a ground task: which functions may change, and costs as sums of function values."""
+"""Numbers of a ground task: functions that actions change, and costs as sums of function values."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
-from itertools import product
 
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.model import (
     TOTAL_COST,
+    TRUE,
     Action,
     Arithmetic,
     Constant,
@@ -19,14 +19,11 @@ from hrcplan.pddl.model import (
     Formula,
     Function,
     Number,
-    Problem,
     formula_functions,
     functions_in,
 )
-from hrcplan.pddl.semantics import Binding, Values, evaluate, ground_key
-from hrcplan.task.reachable import Instance
+from hrcplan.pddl.semantics import Binding, Values, ground_key
 
-MAX_VALUES = 16
 Linear = Mapping[FluentKey, Number]
 """Coefficients by function; the constant stands under the empty key."""
 
@@ -44,8 +41,8 @@ def agent_state_functions(domain: Domain) -> frozenset[str]:
 
 
 def _of_agent(domain: Domain, name: str) -> bool:
-    signature = domain.functions[name]
-    if "agent" not in domain.types or not signature.params:
+    signature = domain.functions.get(name)
+    if signature is None or "agent" not in domain.types or not signature.params:
         return False
     return all(domain.is_a(t, ("agent",)) for t in signature.params[0].types)
 
@@ -59,97 +56,52 @@ def check_supported(domain: Domain) -> None:
     """
     state = agent_state_functions(domain)
     for action in domain.actions:
-        for effect in action.effects:
+        for effect in numeric_effects(action):
             name = effect.target.name
-            if effect.value is None or name in state:
-                continue
-            if name != TOTAL_COST:
+            if name not in state:
                 message = f"'{action.name}' changes ({name} …), which is not agent state"
                 raise UnsupportedError(message, hint="enhsp and kairos plan with such numbers")
-            if effect.kind != "increase" or effect.given.parts or effect.params:  # type: ignore[union-attr]
+        for effect in action.effects:
+            plain = effect.kind == "increase" and effect.given == TRUE and not effect.params
+            if effect.target.name == TOTAL_COST and not plain:
                 message = f"'{action.name}' does more with total-cost than increase it"
                 raise UnsupportedError(message, hint="enhsp and kairos plan with such costs")
+        amounts = (f for effect in action.effects for f in functions_in(effect.value))
+        if any(function.name == TOTAL_COST for function in (*functions_read(action), *amounts)):
+            message = f"'{action.name}' looks at total-cost"
+            raise UnsupportedError(message, hint="enhsp and kairos plan with such numbers")
 
 
-def changing_values(
-    problem: Problem, instances: list[Instance]
-) -> dict[FluentKey, tuple[Number, ...]]:
-    """Return every reachable value of each agent-state function that some action changes.
-
-    Raises:
-        UnsupportedError: if a function has more than ``MAX_VALUES`` reachable values.
-    """
-    changers = [
-        (instance, effect)
-        for instance in instances
-        for effect in instance.action.effects
-        if effect.value is not None and effect.target.name != TOTAL_COST
-    ]
-    keys = {ground_key(effect.target, instance.binding) for instance, effect in changers}
-    reached = {key: {problem.values[key]} for key in sorted(keys) if key in problem.values}
-    while any([_spread(problem, reached, i, e) for i, e in changers]):
-        for key, values in reached.items():
-            if len(values) > MAX_VALUES:
-                message = f"({' '.join(key)}) takes more than {MAX_VALUES} values"
-                raise UnsupportedError(message, hint="enhsp and kairos plan with such numbers")
-    return {key: tuple(sorted(values)) for key, values in reached.items()}
-
-
-def _spread(
-    problem: Problem, reached: dict[FluentKey, set[Number]], instance: Instance, effect: Effect
-) -> bool:
-    """Add the values that one effect leads to; return whether any is new."""
-    key = ground_key(effect.target, instance.binding)
-    before = reached.setdefault(key, set())
-    size = len(before)
-    for values in variants(problem, reached, keys_read(instance.action, instance.binding)):
-        before.add(changed(effect, key, values, instance.binding))
-    return len(before) > size
-
-
-def changed(effect: Effect, key: FluentKey, values: Values, binding: Binding) -> Number:
-    """Return the value of ``key`` after a numeric effect."""
-    assert effect.value is not None
-    amount = evaluate(effect.value, values, binding)
-    if effect.kind == "assign":
-        return amount
-    ops = {"increase": "+", "decrease": "-", "scale-up": "*", "scale-down": "/"}
-    both = Arithmetic(ops[effect.kind], (Constant(values[key]), Constant(amount)))
-    return evaluate(both, {}, {})
-
-
-def keys_read(action: Action, binding: Binding) -> frozenset[FluentKey]:
-    """Return the ground functions that an action's conditions, durations or effects look at."""
-    return frozenset(ground_key(function, binding) for function in _functions(action))
-
-
-def _functions(action: Action) -> Iterator[Function]:
+def numeric_effects(action: Action, when: str | None = None) -> Iterator[Effect]:
+    """Yield the effects that change a function other than total-cost (at a given time)."""
     for effect in action.effects:
-        yield from functions_in(effect.value)
-        if effect.value is not None and effect.target.name != TOTAL_COST:
-            assert isinstance(effect.target, Function)
-            yield effect.target
-    yield from structural_functions(action)
+        is_number = effect.value is not None and effect.target.name != TOTAL_COST
+        if is_number and when in (None, effect.when):
+            yield effect
 
 
-def structural_functions(action: Action) -> Iterator[Function]:
-    """Yield the functions that decide when an action can run and how long it takes."""
+def functions_read(action: Action) -> Iterator[Function]:
+    """Yield the functions that an action looks at, costs apart: they shape what it does."""
     formulas: list[Formula] = [c.formula for c in action.conditions]
     formulas += [effect.given for effect in action.effects]
     for formula in formulas:
         yield from formula_functions(formula)
     for _, duration in action.durations:
         yield from functions_in(duration)
+    for effect in numeric_effects(action):
+        yield from functions_in(effect.value)
 
 
-def variants(
-    problem: Problem, reached: Mapping[FluentKey, object], keys: frozenset[FluentKey]
-) -> Iterator[Values]:
-    """Yield the problem's values with every combination of reached values of ``keys``."""
-    moving = sorted(keys & reached.keys())
-    options = [sorted(reached[key]) for key in moving]  # type: ignore[call-overload]
-    for chosen in product(*options):
-        yield {**problem.values, **dict(zip(moving, chosen, strict=True))}
+def grounded(expression: Expr, binding: Binding, known: Mapping[FluentKey, Expr]) -> Expr:
+    """Return an expression over ground functions, those of ``known`` replaced by what it says."""
+    match expression:
+        case Function(name):
+            key = ground_key(expression, binding)
+            return known.get(key, Function(name, key[1:]))
+        case Arithmetic(op, parts):
+            return Arithmetic(op, tuple(grounded(part, binding, known) for part in parts))
+        case _:
+            return expression
 
 
 def linear(expression: Expr, binding: Binding) -> Linear | None:
@@ -210,4 +162,9 @@ def value_of(part: Linear, values: Values) -> Number:
     total: Number = 0
     for key, coefficient in part.items():
         total += coefficient * values[key] if key else coefficient
-    return int(total) if isinstance(total, Fraction) and total.denominator == 1 else total
+    return exact(total)
+
+
+def exact(number: Number) -> Number:
+    """Return a number as an int if it is whole."""
+    return int(number) if number.denominator == 1 else number

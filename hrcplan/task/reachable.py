@@ -1,4 +1,8 @@
-"""Ground actions that relaxed reachability finds: deletes and negative conditions ignored."""
+"""Ground actions that relaxed reachability finds.
+
+Deletes are ignored. Of the conditions, facts must be reachable, and what no action can change must
+hold; all others (negations, alternatives, numbers that change) are taken to be possible.
+"""
 
 from __future__ import annotations
 
@@ -7,23 +11,19 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from hrcplan.errors import LimitError
-from hrcplan.pddl.joins import Binding, FactIndex, Join, needed_atoms
-from hrcplan.pddl.model import Action, Fact, Problem
-from hrcplan.pddl.semantics import ground_key, instances
+from hrcplan.pddl.joins import Binding, FactIndex, Join, conjuncts, lifted_names, needed_atoms
+from hrcplan.pddl.model import DURATION, Action, Atom, Domain, Fact, Formula, Problem
+from hrcplan.pddl.semantics import State, Undefined, ground_key, holds, instances
 
 MAX_GROUND_ACTIONS = 200_000
 
 
 class Instance(NamedTuple):
-    """An action schema and the objects that its parameters are bound to."""
+    """An action schema, and the objects that its parameters are bound to."""
 
     action: Action
     args: tuple[str, ...]
-
-    @property
-    def binding(self) -> Binding:
-        """Parameter names to objects."""
-        return {p.name: arg for p, arg in zip(self.action.params, self.args, strict=True)}
+    binding: Binding
 
 
 def reachable(problem: Problem) -> tuple[list[Instance], set[Fact]]:
@@ -34,43 +34,82 @@ def reachable(problem: Problem) -> tuple[list[Instance], set[Fact]]:
     Raises:
         LimitError: if there are more than ``MAX_GROUND_ACTIONS`` instances.
     """
-    joins = [Join(action, needed_atoms(action), problem) for action in problem.domain.actions]
-    users: dict[str, list[tuple[Join, int]]] = defaultdict(list)
-    for join in joins:
-        for position, atom in enumerate(join.atoms):
-            users[atom.name].append((join, position))
-    index = FactIndex()
-    found: set[tuple[str, tuple[str, ...]]] = set()
-    instances_: list[Instance] = []
-    waiting: deque[Fact] = deque(sorted(problem.facts))
-
-    def take(join: Join, bindings: Iterator[Binding]) -> None:
-        for binding in bindings:
-            args = tuple(binding[p.name] for p in join.action.params)
-            if (join.action.name, args) not in found:
-                found.add((join.action.name, args))
-                instances_.append(Instance(join.action, args))
-                waiting.extend(_added(join.action, binding, problem))
-        if len(found) > MAX_GROUND_ACTIONS:
-            message = f"the task has more than {MAX_GROUND_ACTIONS} ground actions"
-            raise LimitError(message, hint="use a planner that does not need them: enhsp, kairos")
-
-    for join in joins:
-        if not join.atoms:
-            take(join, join.bindings(index))
-    while waiting:
-        fact = waiting.popleft()
-        if index.add(fact):
-            for join, position in users[fact[0]]:
-                take(join, join.bindings(index, (position, fact)))
+    search = _Search(problem)
+    search.run()
     order = {action.name: i for i, action in enumerate(problem.domain.actions)}
     rank = {name: i for i, name in enumerate(problem.all_objects)}
-    instances_.sort(key=lambda i: (order[i.action.name], [rank[arg] for arg in i.args]))
-    return instances_, index.facts
+    found = list(search.found.values())
+    found.sort(key=lambda i: (order[i.action.name], [rank[arg] for arg in i.args]))
+    return found, search.index.facts
 
 
-def _added(action: Action, binding: Binding, problem: Problem) -> Iterator[Fact]:
-    for effect in action.effects:
-        if effect.kind == "add":
-            for inner in instances(effect.params, binding, problem):
-                yield ground_key(effect.target, inner)
+class _Search:
+    """The facts and instances found so far, and the facts that wait to be joined."""
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
+        self.index = FactIndex()
+        self.found: dict[tuple[str, tuple[str, ...]], Instance] = {}
+        self._start = State(problem.facts, problem.values)
+        self._rules = [_Rule(action, problem) for action in problem.domain.actions]
+        self._users: dict[str, list[tuple[_Rule, int]]] = defaultdict(list)
+        for rule in self._rules:
+            for position, atom in enumerate(rule.join.atoms):
+                self._users[atom.name].append((rule, position))
+        self._waiting = deque(sorted(problem.facts))
+
+    def run(self) -> None:
+        for rule in self._rules:
+            if not rule.join.atoms:
+                self._take(rule, rule.join.bindings(self.index))
+        while self._waiting:
+            fact = self._waiting.popleft()
+            if self.index.add(fact):
+                for rule, position in self._users[fact[0]]:
+                    self._take(rule, rule.join.bindings(self.index, (position, fact)))
+
+    def _take(self, rule: _Rule, bindings: Iterator[Binding]) -> None:
+        for binding in bindings:
+            args = tuple([binding[name] for name in rule.names])
+            key = rule.action.name, args
+            if key in self.found or not self._can_hold(rule.fixed, binding):
+                continue
+            self.found[key] = Instance(rule.action, args, binding)
+            if len(self.found) > MAX_GROUND_ACTIONS:
+                message = f"the task has more than {MAX_GROUND_ACTIONS} ground actions"
+                hint = "use a planner that does not need them: enhsp, kairos"
+                raise LimitError(message, hint=hint)
+            for params, atom in rule.adds:
+                for inner in instances(params, binding, self.problem):
+                    self._waiting.append(ground_key(atom, inner))
+
+    def _can_hold(self, fixed: tuple[Formula, ...], binding: Binding) -> bool:
+        try:
+            return all(holds(part, self._start, binding, self.problem) for part in fixed)
+        except Undefined:
+            return False
+
+
+class _Rule:
+    """One schema as a rule: what it needs, what is decided once for all, and what it adds."""
+
+    def __init__(self, action: Action, problem: Problem) -> None:
+        self.action = action
+        self.names = [param.name for param in action.params]
+        self.join = Join(action, needed_atoms(action), problem)
+        self.fixed = tuple(_fixed_parts(action, problem.domain))
+        self.adds = [
+            (effect.params, effect.target)
+            for effect in action.effects
+            if effect.kind == "add" and isinstance(effect.target, Atom)
+        ]
+
+
+def _fixed_parts(action: Action, domain: Domain) -> Iterator[Formula]:
+    """Yield the parts of an action's conditions that no action can change, but for plain facts."""
+    changed = {effect.target.name for other in domain.actions for effect in other.effects}
+    changed.add(DURATION)
+    for condition in action.conditions:
+        for part in conjuncts(condition.formula):
+            if not isinstance(part, Atom) and changed.isdisjoint(lifted_names(part)):
+                yield part

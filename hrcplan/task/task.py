@@ -2,31 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Iterable, Mapping, Sequence, Set
 from functools import cached_property
 
 from hrcplan.errors import UnsupportedError
-from hrcplan.pddl.model import TOTAL_COST, Fact, FluentKey, Number, Problem
-from hrcplan.pddl.semantics import evaluate, ground_key
-from hrcplan.task.actions import Builder, Change, GroundAction, value_fact
-from hrcplan.task.conditions import Grounder, Test
-from hrcplan.task.numbers import (
-    Linear,
-    changing_values,
-    check_supported,
-    keys_read,
-    linear,
-    structural_functions,
-    value_of,
-    variants,
+from hrcplan.pddl.model import (
+    TOTAL_COST,
+    TOTAL_TIME,
+    Fact,
+    FluentKey,
+    Number,
+    Problem,
+    formula_functions,
 )
+from hrcplan.pddl.semantics import evaluate, ground_key, instances, mentions
+from hrcplan.task.actions import Change, ground_actions
+from hrcplan.task.changing import Reached, combinations, reached_values, value_fact
+from hrcplan.task.conditions import Grounder, Test, Tests, all_of, any_of, meets, single_bits
+from hrcplan.task.lookup import Lookup
+from hrcplan.task.numbers import check_supported, exact, functions_read, numeric_effects
 from hrcplan.task.reachable import Instance, reachable
-
-MAX_MEMORY = 100_000  # patterns of changed facts whose affected actions are remembered
-
-_Rule = tuple[int, int, int, int, int]
-"""Index, mask and value of the test, touched facts, added facts."""
 
 
 class Task:
@@ -50,116 +45,39 @@ class Task:
     def __init__(self, problem: Problem) -> None:
         check_supported(problem.domain)
         self.problem = problem
-        self._instances, found = reachable(problem)
-        self._moving = changing_values(problem, self._instances)
-        self.facts = tuple(self._fluents(found))
+        found, facts = reachable(problem)
+        fluents = _fluents(problem, found, facts)
+        fixed = problem.facts.difference(fluents)
+        bits = {fact: i for i, fact in enumerate(fluents)}
+        reached = reached_values(Grounder(problem, bits, fixed), found)
+        values = [value_fact(key, value) for key in reached for value in reached[key]]
+        self.facts = (*fluents, *values)
         self.bits: Mapping[Fact, int] = {fact: i for i, fact in enumerate(self.facts)}
-        fixed = problem.facts - set(self.facts)
-        self._grounder = Grounder(problem, frozenset(self.facts), lambda fact: fact in fixed)
-        self.actions = self._ground()
-        self.initial = self.state_of(problem.facts | self._initial_values())
-        self.goal: tuple[Test, ...] = self._goal()
-        self._prepare()
-
-    def _fluents(self, found: set[Fact]) -> list[Fact]:
-        """Return the reachable facts that do not hold all the time, and the changing values."""
-        deleted: set[Fact] = set()
-        for action, args in self._instances:
-            binding = Instance(action, args).binding
-            for effect in action.effects:
-                if effect.kind == "delete" and not effect.params:
-                    deleted.add(ground_key(effect.target, binding))
-        lifted = {e.target.name for a in self.problem.domain.actions for e in a.effects
-                  if e.kind == "delete" and e.params}  # fmt: skip
-        fluents = [
-            fact for fact in sorted(found)
-            if fact not in self.problem.facts or fact in deleted or fact[0] in lifted
-        ]  # fmt: skip
-        values = [value_fact(k, v) for k, numbers in self._moving.items() for v in numbers]
-        return fluents + values
-
-    def _initial_values(self) -> frozenset[Fact]:
-        return frozenset(
-            value_fact(key, self.problem.values[key])
-            for key in self._moving
-            if key in self.problem.values
-        )
-
-    def _ground(self) -> tuple[GroundAction, ...]:
-        builder = Builder(self._grounder, self.bits, self._moving)
-        found: list[GroundAction] = []
-        for instance in self._instances:
-            read = keys_read(instance.action, instance.binding)
-            for values in variants(self.problem, self._moving, read):
-                action = builder.build(instance, values, read)
-                if action is not None:
-                    found.append(replace(action, index=len(found)))
-        return tuple(found)
-
-    def _goal(self) -> tuple[Test, ...]:
-        try:
-            alternatives = self._grounder.alternatives(self.problem.goal, {}, self.problem.values)
-        except ArithmeticError as error:
-            raise UnsupportedError(f"the goal compares numbers that change: {error}") from None
-        return Builder(self._grounder, self.bits, self._moving)._bits(alternatives)
-
-    def _prepare(self) -> None:
-        """Lay out what the inner loops need as flat tuples."""
+        grounder = Grounder(problem, self.bits, fixed)
+        self.actions = ground_actions(grounder, found, reached)
+        given = [value_fact(k, problem.values[k]) for k in reached if k in problem.values]
+        self.initial = self.state_of([*problem.facts, *given])
+        self.goal: tuple[Test, ...] = _goal(grounder, reached)
         self._adds = [action.adds for action in self.actions]
         self._keeps = [~action.deletes for action in self.actions]
-        self._rules: list[_Rule] = [_rule(action) for action in self.actions]
-        self._complex = [a.index for a in self.actions if len(a.tests) != 1 or a.conditional]
-        self._affected: dict[int, tuple[frozenset[int], tuple[_Rule, ...]]] = {}
-        self._mentions = [0] * len(self.facts)
-        for action in self.actions:
-            for position in _positions(_mentioned(action)):
-                self._mentions[position] |= 1 << action.index
-        self._recent: tuple[int, list[int]] | None = None
+        simple = [a for a in self.actions if len(a.tests) == 1 and not a.conditional]
+        rules = [(a.index, *a.tests[0], a.adds, a.deletes) for a in simple]
+        self._complex = sorted({a.index for a in self.actions}.difference(a.index for a in simple))
+        self._runnable = Lookup(len(self.facts), len(self.actions), rules)
 
     # The ten verbs, over states as integers and actions as indices.
 
     def applicable(self, state: int) -> list[int]:
-        """Return the indices of the actions that can run in ``state`` and change it, in order.
-
-        What follows a state that was asked about a moment ago costs only a look at the actions
-        that mention a changed fact.
-        """
-        recent = self._recent
-        if recent is None:
-            found = [i for i, mask, value, touched, adds in self._rules
-                     if state & mask == value and state & touched != adds]  # fmt: skip
-        else:
-            last, found = recent
-            gone, rules = self._affected_by(state ^ last)
-            found = [i for i in found if i not in gone]
-            found += [i for i, mask, value, touched, adds in rules
-                      if state & mask == value and state & touched != adds]  # fmt: skip
-            found.sort()
-        self._recent = (state, found)
+        """Return the indices of the actions that can run in ``state`` and change it, in order."""
+        found = self._runnable(state)
         if self._complex:
-            more = [i for i in self._complex if self._can_run(state, i)]
-            return sorted(found + more)
-        return found.copy()
-
-    def _affected_by(self, pattern: int) -> tuple[frozenset[int], tuple[_Rule, ...]]:
-        known = self._affected.get(pattern)
-        if known is None:
-            actions = 0
-            for position in _positions(pattern):
-                actions |= self._mentions[position]
-            indices = list(_positions(actions))
-            known = frozenset(indices), tuple(self._rules[i] for i in indices)
-            if len(self._affected) < MAX_MEMORY:
-                self._affected[pattern] = known
-        return known
-
-    def _can_run(self, state: int, index: int) -> bool:
-        action = self.actions[index]
-        return meets(state, action.tests) and self.successor(state, index) != state
+            found += [i for i in self._complex if self.is_applicable(state, i)]
+            found.sort()
+        return found
 
     def is_applicable(self, state: int, index: int) -> bool:
         """Return whether one action can run in ``state`` and changes it."""
-        return self._can_run(state, index)
+        return meets(state, self.actions[index].tests) and self.successor(state, index) != state
 
     def successor(self, state: int, index: int) -> int:
         """Return the state after an action, in the sequential reading (its start, then its end)."""
@@ -192,17 +110,7 @@ class Task:
 
     def facts_of(self, state: int) -> frozenset[Fact]:
         """Return the fluents that hold in a state."""
-        return frozenset(self.facts[position] for position in _positions(state))
-
-    @cached_property
-    def _linear_costs(self) -> list[list[Linear] | None]:
-        found: list[list[Linear] | None] = []
-        for action in self.actions:
-            sums = [linear(expr, action.binding) for expr in action.costs]
-            known = [part for part in sums if part is not None]
-            moving = any(key in self._moving for part in known for key in part)
-            found.append(known if len(known) == len(sums) and not moving else None)
-        return found
+        return frozenset(self.facts[bit.bit_length() - 1] for bit in single_bits(state))
 
     @cached_property
     def costs(self) -> tuple[Number, ...]:
@@ -210,14 +118,10 @@ class Task:
         if TOTAL_COST not in self.problem.domain.functions:
             return (1,) * len(self.actions)
         values = self.problem.values
-        found: list[Number] = []
-        for action, sums in zip(self.actions, self._linear_costs, strict=True):
-            if sums is None:
-                fresh = {**values, **{k: action.values[k] for k in self._moving if k in action.values}}
-                found.append(sum(evaluate(e, fresh, action.binding) for e in action.costs))
-            else:
-                found.append(sum(value_of(part, values) for part in sums))
-        return tuple(found)
+        return tuple(
+            exact(sum(evaluate(cost, values, {}) for cost in action.costs))
+            for action in self.actions
+        )
 
     def with_values(self, values: Mapping[FluentKey, Number]) -> Task:
         """Return this task with other function values, grounded anew only where that matters.
@@ -225,9 +129,9 @@ class Task:
         Values that only occur in costs (agent state, as a rule) leave facts and actions as they
         are; values in conditions or durations, or of functions that actions change, do not.
         """
-        problem = self.problem.with_values(values)
-        if not self._structural.isdisjoint(k for k, v in values.items()
-                                           if self.problem.values.get(k) != v):  # fmt: skip
+        old, problem = self.problem.values, self.problem.with_values(values)
+        changed = [key for key, value in values.items() if old.get(key) != value]
+        if any(key not in old or key[0] in self._structural for key in changed):
             return Task(problem)
         other = object.__new__(Task)
         other.__dict__.update(self.__dict__)
@@ -236,14 +140,13 @@ class Task:
         return other
 
     @cached_property
-    def _structural(self) -> frozenset[FluentKey]:
-        keys = set(self._moving)
-        for instance in self._instances:
-            binding = instance.binding
-            keys.update(ground_key(f, binding) for f in structural_functions(instance.action))
-            if self._moving:
-                keys.update(keys_read(instance.action, binding))
-        return frozenset(keys)
+    def _structural(self) -> frozenset[str]:
+        """The functions that decide more than costs."""
+        found = {function.name for function in formula_functions(self.problem.goal)}
+        for action in self.problem.domain.actions:
+            found.update(function.name for function in functions_read(action))
+            found.update(effect.target.name for effect in numeric_effects(action))
+        return frozenset(found)
 
     @cached_property
     def is_agent_free(self) -> bool:
@@ -257,9 +160,30 @@ class Task:
         return [a.index for a in self.actions if (a.name, *a.args) == wanted]
 
 
-def meets(state: int, tests: Iterable[Test]) -> bool:
-    """Return whether any of the alternatives holds in a state."""
-    return any(state & mask == value for mask, value in tests)
+def _fluents(problem: Problem, found: Iterable[Instance], facts: Set[Fact]) -> list[Fact]:
+    """Return the reachable facts that do not hold all the time."""
+    deleted: set[Fact] = set()
+    for instance in found:
+        for effect in instance.action.effects:
+            if effect.kind == "delete":
+                for inner in instances(effect.params, instance.binding, problem):
+                    deleted.add(ground_key(effect.target, inner))
+    return sorted(facts & deleted | facts - problem.facts)
+
+
+def _goal(grounder: Grounder, reached: Reached) -> Tests:
+    """Return the goal as alternatives, for every combination of the changing values it names."""
+    problem = grounder.problem
+    named = {key for is_fact, key in mentions(problem.goal, {}, problem) if not is_fact}
+    if not named.isdisjoint([(TOTAL_COST,), (TOTAL_TIME,)]):
+        raise UnsupportedError("the goal looks at the cost or time of the plan",
+                               hint="enhsp and kairos plan with such numbers")  # fmt: skip
+    found: list[Tests] = []
+    for chosen in combinations(named & reached.keys(), reached):
+        bits = (grounder.bit(value_fact(key, value)) for key, value in chosen.items())
+        goal = grounder.tests(problem.goal, {}, {**problem.values, **chosen})
+        found.append(all_of([goal, *(((bit, bit),) for bit in bits)]))
+    return any_of(found)
 
 
 def _apply(state: int, changes: tuple[Change, ...]) -> int:
@@ -269,24 +193,3 @@ def _apply(state: int, changes: tuple[Change, ...]) -> int:
             adds |= change.adds
             deletes |= change.deletes
     return state & ~deletes | adds
-
-
-def _rule(action: GroundAction) -> _Rule:
-    if len(action.tests) != 1 or action.conditional:
-        return action.index, 0, 1, 0, 0  # never: looked at one by one
-    mask, value = action.tests[0]
-    return action.index, mask, value, action.adds | action.deletes, action.adds
-
-
-def _mentioned(action: GroundAction) -> int:
-    found = action.adds | action.deletes
-    for mask, _ in action.tests:
-        found |= mask
-    return found
-
-
-def _positions(bits: int) -> Iterable[int]:
-    while bits:
-        low = bits & -bits
-        yield low.bit_length() - 1
-        bits ^= low

@@ -1,0 +1,179 @@
+"""Agent state that actions change: the values it can take, and how an action moves it."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+
+from hrcplan.errors import UnsupportedError
+from hrcplan.pddl.model import (
+    DURATION,
+    Action,
+    Fact,
+    FluentKey,
+    Formula,
+    Number,
+    functions_in,
+    number_text,
+)
+from hrcplan.pddl.semantics import (
+    Binding,
+    Undefined,
+    Values,
+    assigned,
+    evaluate,
+    ground_key,
+    instances,
+    mentions,
+)
+from hrcplan.task.conditions import ALWAYS, NEVER, Grounder, Tests
+from hrcplan.task.numbers import numeric_effects
+from hrcplan.task.reachable import Instance
+
+MAX_VALUES = 16
+Reached = Mapping[FluentKey, Collection[Number]]
+"""The functions that actions change, with the values that they can reach."""
+
+
+def value_fact(key: FluentKey, value: Number) -> Fact:
+    """Return the fact that says that a changing function has a value."""
+    return ("=", *key, number_text(value))
+
+
+@dataclass(frozen=True, slots=True)
+class Move:
+    """A function takes a new value where one of ``tests`` holds."""
+
+    key: FluentKey
+    value: Number
+    tests: Tests
+
+
+def moves(grounder: Grounder, instance: Instance, when: str, values: Values) -> list[Move]:
+    """Return what the effects of one instant do to functions that had ``values`` before it.
+
+    Raises:
+        UnsupportedError: if that cannot be said without knowing the state.
+        Undefined: if an effect needs a function without a value.
+    """
+    action, found = instance.action, dict[FluentKey, Move]()
+    for effect in numeric_effects(action, when):
+        assert effect.value is not None
+        for inner in instances(effect.params, instance.binding, grounder.problem):
+            tests = grounder.tests(effect.given, inner, values)
+            if tests == NEVER:
+                continue
+            key = ground_key(effect.target, inner)
+            last = found.get(key)
+            if tests != ALWAYS and (last or (action.durative and when == "start")):
+                message = f"what '{action.name}' does to ({' '.join(key)}) depends on the state"
+                raise UnsupportedError(message, hint="enhsp and kairos plan with such numbers")
+            before = values.get(key) if last is None else last.value
+            amount = evaluate(effect.value, values, inner)
+            found[key] = Move(key, assigned(effect.kind, key, before, amount), tests)
+    return list(found.values())
+
+
+def timed(instance: Instance, values: Values) -> Values:
+    """Return function values, with the instance's ``?duration`` if that is fixed.
+
+    Raises:
+        Undefined: if the duration needs a function without a value.
+    """
+    fixed = [expression for op, expression in instance.action.durations if op == "="]
+    if len(fixed) != 1:
+        return values
+    return {**values, (DURATION,): evaluate(fixed[0], values, instance.binding)}
+
+
+def reached_values(grounder: Grounder, found: Sequence[Instance]) -> Reached:
+    """Return every value that each function which an instance changes can reach.
+
+    Raises:
+        UnsupportedError: if a function has more than ``MAX_VALUES`` values.
+    """
+    movers = [i for i in found if any(numeric_effects(i.action))]
+    keys = {
+        ground_key(effect.target, inner)
+        for i in movers
+        for effect in numeric_effects(i.action)
+        for inner in instances(effect.params, i.binding, grounder.problem)
+    }
+    given = grounder.problem.values
+    reached = {key: {given[key]} if key in given else set[Number]() for key in sorted(keys)}
+    while sum(_spread(grounder, mover, reached) for mover in movers):
+        for key, values in reached.items():
+            if len(values) > MAX_VALUES:
+                message = f"({' '.join(key)}) takes more than {MAX_VALUES} values"
+                raise UnsupportedError(message, hint="enhsp and kairos plan with such numbers")
+    return {key: tuple(sorted(values)) for key, values in reached.items()}
+
+
+def _spread(grounder: Grounder, mover: Instance, reached: dict[FluentKey, set[Number]]) -> bool:
+    """Add the values that one instance leads to; return whether any is new."""
+    size = sum(map(len, reached.values()))
+    for chosen in list(combinations(keys_read(grounder, mover, reached), reached)):
+        try:
+            values = timed(mover, {**grounder.problem.values, **chosen})
+            for move in _possible_moves(grounder, mover, values):
+                reached[move.key].add(move.value)
+        except Undefined:
+            continue
+    return sum(map(len, reached.values())) > size
+
+
+def _possible_moves(grounder: Grounder, mover: Instance, values: Values) -> Iterator[Move]:
+    if not grounder.conditions(mover.action, "start", mover.binding, values):
+        return
+    at_start = moves(grounder, mover, "start", values)
+    later = {**values, **{move.key: move.value for move in at_start}}
+    rest = (grounder.conditions(mover.action, w, mover.binding, later) for w in ("all", "end"))
+    if all(rest):
+        yield from at_start
+        yield from moves(grounder, mover, "end", later)
+
+
+def combinations(
+    keys: Collection[FluentKey], reached: Reached
+) -> Iterator[dict[FluentKey, Number]]:
+    """Yield every combination of reached values of the changing functions ``keys``."""
+    moving = sorted(keys)
+    for chosen in product(*(sorted(reached[key]) for key in moving)):
+        yield dict(zip(moving, chosen, strict=True))
+
+
+def keys_read(
+    grounder: Grounder, instance: Instance, reached: Reached, phase: str | None = None
+) -> frozenset[FluentKey]:
+    """Return the changing functions that an instance looks at, in one phase or in any.
+
+    A function that is increased or decreased is looked at, one that is assigned is not.
+    """
+    if not reached:
+        return frozenset()
+    found = set(_keys(grounder, instance.action, instance.binding, phase))
+    return frozenset(found & reached.keys())
+
+
+def _keys(
+    grounder: Grounder, action: Action, binding: Binding, phase: str | None
+) -> Iterator[FluentKey]:
+    def named(formula: Formula, bound: Binding) -> Iterator[FluentKey]:
+        looked_at = mentions(formula, bound, grounder.problem)
+        return (key for is_fact, key in looked_at if not is_fact)
+
+    for condition in action.conditions:
+        if phase in (None, condition.when):
+            yield from named(condition.formula, binding)
+    if phase in (None, "start"):
+        for _, duration in action.durations:
+            yield from (ground_key(f, binding) for f in functions_in(duration))
+    for effect in action.effects:
+        if phase not in (None, effect.when):
+            continue
+        for inner in instances(effect.params, binding, grounder.problem):
+            yield from named(effect.given, inner)
+            yield from (ground_key(f, inner) for f in functions_in(effect.value))
+            if effect.kind not in ("assign", "add", "delete"):
+                yield ground_key(effect.target, inner)

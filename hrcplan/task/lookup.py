@@ -1,0 +1,105 @@
+"""Which actions can run in a state: tables over slices of the state, filled as they are used.
+
+Every action is either kept from running by some fact or changed nothing by all of them, and either
+can be read off one slice of the state at a time. A query is one table look-up per slice; it costs
+the same wherever the state comes from.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+Rule = tuple[int, int, int, int, int]
+"""Index, mask and value of the condition, facts added, facts deleted."""
+
+SLICE = 16  # bits: a state is looked at as unsigned 16-bit numbers
+_BYTES = SLICE // 8
+MAX_BITS = 2**29  # bound on what the tables of one task hold: 64 MB
+
+
+class Lookup:
+    """Answers which rules hold in a state and change it.
+
+    Args:
+        n_facts: Bits of a state.
+        n_actions: One more than the largest index of a rule.
+        rules: Conditions and effects of the actions.
+    """
+
+    def __init__(self, n_facts: int, n_actions: int, rules: Iterable[Rule]) -> None:
+        self._n_actions = n_actions
+        n_slices = -(-n_facts // SLICE)
+        self._n_bytes = n_slices * _BYTES
+        false, true = _verdicts(n_facts, n_actions, rules)
+        limit = max(SLICE, MAX_BITS // (2 * n_actions * n_slices + 1))
+        self._tables = [
+            _Table(false[i : i + SLICE], true[i : i + SLICE], limit)
+            for i in range(0, n_facts, SLICE)
+        ]
+        self._lists = [_Lists(first) for first in range(0, n_actions, SLICE)]
+        self._n_list_bytes = len(self._lists) * _BYTES
+
+    def __call__(self, state: int) -> list[int]:
+        """Return the indices of the rules, in order."""
+        verdicts = 0
+        slices = memoryview(state.to_bytes(self._n_bytes, "little")).cast("H")
+        for table, part in zip(self._tables, slices, strict=True):
+            verdicts |= table[part]
+        runs = verdicts >> self._n_actions & ~verdicts
+        found: list[int] = []
+        indices = memoryview(runs.to_bytes(self._n_list_bytes, "little")).cast("H")
+        for lists, part in zip(self._lists, indices, strict=True):
+            if part:
+                found += lists[part]
+        return found
+
+
+def _verdicts(n_facts: int, n_actions: int, rules: Iterable[Rule]) -> tuple[list[int], list[int]]:
+    """Return what each fact says about all actions where it is false, and where it is true.
+
+    Bit ``i`` keeps action ``i`` from running; bit ``n_actions + i`` says that it changes the fact.
+    """
+    false, true = [0] * n_facts, [0] * n_facts
+    for index, mask, value, adds, deletes in rules:
+        blocks, changes = 1 << index, 1 << n_actions + index
+        for verdicts, facts, says in (
+            (false, value, blocks),
+            (true, mask & ~value, blocks),
+            (false, adds, changes),
+            (true, deletes, changes),
+        ):
+            while facts:
+                position = facts.bit_length() - 1
+                verdicts[position] |= says
+                facts ^= 1 << position
+    return false, true
+
+
+class _Table(dict[int, int]):
+    """Verdicts of one slice of the state, by its value."""
+
+    def __init__(self, false: Sequence[int], true: Sequence[int], limit: int) -> None:
+        super().__init__()
+        self._false, self._true, self._limit = false, true, limit
+
+    def __missing__(self, part: int) -> int:
+        verdicts = 0
+        for position, (false, true) in enumerate(zip(self._false, self._true, strict=True)):
+            verdicts |= true if part >> position & 1 else false
+        if len(self) >= self._limit:
+            self.clear()
+        self[part] = verdicts
+        return verdicts
+
+
+class _Lists(dict[int, tuple[int, ...]]):
+    """Indices of one slice of the actions, by its value."""
+
+    def __init__(self, first: int) -> None:
+        super().__init__()
+        self._first = first
+
+    def __missing__(self, part: int) -> tuple[int, ...]:
+        found = tuple(self._first + i for i in range(SLICE) if part >> i & 1)
+        self[part] = found
+        return found

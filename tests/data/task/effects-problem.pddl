@@ -1,0 +1,7 @@
+(define (problem effects-problem)
+  (:domain effects)
+  (:objects a b - block x y - place)
+  (:init (at a x) (at b y) (near x y) (near y x) (wet a) (= (total-cost) 0)
+    (= (way x y) 1) (= (way y x) 0.25))
+  (:goal (and (at a y) (wet b)))
+  (:metric minimize (total-cost)))

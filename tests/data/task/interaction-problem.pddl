@@ -1,0 +1,7 @@
+(define (problem interaction-problem)
+  (:domain interaction)
+  (:objects robot - agent eve - human lay cut - job)
+  (:init (= (total-cost) 0) (= (motivation robot) 1) (= (motivation eve) 4) (= (rest robot) 1.5) (= (rest eve) 0)
+    (= (skill robot lay) 2) (= (skill robot cut) 1) (= (skill eve lay) 0) (= (skill eve cut) 3))
+  (:goal (and (done lay) (done cut) (<= (motivation eve) 1)))
+  (:metric minimize (total-cost)))

@@ -1,0 +1,6 @@
+(define (problem logic-problem)
+  (:domain logic)
+  (:objects desk - lamp front back - door brass - key)
+  (:init (fits brass front) (linked desk front) (linked hall hall) (linked back desk)
+    (= (weight brass) 1.5) (= (weight master) 2) (= (limit) 2))
+  (:goal (and (forall (?d - door) (open ?d)) (or (alarm) (not (on hall))) (imply (on desk) (on hall)))))

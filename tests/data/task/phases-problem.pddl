@@ -1,0 +1,7 @@
+(define (problem phases-problem)
+  (:domain phases)
+  (:objects ann bob - agent attic cellar - room)
+  (:init (in ann attic) (in bob cellar) (= (total-cost) 0) (= (speed ann) 2) (= (speed bob) 3)
+    (= (size attic) 5) (= (size cellar) 4) (= (pay ann) 1) (= (pay bob) 0.5))
+  (:goal (and (clean attic) (clean cellar)))
+  (:metric minimize (total-cost)))

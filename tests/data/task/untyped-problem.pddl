@@ -1,0 +1,5 @@
+(define (problem untyped-problem)
+  (:domain untyped)
+  (:objects a b c)
+  (:init (on a b) (on b floor) (on c floor) (clear a) (clear c) (clear floor))
+  (:goal (and (on c b) (not (on a floor)))))
