@@ -16,13 +16,15 @@ from typing import TYPE_CHECKING, Any
 __version__ = "0.1.0"
 
 if TYPE_CHECKING:
+    from hrcplan.execution.execute import execute
     from hrcplan.facade import load, plan, validate
     from hrcplan.planners.lowering import lower
     from hrcplan.task import Task
 
-__all__ = ["Task", "load", "lower", "plan", "validate"]
+__all__ = ["Task", "execute", "load", "lower", "plan", "validate"]
 _HOMES = {
     "Task": "hrcplan.task",
+    "execute": "hrcplan.execution.execute",
     "load": "hrcplan.facade",
     "lower": "hrcplan.planners.lowering",
     "plan": "hrcplan.facade",

@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 import io
+from typing import TYPE_CHECKING
 
 from hrcplan.pddl.model import Problem
-from hrcplan.plans import Plan, PlannedAction, lane
+from hrcplan.plans import Plan, PlannedAction, lane, occupied
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 # Okabe and Ito's colors: told apart by color-blind readers too.
 COLORS = ("#56B4E9", "#E69F00", "#009E73", "#F0E442", "#CC79A7", "#0072B2", "#D55E00", "#BBBBBB")
@@ -34,11 +38,9 @@ def draw(problem: Problem, plan: Plan, form: str) -> bytes:
     names = sorted({a.name for a in plan.actions})
     colors = {name: COLORS[i % len(COLORS)] for i, name in enumerate(names)}
     for action in plan.actions:
-        row = lanes.index(lane(action.args, problem) or "")
-        start, length = float(action.start_s or 0), float(action.duration_s or 1)
-        axes.broken_barh([(start, length)], (row - _BAR / 2, _BAR), facecolor=colors[action.name],
-                         edgecolor="white", linewidth=1.5)  # fmt: skip
-        axes.text(start + length / 2, row, _label(action), ha="center", va="center", clip_on=True)
+        _bar(axes, action, lanes.index(lane(action.args, problem) or ""), colors, _label(action))
+        for other in occupied(action, problem) & set(lanes) - {lane(action.args, problem)}:
+            _bar(axes, action, lanes.index(other), colors, f"({action.name})", alpha=0.45)
     axes.set_yticks(range(len(lanes)), labels=[name or "no agent" for name in lanes])
     axes.set_ylim(len(lanes) - 0.5, -0.5)
     axes.set_xlim(0, span)
@@ -50,6 +52,17 @@ def draw(problem: Problem, plan: Plan, form: str) -> bytes:
     metadata = {"Date": None} if form == "svg" else {"Software": None}
     figure.savefig(buffer, format=form, dpi=150, metadata=metadata)
     return buffer.getvalue()
+
+
+def _bar(
+    axes: Axes, action: PlannedAction, row: int, colors: dict[str, str], text: str, alpha: float = 1
+) -> None:
+    start, length = float(action.start_s or 0), float(action.duration_s or 1)
+    axes.broken_barh(
+        [(start, length)], (row - _BAR / 2, _BAR), facecolor=colors[action.name], alpha=alpha,
+        edgecolor="white", linewidth=1.5,
+    )  # fmt: skip
+    axes.text(start + length / 2, row, text, ha="center", va="center", clip_on=True)
 
 
 def _width(plan: Plan, span: float) -> float:

@@ -6,8 +6,9 @@ and it shares no code with any planner.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import groupby
 from typing import NamedTuple
 
 from hrcplan.pddl.interference import Access, access, clash
@@ -18,7 +19,6 @@ from hrcplan.pddl.model import (
     Action,
     Fact,
     FluentKey,
-    Formula,
     Number,
     Problem,
     fact_text,
@@ -51,16 +51,15 @@ class Report:
 
 
 class _BrokenError(Exception):
-    """The replay stops here: which action, and why."""
+    """The replay stops here: at which action, and why."""
 
-    def __init__(self, step: int | None, reason: str, state: State) -> None:
+    def __init__(self, step: int, reason: str) -> None:
         super().__init__(reason)
         self.step = step
-        self.state = state
 
 
 class _Event(NamedTuple):
-    """Start or end of one action of the plan."""
+    """Start or end of one action of the plan; ``fault`` says why there is no such action."""
 
     time: Number
     is_start: bool
@@ -68,6 +67,11 @@ class _Event(NamedTuple):
     action: Action
     binding: Binding
     duration: Number
+    fault: str | None = None
+
+    @property
+    def when(self) -> str:
+        return "start" if self.is_start else "end"
 
 
 def validate(problem: Problem, plan: Plan) -> Report:
@@ -81,80 +85,144 @@ def validate(problem: Problem, plan: Plan) -> Report:
         problem: The problem that the plan is for.
         plan: Any plan, also one of unknown actions or objects.
     """
-    start = _initial_state(problem)
+    replay = _Replay(problem, plan)
     try:
-        events = list(_events(problem, plan, start))
-        end, costs = _replay(problem, events, len(plan.actions), start)
+        replay.run()
+        missing = unmet(problem.goal, replay.state, {}, problem)
     except _BrokenError as broken:
-        return Report(False, failed_step=broken.step, reason=str(broken),
-                      state=frozenset(broken.state.facts))  # fmt: skip
-    missing = unmet(problem.goal, end, {}, problem)
+        return replay.report(reason=str(broken), failed_step=broken.step)
+    except Undefined as error:
+        return replay.report(reason=f"the goal needs a number that is missing: {error}")
     if missing is not None:
-        return Report(False, reason=f"the goal {missing} does not hold at the end",
-                      state=frozenset(end.facts), step_costs=costs)  # fmt: skip
-    makespan = _makespan(problem, plan, events)
-    return Report(
-        True, _cost(problem, end, plan), makespan, _metric(problem, end, makespan),
-        state=frozenset(end.facts), step_costs=costs,
-    )  # fmt: skip
+        return replay.report(reason=f"the goal {missing} does not hold at the end")
+    return replay.report()
 
 
-def _makespan(problem: Problem, plan: Plan, events: Sequence[_Event]) -> Number | None:
-    """Return the end of the last action; steps of a classical problem last what lanes give them."""
-    if problem.domain.is_temporal:
-        return max((event.time for event in events), default=0)
-    return plan.makespan_s
+class _Replay:
+    """A plan on its way through the happenings: the state, and what is running."""
 
+    def __init__(self, problem: Problem, plan: Plan) -> None:
+        self.problem = problem
+        self.plan = plan
+        values = dict(problem.values)
+        if TOTAL_COST in problem.domain.functions:
+            values.setdefault(COST, 0)
+        self.state = State(problem.facts, values)
+        self.costs: list[Number] = [0] * len(plan.actions)
+        self.end_s: Number = 0
+        self._running: dict[int, _Event] = {}
+        self._near: list[tuple[_Event, Access]] = []
 
-def _initial_state(problem: Problem) -> State:
-    values = dict(problem.values)
-    if TOTAL_COST in problem.domain.functions:
-        values.setdefault(COST, 0)
-    return State(problem.facts, values)
+    def report(self, *, reason: str | None = None, failed_step: int | None = None) -> Report:
+        """Return what was found; numbers only of a valid plan."""
+        facts, costs = frozenset(self.state.facts), tuple(self.costs)
+        if reason is not None:
+            return Report(
+                False, failed_step=failed_step, reason=reason, state=facts, step_costs=costs
+            )
+        temporal = self.problem.domain.is_temporal
+        # Steps of a classical problem last what lanes give them.
+        makespan = self.end_s if temporal else self.plan.makespan_s
+        counted = None if temporal else len(costs)
+        cost = self.state.values.get(COST, counted)
+        metric = _metric(self.problem, self.state, makespan)
+        return Report(True, cost, makespan, metric, state=facts, step_costs=costs)
 
+    def run(self) -> None:
+        """Play all actions: each when the one before has ended, or by their times."""
+        gap = EPSILON_S if self.problem.domain.is_temporal else 1
+        if self.plan.is_schedule:
+            steps = range(len(self.plan.actions))
+            self._play([e for i in steps for e in self._events(i, self.plan.actions[i].start_s)])
+            return
+        for step in range(len(self.plan.actions)):
+            self._play(self._events(step, self.end_s + gap if step else 0))
 
-def _cost(problem: Problem, end: State, plan: Plan) -> Number | None:
-    if TOTAL_COST in problem.domain.functions:
-        return end.values[COST]
-    return None if problem.domain.is_temporal else len(plan.actions)
+    def _events(self, step: int, start_s: Number | None) -> list[_Event]:
+        """Return start and end of an action that starts at a time, read in the present state."""
+        planned, time = self.plan.actions[step], start_s or 0
+        action = next((a for a in self.problem.domain.actions if a.name == planned.name), None)
+        nothing = Action(planned.name, (), (), ())
+        if action is None:
+            fault = f"there is no action '{planned.name}'"
+            return [_Event(time, True, step, nothing, {}, 0, fault)]
+        binding = bind(action, planned.args, self.problem)
+        if isinstance(binding, str):
+            return [_Event(time, True, step, nothing, {}, 0, binding)]
+        duration = _duration(planned, action, binding, self.state)
+        if isinstance(duration, str):
+            return [_Event(time, True, step, nothing, {}, 0, duration)]
+        start = _Event(time, True, step, action, binding, duration)
+        return [start, start._replace(time=time + duration, is_start=False)][: 1 + action.durative]
+
+    def _play(self, events: Sequence[_Event]) -> None:
+        ordered = sorted(events, key=lambda e: (e.time, e.step, not e.is_start))
+        for time, group in groupby(ordered, key=lambda e: e.time):
+            self.end_s = max(self.end_s, time)
+            self._happen(tuple(group))
+
+    def _happen(self, group: Sequence[_Event]) -> None:
+        """Let the events of one instant happen; all of them read the state before it."""
+        after = self.state
+        for event in group:
+            if event.fault is not None:
+                raise _BrokenError(event.step, event.fault)
+            self._check_interference(event)
+            _require(self.problem, event, self.state)
+            after = self._changed(event, after)
+        self.state = after
+        for event in group:
+            if event.is_start and event.action.durative:
+                self._running[event.step] = event
+            else:
+                self._running.pop(event.step, None)
+        for event in self._running.values():
+            _demand(self.problem, event, "all", self.state)
+
+    def _check_interference(self, event: _Event) -> None:
+        """Stop if the event interferes with one that is closer than ``EPSILON_S``."""
+        mine = access(self.problem, event.action, event.binding, event.when)
+        self._near = [(e, a) for e, a in self._near if event.time - e.time < EPSILON_S]
+        for other, theirs in self._near:
+            about = clash(mine, theirs) if other.step != event.step else None
+            if about is not None:
+                step = max(event.step, other.step)
+                raise _BrokenError(step, _too_close(event, other, about))
+        self._near.append((event, mine))
+
+    def _changed(self, event: _Event, after: State) -> State:
+        """Return ``after`` with the effects of one event, read in the state before its instant."""
+        before = self.state.values
+        timed = State(self.state.facts, {**before, (DURATION,): event.duration})
+        effects = [e for e in event.action.effects if e.when == event.when]
+        try:
+            change = changes(effects, timed, event.binding, self.problem)
+        except Undefined as error:
+            raise _BrokenError(event.step, str(error)) from None
+        if COST in change.values:
+            self.costs[event.step] += change.values[COST] - before[COST]
+        # Increases of one instant add up; assignments do not share an instant (interference).
+        moved = {
+            key: after.values.get(key, 0) + value - before.get(key, 0)
+            for key, value in change.values.items()
+        }
+        return replace(change, values=moved).apply(after)
 
 
 def _metric(problem: Problem, end: State, makespan: Number | None) -> Number | None:
+    """Return the metric; None if there is none, or one of a number that has no value."""
     if problem.metric is None:
         return None
-    values = {**end.values, (TOTAL_TIME,): makespan or 0}
-    return evaluate(problem.metric, values, {})
-
-
-def _events(problem: Problem, plan: Plan, start: State) -> Iterator[_Event]:
-    clock: Number = 0
-    for step, planned in enumerate(plan.actions):
-        action, binding = _resolve(problem, planned, step, start)
-        duration = _duration(planned, action, binding, problem, step, start)
-        begin = clock if planned.start_s is None else planned.start_s
-        yield _Event(begin, True, step, action, binding, duration)
-        if action.durative:
-            yield _Event(begin + duration, False, step, action, binding, duration)
-        clock = begin + duration + (EPSILON_S if problem.domain.is_temporal else 1)
-
-
-def _resolve(
-    problem: Problem, planned: PlannedAction, step: int, state: State
-) -> tuple[Action, Binding]:
-    action = next((a for a in problem.domain.actions if a.name == planned.name), None)
-    if action is None:
-        raise _BrokenError(step, f"there is no action '{planned.name}'", state)
-    binding = bind(action, planned.args, problem)
-    if isinstance(binding, str):
-        raise _BrokenError(step, binding, state)
-    return action, binding
+    try:
+        return evaluate(problem.metric, {**end.values, (TOTAL_TIME,): makespan or 0}, {})
+    except Undefined:
+        return None
 
 
 def _duration(
-    planned: PlannedAction, action: Action, binding: Binding, problem: Problem, step: int,
-    state: State,
-) -> Number:  # fmt: skip
-    """Return the duration given, or the one that ``(= ?duration …)`` fixes from the start."""
+    planned: PlannedAction, action: Action, binding: Binding, state: State
+) -> Number | str:
+    """Return the duration given, or the one that ``(= ?duration …)`` fixes; or what is wrong."""
     if not action.durative:
         return 0
     if planned.duration_s is not None:
@@ -164,48 +232,8 @@ def _duration(
             try:
                 return evaluate(expression, state.values, binding)
             except Undefined as error:
-                raise _BrokenError(step, str(error), state) from None
-    raise _BrokenError(step, f"{planned} needs a duration in brackets", state)
-
-
-def _replay(
-    problem: Problem, events: Sequence[_Event], n_steps: int, state: State
-) -> tuple[State, tuple[Number, ...]]:
-    """Return the state after all events, and the cost that each step added."""
-    costs: list[Number] = [0] * n_steps
-    ordered = sorted(events, key=lambda e: (e.time, e.step, not e.is_start))
-    _check_interference(problem, ordered, state)
-    running: dict[int, _Event] = {}
-    index = 0
-    while index < len(ordered):
-        last = index
-        while last < len(ordered) and ordered[last].time == ordered[index].time:
-            last += 1
-        state = _happen(problem, ordered[index:last], state, costs)
-        for event in ordered[index:last]:
-            if event.is_start and event.action.durative:
-                running[event.step] = event
-            else:
-                running.pop(event.step, None)
-        _check_invariants(problem, running, state)
-        index = last
-    return state, tuple(costs)
-
-
-def _check_interference(problem: Problem, ordered: Sequence[_Event], state: State) -> None:
-    """Stop at the first two events that interfere and are closer than ``EPSILON_S``."""
-    near: list[tuple[_Event, Access]] = []
-    for event in ordered:
-        when = "start" if event.is_start else "end"
-        mine = access(problem, event.action, event.binding, when)
-        near = [(e, a) for e, a in near if event.time - e.time < EPSILON_S]
-        for other, theirs in near:
-            about = clash(mine, theirs) if other.step != event.step else None
-            if about is not None:
-                raise _BrokenError(
-                    max(event.step, other.step), _too_close(event, other, about), state
-                )
-        near.append((event, mine))
+                return str(error)
+    return f"{planned} needs a duration in brackets"
 
 
 def _too_close(event: _Event, other: _Event, about: Fact) -> str:
@@ -215,57 +243,32 @@ def _too_close(event: _Event, other: _Event, about: Fact) -> str:
     )
 
 
-def _happen(problem: Problem, group: Sequence[_Event], state: State, costs: list[Number]) -> State:
-    """Return the state after events of one instant; all of them read the state before it."""
-    after = state
-    for event in group:
-        when = "start" if event.is_start else "end"
-        _require(problem, event, when, state)
-        timed = State(state.facts, {**state.values, (DURATION,): event.duration})
-        effects = [e for e in event.action.effects if e.when == when]
-        try:
-            change = changes(effects, timed, event.binding, problem)
-        except Undefined as error:
-            raise _BrokenError(event.step, str(error), state) from None
-        if COST in change.values:
-            costs[event.step] += change.values[COST] - state.values[COST]
-        # Increases of one instant add up; assignments do not share an instant (interference).
-        moved = {k: after.values.get(k, 0) + v - state.values.get(k, 0)
-                 for k, v in change.values.items()}  # fmt: skip
-        after = replace(change, values=moved).apply(after)
-    return after
-
-
-def _require(problem: Problem, event: _Event, when: str, state: State) -> None:
-    for condition in event.action.conditions:
-        if condition.when == when:
-            _demand(problem, event, condition.formula, state, _where(event, when))
+def _require(problem: Problem, event: _Event, state: State) -> None:
+    _demand(problem, event, event.when, state)
     if event.is_start:
         _check_duration(event, state)
 
 
-def _check_invariants(problem: Problem, running: dict[int, _Event], state: State) -> None:
-    for event in running.values():
-        for condition in event.action.conditions:
-            if condition.when == "all":
-                _demand(problem, event, condition.formula, state, _where(event, "all"))
-
-
-def _demand(problem: Problem, event: _Event, formula: Formula, state: State, where: str) -> None:
-    try:
-        missing = unmet(formula, state, event.binding, problem)
-    except Undefined as error:
-        raise _BrokenError(event.step, str(error), state) from None
-    if missing is not None:
-        raise _BrokenError(event.step, f"{_shown(event)} needs {missing}{where}", state)
+def _demand(problem: Problem, event: _Event, when: str, state: State) -> None:
+    """Stop if a condition of one phase does not hold."""
+    values = {**state.values, (DURATION,): event.duration}
+    for condition in event.action.conditions:
+        if condition.when != when:
+            continue
+        try:
+            missing = unmet(condition.formula, State(state.facts, values), event.binding, problem)
+        except Undefined as error:
+            raise _BrokenError(event.step, str(error)) from None
+        if missing is not None:
+            reason = f"{_shown(event)} needs {missing}{_where(event, when)}"
+            raise _BrokenError(event.step, reason)
 
 
 def _where(event: _Event, when: str) -> str:
     if not event.action.durative:
         return ""
-    moment = {"start": event.time, "end": event.time, "all": event.time}[when]
     words = {"start": "at its start", "end": "at its end", "all": "all the time from its start"}
-    return f" {words[when]} ({seconds_text(moment)} s)"
+    return f" {words[when]} ({seconds_text(event.time)} s)"
 
 
 def _check_duration(event: _Event, state: State) -> None:
@@ -273,14 +276,14 @@ def _check_duration(event: _Event, state: State) -> None:
         try:
             wanted = evaluate(expression, state.values, event.binding)
         except Undefined as error:
-            raise _BrokenError(event.step, str(error), state) from None
+            raise _BrokenError(event.step, str(error)) from None
         # Durations are printed with three decimals: a difference below a gap is rounding.
         over = event.duration - wanted
         too_long = op != ">=" and over >= EPSILON_S
         too_short = op != "<=" and -over >= EPSILON_S
         if too_long or too_short:
             lasts = f"lasts {op} {number_text(wanted)} s, not {number_text(event.duration)} s"
-            raise _BrokenError(event.step, f"{_shown(event)} {lasts}", state)
+            raise _BrokenError(event.step, f"{_shown(event)} {lasts}")
 
 
 def _shown(event: _Event) -> str:

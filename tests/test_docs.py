@@ -34,8 +34,10 @@ def run(command: str, folder: Path) -> str:
     ours = f"{sys.executable} -m hrcplan"
     line = re.sub(r"^(tools/)?hrcplan\b", ours, command)
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "NO_COLOR": "1", "COLUMNS": "100"}
-    done = subprocess.run(line, shell=True, cwd=folder, env=environment, text=True, timeout=120,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)  # fmt: skip
+    done = subprocess.run(
+        f"{{ {line}; }} 2>&1", shell=True, cwd=folder, env=environment, capture_output=True,
+        text=True, timeout=120, check=False,
+    )  # fmt: skip
     return done.stdout
 
 

@@ -31,7 +31,7 @@ class Memory:
         return Memory(self.failures, self.cleared | frozenset(touched)) if self.failures else self
 
     def sensed(self, key: FluentKey) -> Memory:
-        """Return the memory after a new value of ``key``: what was held against it is out of date."""
+        """Return the memory after a new value of ``key``: what was held against it is old."""
         rest = tuple(left for suspects in self.failures if (left := suspects - {key}))
         return Memory(rest, self.cleared - {key})
 

@@ -49,8 +49,8 @@ class Profile:
         """
         for key, choices in _CHOICES.items():
             if getattr(self, key) not in choices:
-                wanted = " or ".join(choices)
-                raise InputError(f"profile '{self.name}': {key} must be {wanted}", code="bad-profile")
+                message = f"profile '{self.name}': {key} must be {' or '.join(choices)}"
+                raise InputError(message, code="bad-profile")
         if self.replan_limit < 0 or self.scale <= 0 or self.cap <= 0:
             message = f"profile '{self.name}': limits, scale and cap are positive"
             raise InputError(message, code="bad-profile")

@@ -74,11 +74,11 @@ class AgentModel:
 
     @cached_property
     def low(self) -> Mapping[FluentKey, Number]:
-        """Every element with its low value, in the order of the problem."""
+        """Every element with its low value, in alphabetical order."""
         agents = set(self.problem.agents)
         return {
             key: value
-            for key, value in self.problem.values.items()
+            for key, value in sorted(self.problem.values.items())
             if key[0] in self.functions and key[1] in agents
         }
 

@@ -8,7 +8,7 @@ from hrcplan.cli.output import number
 from hrcplan.pddl.model import Number, Problem, number_text
 from hrcplan.planners.answer import Status
 from hrcplan.planners.solve import Result
-from hrcplan.plans import Plan, PlannedAction, lane, seconds_text
+from hrcplan.plans import Plan, PlannedAction, lane, occupied, seconds_text
 
 VERDICT = {
     Status.OPTIMAL: "proven optimal",
@@ -101,7 +101,10 @@ def _table(problem: Problem, plan: Plan) -> list[str]:
     for position, action in enumerate(plan.actions):
         when = str(position + 1) if action.start_s is None else _clock(action.start_s, problem)
         agent = lane(action.args, problem) or ""
-        rows.setdefault(when, {})[agent] = _cell(action, agent)
+        row = rows.setdefault(when, {})
+        row[agent] = _cell(action, agent)
+        for other in occupied(action, problem) - {agent}:
+            row[other] = f"({action.name} by {agent})"
     head = "step" if not plan.is_schedule else "time (s)" if problem.domain.is_temporal else "time"
     table = [[head, *lanes]] + [
         [when, *(row.get(a, "") for a in lanes)] for when, row in rows.items()

@@ -18,6 +18,8 @@ from hrcplan.errors import HrcplanError, LimitError, PddlError
 COMMANDS = {
     "plan": "hrcplan.cli.plan",
     "validate": "hrcplan.cli.validate",
+    "execute": "hrcplan.cli.execute",
+    "replay": "hrcplan.cli.replay",
     "check": "hrcplan.cli.check",
     "new-problem": "hrcplan.cli.new_problem",
     "planners": "hrcplan.cli.planners",

@@ -17,6 +17,7 @@ from hrcplan.pddl.model import (
     Effect,
     Fact,
     FluentKey,
+    Formula,
     Number,
     Problem,
     formula_functions,
@@ -59,12 +60,9 @@ class Acting:
         self._agent_state = agent_state_functions(problem.domain)
         moved = {e.target.name for a in problem.domain.actions for e in a.effects}
         self.static = frozenset(fact for fact in problem.facts if fact[0] not in moved)
-        self._moving = moved.intersection(problem.domain.functions) - self._agent_state - {TOTAL_COST}
-        self._compares = any(
-            True for a in problem.domain.actions
-            for c in (*(c.formula for c in a.conditions), *(e.given for e in a.effects))
-            for _ in formula_functions(c)
-        ) or bool(self._moving) or any(True for _ in formula_functions(problem.goal))  # fmt: skip
+        told = self._agent_state | {TOTAL_COST}
+        self._moving = moved.intersection(problem.domain.functions) - told
+        self._compares = bool(self._moving) or _compares(problem)
 
     def initial(self) -> State:
         """Return the state that the problem describes."""
@@ -124,7 +122,7 @@ class Acting:
                     return missing
         return None
 
-    def _unmet(self, formula, state: State, step: Step) -> str | None:  # type: ignore[no-untyped-def]
+    def _unmet(self, formula: Formula, state: State, step: Step) -> str | None:
         try:
             return unmet(formula, state, step.binding, self.problem)
         except Undefined as error:
@@ -165,3 +163,12 @@ class Acting:
         if not self._compares:
             return state
         return State(state.facts, {**self.problem.values, **state.values})
+
+
+def _compares(problem: Problem) -> bool:
+    """Return whether any condition of a problem looks at a number."""
+    formulas = [problem.goal]
+    for action in problem.domain.actions:
+        formulas += [condition.formula for condition in action.conditions]
+        formulas += [effect.given for effect in action.effects]
+    return any(True for formula in formulas for _ in formula_functions(formula))

@@ -17,6 +17,7 @@ from hrcplan.execution.monitor import Monitor
 from hrcplan.execution.run import Run
 from hrcplan.execution.worlds import World
 
+PATIENCE = 3  # times its duration, after which an action counts as failed
 MAX_STEPS = 100_000  # events of one run; a world that never ends is stopped
 
 
@@ -85,6 +86,9 @@ class Driver:
         for event in events:
             run, asked = self._step(run, event)
             t = max(t, event.t)
+        for action in run.running:
+            if t > action.begun_s + PATIENCE * action.duration_s + ev.INSTANT_S:
+                run, asked = self._step(run, ev.Overdue(t, action.number))
         run, asked = self._step(run, ev.Settled(t))
         while asked is not None:
             run, again = self._step(run, self.record.recorded_plan() or self.planner.answer(asked))

@@ -6,6 +6,7 @@ it they come in the order of ``RANK``, and ``Settled`` closes it.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from fractions import Fraction
@@ -143,7 +144,7 @@ class Adopt:
 
 @dataclass(frozen=True, slots=True)
 class Tell:
-    """Something to know that changes nothing: a rejected value, an unknown action, a confirmation."""
+    """Something to know: a rejected value, an unknown action, a confirmed plan."""
 
     t: float
     code: str
@@ -188,8 +189,7 @@ def from_json(document: Mapping[str, Any]) -> Any:
     """
     try:
         kind = _KINDS[document["kind"]]
-        parts = {k: _DECODE.get(k, _same)(v) for k, v in document.items() if k != "kind"}
-        return kind(**parts)
+        return kind(**{k: _decoded(k, v) for k, v in document.items() if k != "kind"})
     except (KeyError, TypeError, AttributeError) as error:
         raise ValueError(f"no event: {error}") from None
 
@@ -206,13 +206,21 @@ def _encoded(value: Any) -> Any:
     return _number(value) if isinstance(value, Fraction) else value
 
 
-def _number(value: float | Number) -> float | int:
+def _number(value: float | Number) -> float | int | str:
+    if isinstance(value, float) and not math.isfinite(value):
+        return str(value)  # JSON knows no such numbers
     return value if isinstance(value, (int, float)) else float(value)
 
 
-def exact(number: float) -> float | Number:
-    """Return a number of a journal as it was before: what was exact is exact again."""
-    if isinstance(number, int) or number != number or number in (float("inf"), float("-inf")):
+def exact(number: float | str) -> float | Number:
+    """Return a number of a journal as it was before: what was exact is exact again.
+
+    >>> exact(58.00051), exact("nan")
+    (Fraction(5800051, 100000), nan)
+    """
+    if isinstance(number, str):
+        return float(number)
+    if isinstance(number, int):
         return number
     value = Fraction(repr(number))
     return int(value) if value.denominator == 1 else value
@@ -232,19 +240,19 @@ def _plan(lines: list[str] | None) -> Plan | None:
     return None if lines is None else parse_plan("\n".join(lines))
 
 
-def _same(value: Any) -> Any:
+def _decoded(name: str, value: Any) -> Any:
+    match name:
+        case "facts":
+            return _facts(value)
+        case "numbers" | "values":
+            return _numbers(value)
+        case "plan":
+            return _plan(value)
+        case "args" | "reasons":
+            return tuple(value)
+        case "metric":
+            return None if value is None else exact(value)
     return value
-
-
-_DECODE = {
-    "facts": _facts,
-    "numbers": _numbers,
-    "values": _numbers,
-    "plan": _plan,
-    "args": tuple,
-    "reasons": tuple,
-    "metric": lambda number: None if number is None else exact(number),
-}
 
 
 def planned(dispatch: Dispatch) -> PlannedAction:

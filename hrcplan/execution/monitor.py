@@ -49,7 +49,7 @@ class Monitor:
         object.__setattr__(self, "acting", Acting(self.problem))
 
     def begin(self) -> Run:
-        """Return a run at time 0, in the problem's initial state, before its first plan."""
+        """Return a run at time 0, before its first plan."""
         return Run(self.acting.initial())
 
     def step(self, run: Run, event: Event) -> Stepped:
@@ -76,10 +76,10 @@ class Monitor:
     def _done(self, run: Run, action: Running) -> Run:
         assert run.pursuit is not None
         pursuit = replace(run.pursuit, ended=run.pursuit.ended | {action.index})
-        n_interactions = run.tally.interactions + self.agents.is_interaction(action.step.schema.name)
+        step, tally = action.step, run.tally
         tally = replace(
-            run.tally, done=plus(run.tally.done, [action.step.agent]), last_end_s=run.t,
-            interactions=n_interactions,
+            tally, done=plus(tally.done, [step.agent]), last_end_s=run.t,
+            interactions=tally.interactions + self.agents.is_interaction(step.schema.name),
         )  # fmt: skip
         return replace(
             run, running=run.without(action), pursuit=pursuit, tally=tally,
@@ -123,7 +123,7 @@ class Monitor:
 
     def _observed(self, run: Run, event: ev.Observed) -> Stepped:
         numbers = run.state.values if event.numbers is None else event.numbers
-        return replace(run, observed=self.acting.state(event.facts, numbers)), ()  # type: ignore[arg-type]
+        return replace(run, observed=self.acting.state(event.facts, numbers)), ()
 
     def _sensed(self, run: Run, event: ev.Sensed) -> Stepped:
         """Take good values in; a bad one is rejected and the last good value stays."""
@@ -317,7 +317,8 @@ class Monitor:
     ) -> tuple[Run, ev.Dispatch | None]:
         """Begin one action, or note as a deviation that it cannot begin."""
         step = self.acting.step(planned)
-        assert step is not None and run.pursuit is not None
+        assert step is not None
+        assert run.pursuit is not None
         obstacle = self.acting.obstacle(run.state, step)
         if obstacle is not None:
             return run.because(ev.DEVIATION, f"{planned} needs {obstacle}"), None

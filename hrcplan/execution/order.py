@@ -28,11 +28,11 @@ Waits = tuple[tuple[Wait, ...], ...]
 
 
 def waits(problem: Problem, plan: Plan) -> Waits:
-    """Return what each action of a schedule waits for.
+    r"""Return what each action of a schedule waits for.
 
     >>> from hrcplan.facade import load_problem
     >>> from hrcplan.plans import parse_plan
-    >>> plan = parse_plan("0: (move human wp1 wp4) [50]\\n60: (grasp human blue wp4) [50]")
+    >>> plan = parse_plan("0: (move human wp1 wp4) [50]\n60: (grasp human blue wp4) [50]")
     >>> waits(load_problem("transport", "two-boxes"), plan)[1]
     (Wait(index=0, for_end=True, offset_s=0),)
     """

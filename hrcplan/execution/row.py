@@ -86,9 +86,18 @@ def row_of(run: Run, robots: frozenset[str]) -> Row:
     assigned, done = split(tally.assigned), split(tally.done)
     failed, cancelled = split(tally.failed), split(tally.cancelled)
     return Row(
-        run.ending == ev.GOAL, run.ending or "unfinished",
-        *(tally.replans.get(kind, 0) for kind in ev.REASONS), tally.plans_confirmed,
-        *assigned, *done, *failed, *cancelled, tally.interactions, round(tally.last_end_s, 6),
+        success=run.ending == ev.GOAL,
+        ending=run.ending or "unfinished",
+        replans_change=tally.replans.get(ev.CHANGE, 0),
+        replans_failure=tally.replans.get(ev.FAILURE, 0),
+        replans_deviation=tally.replans.get(ev.DEVIATION, 0),
+        plans_confirmed=tally.plans_confirmed,
+        assigned_human=assigned[0], assigned_robot=assigned[1],
+        executed_human=done[0], executed_robot=done[1],
+        failed_human=failed[0], failed_robot=failed[1],
+        cancelled_human=cancelled[0], cancelled_robot=cancelled[1],
+        interactions=tally.interactions,
+        makespan_s=round(tally.last_end_s, 6),
     )  # fmt: skip
 
 

@@ -111,7 +111,7 @@ class Run:
     phase: Phase = Phase.IDLE
     t: float = 0.0
     sensed: Mapping[FluentKey, Number] = field(default_factory=dict)
-    memory: Memory = Memory()
+    memory: Memory = field(default_factory=Memory)
     pursuit: Pursuit | None = None
     running: tuple[Running, ...] = ()
     n_dispatched: int = 0
@@ -119,7 +119,7 @@ class Run:
     observed: State | None = None
     n_asked: int = 0
     confirmed_s: float | None = None
-    tally: Tally = Tally()
+    tally: Tally = field(default_factory=Tally)
     ending: str | None = None
     why: str = ""
 

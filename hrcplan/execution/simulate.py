@@ -137,7 +137,7 @@ def make_engine(
 
 
 def nature_of(spec: Spec, engine: Engine) -> Nature:
-    """Return the world's behavior in one run: everything that chance decides, drawn from the seed."""
+    """Return how the world behaves in one run: all that chance decides, drawn from the seed."""
     can_fail = None if spec.can_fail is None else frozenset(spec.can_fail)
     changes: tuple[StateChange, ...] = ()
     accidents: tuple[FactChange, ...] = ()
@@ -169,7 +169,7 @@ def _change_time(spec: Spec, engine: Engine) -> float:
     """Return when the change happens: 0, or the planned start of one of the human's actions."""
     if spec.when == START:
         return 0.0
-    run, commands = engine.monitor.step(engine.monitor.begin(), ev.Settled(0.0))
+    _, commands = engine.monitor.step(engine.monitor.begin(), ev.Settled(0.0))
     ask = next(c for c in commands if isinstance(c, ev.AskPlan))
     plan = engine.planner.answer(ask).plan
     steps = [] if plan is None else [(engine.monitor.acting.step(a), a) for a in plan.actions]

@@ -121,6 +121,11 @@ def _raise_errors(source: Source) -> None:
         raise PddlError(in_order(source.diagnostics))
 
 
+def kind_of(path: str | Path) -> str:
+    """Return ``domain``, ``problem`` or ``unknown``: what a file is meant to be."""
+    return _open(path).kind
+
+
 def _open(path: str | Path) -> _File:
     try:
         return _read(read_source(path))

@@ -48,6 +48,10 @@ def access(problem: Problem, action: Action, binding: Binding, when: str) -> Acc
     for condition in action.conditions:
         if condition.when == when:
             look(condition.formula, binding)
+    if when == "start":
+        functions.update(
+            ground_key(f, binding) for _, d in action.durations for f in functions_in(d)
+        )
     written: dict[str, set[Fact]] = {role: set() for role in ("add", "delete", "sum", "assign")}
     for effect in action.effects:
         if effect.when != when:

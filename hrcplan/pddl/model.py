@@ -30,8 +30,7 @@ def number_text(value: Number) -> str:
     """
     if isinstance(value, int) or value.denominator == 1:
         return str(int(value))
-    text = f"{float(value):.12f}".rstrip("0")
-    return text
+    return f"{float(value):.12f}".rstrip("0").rstrip(".")
 
 
 def fact_text(fact: Fact) -> str:

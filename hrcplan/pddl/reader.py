@@ -43,7 +43,7 @@ Node = Word | Group
 
 def read(source: Source) -> Group | None:
     """Return the one ``(define …)`` group of a file, or None; faults go into ``source``."""
-    nodes = _build(mend(_tokens(source.text), source), source)
+    nodes = read_nodes(source)
     groups = [node for node in nodes if isinstance(node, Group)]
     root = next((group for group in groups if group.head == "define"), None)
     outside = next((node for node in nodes if node is not root), None)
@@ -53,6 +53,11 @@ def read(source: Source) -> Group | None:
     elif root is None and not source.has_errors:
         source.error(0, "empty", "the file holds no (define …)")
     return root
+
+
+def read_nodes(source: Source) -> list[Node]:
+    """Return everything that a text holds side by side; faults go into ``source``."""
+    return _build(mend(_tokens(source.text), source), source)
 
 
 def notes(source: Source) -> Iterator[tuple[int, str]]:

@@ -16,7 +16,7 @@ from hrcplan.pddl.model import (
     Number,
     functions_in,
 )
-from hrcplan.pddl.semantics import Undefined, Values, ground_key, instances
+from hrcplan.pddl.semantics import Undefined, Values, evaluate, ground_key, instances
 from hrcplan.task.changing import Reached, combinations, keys_read, moves, timed, value_fact
 from hrcplan.task.conditions import (
     ALWAYS,
@@ -199,26 +199,27 @@ class _Builder:
 
         Raises:
             UnsupportedError: if a cost needs a duration that is not fixed.
-            Undefined: if a cost needs a function without a value.
+            Undefined: if a cost needs a function without a value, or divides by zero.
         """
+        first, last = self._constants(values), self._constants(later)
         fixed = [expression for op, expression in instance.action.durations if op == "="]
+        if len(fixed) == 1:
+            first[DURATION,] = last[DURATION,] = grounded(fixed[0], instance.binding, first)
         found: list[Expr] = []
         for effect in instance.action.effects:
             if effect.target.name != TOTAL_COST or effect.value is None:
                 continue
-            now = values if effect.when == "start" else later
-            known: dict[FluentKey, Expr] = {k: Constant(now[k]) for k in self.reached if k in now}
-            if len(fixed) == 1:
-                known[DURATION,] = grounded(fixed[0], instance.binding, known)
-            cost = grounded(effect.value, instance.binding, known)
-            for function in functions_in(cost):
-                if function.name == DURATION:
-                    message = f"the cost of '{instance.action.name}' needs a fixed duration"
-                    raise UnsupportedError(message)
-                if (function.name, *function.args) not in self.grounder.problem.values:
-                    raise Undefined(f"{function} has no value")
-            found.append(cost)
+            known = first if effect.when == "start" else last
+            found.append(grounded(effect.value, instance.binding, known))
+        if any(f.name == DURATION for cost in found for f in functions_in(cost)):
+            raise UnsupportedError(f"the cost of '{instance.action.name}' needs a fixed duration")
+        for cost in found:
+            evaluate(cost, values, {})
         return tuple(found)
+
+    def _constants(self, values: Values) -> dict[FluentKey, Expr]:
+        """Return the values of the changing functions, as expressions."""
+        return {key: Constant(values[key]) for key in self.reached if key in values}
 
 
 def _net(changes: Sequence[Change]) -> tuple[int, int]:

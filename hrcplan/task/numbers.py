@@ -104,6 +104,14 @@ def grounded(expression: Expr, binding: Binding, known: Mapping[FluentKey, Expr]
             return expression
 
 
+def divisors(expression: Expr | None) -> Iterator[Function]:
+    """Yield the functions that something is divided by."""
+    if isinstance(expression, Arithmetic):
+        for position, part in enumerate(expression.parts):
+            inner = functions_in if expression.op == "/" and position else divisors
+            yield from inner(part)
+
+
 def linear(expression: Expr, binding: Binding) -> Linear | None:
     """Return an expression as a weighted sum of functions, or None if it is not linear.
 

@@ -20,7 +20,7 @@ from hrcplan.task.actions import Change, ground_actions
 from hrcplan.task.changing import Reached, combinations, reached_values, value_fact
 from hrcplan.task.conditions import Grounder, Test, Tests, all_of, any_of, meets, single_bits
 from hrcplan.task.lookup import Lookup
-from hrcplan.task.numbers import check_supported, exact, functions_read, numeric_effects
+from hrcplan.task.numbers import check_supported, divisors, exact, functions_read, numeric_effects
 from hrcplan.task.reachable import Instance, reachable
 
 
@@ -146,6 +146,8 @@ class Task:
         for action in self.problem.domain.actions:
             found.update(function.name for function in functions_read(action))
             found.update(effect.target.name for effect in numeric_effects(action))
+            # A cost that divides by zero is none: the action cannot run.
+            found.update(f.name for effect in action.effects for f in divisors(effect.value))
         return frozenset(found)
 
     @cached_property

@@ -224,7 +224,7 @@ def test_new_problem_is_checked_before_it_is_written(tmp_path: Path) -> None:
     words = ["new-problem", "transport", "--from", "two-boxes", "--name", "new", "-o", str(target)]
     found = run(*words, "--goal", "(and (box-at green wp9) (box-at blu wp2))")
     assert found.exit_code == 3
-    assert "<goal>:1:21: error[unknown-object]" in found.stderr
+    assert "<goal>:1:20: error[unknown-object]" in found.stderr
     assert "did you mean 'blue'?" in found.stderr
     assert not target.exists()
     words += ["--goal", "(box-at green wp5)", "--set", "motivation human=4"]

@@ -179,3 +179,25 @@ def test_every_reachable_state(problem: Problem, oracle: Any) -> None:
             if bits not in seen:
                 seen.add(bits)
                 waiting.append(after.state)
+
+
+@settings(max_examples=60, suppress_health_check=list(HealthCheck))
+@given(problem=problems(), data=st.data())
+def test_changed_values_equal_a_fresh_task(problem: Problem, data: st.DataObject) -> None:
+    """Whether the values only price actions or also shape them."""
+    task = ground(problem)
+    if task is None:
+        return
+    key = data.draw(st.sampled_from(sorted(problem.values)))
+    values = {key: data.draw(NUMBERS)}
+    fresh = ground(problem.with_values(values))
+    if fresh is None:
+        return
+    changed = task.with_values(values)
+    assert changed.problem == fresh.problem
+    assert changed.actions == fresh.actions
+    assert changed.facts == fresh.facts
+    assert changed.costs == fresh.costs
+    assert (changed.initial, changed.goal) == (fresh.initial, fresh.goal)
+    assert changed.applicable(changed.initial) == fresh.applicable(fresh.initial)
+    assert task.costs == Task(problem).costs

@@ -1,0 +1,142 @@
+"""A run as it goes: one lane per agent, progress, and every replan with its reasons."""
+
+from __future__ import annotations
+
+import shutil
+import time
+from dataclasses import dataclass, field
+
+from hrcplan.agents.state import robots
+from hrcplan.cli import output
+from hrcplan.execution import events as ev
+from hrcplan.execution.events import Command, Event
+from hrcplan.execution.row import Row
+from hrcplan.execution.run import Run, Running
+from hrcplan.pddl.model import Problem, fact_text, number_text
+from hrcplan.pddl.source import plural
+from hrcplan.plans import lane
+
+_BEGUN, _MARK = "▶", {ev.DONE: "✓", ev.FAILED: "✗", ev.CANCELLED: "·"}
+_WIDTH = (14, 34)
+
+
+@dataclass
+class Live:
+    """Prints a line per instant; ``speed`` simulated seconds take one second (None: no wait)."""
+
+    problem: Problem
+    speed: float | None = None
+    _cells: dict[str, str] = field(default_factory=dict)
+    _notes: list[str] = field(default_factory=list)
+    _running: dict[int, Running] = field(default_factory=dict)
+    _n_plans: int = 0
+    _shown_s: float = 0.0
+    _is_headed: bool = False
+
+    def watch(self, run: Run, event: Event, commands: tuple[Command, ...]) -> None:
+        """Show one step of the monitor."""
+        if isinstance(event, ev.Ended) and event.number in self._running:
+            step = self._running.pop(event.number).step
+            words = self._short(fact_text((step.schema.name, *step.binding.values())), step.agent)
+            self._cell(step.agent, f"{_MARK.get(event.outcome, '?')} {words}")
+        if isinstance(event, ev.Sensed):
+            shown = (f"{fact_text(k)} = {_value(v)}" for k, v in event.values.items())
+            self._notes.append(f"sensed {', '.join(shown)}")
+        is_complete = isinstance(event, (ev.Settled, ev.Planned))
+        if is_complete:
+            self._flush(run)
+        for command in commands:
+            self._take(command)
+        self._running = {r.number: r for r in run.running}
+        if is_complete:
+            self._flush(run)
+
+    def _take(self, command: Command) -> None:
+        match command:
+            case ev.AskPlan(reasons=reasons) if reasons:
+                self._notes.append(f"replanning, {'; '.join(reasons)}")
+            case ev.Adopt(plan=plan):
+                self._n_plans += 1
+                name = f"replan {self._n_plans - 1}" if self._n_plans > 1 else "plan"
+                lanes = [lane(a.args, self.problem) or "" for a in plan.actions]
+                shares = ", ".join(f"{a} {lanes.count(a)}" for a in self._agents)
+                self._notes.append(f"{name}: {plural(len(lanes), 'action')} ({shares.strip()})")
+            case ev.Dispatch():
+                self._cell(command.agent, f"{_BEGUN} {self._short(str(command), command.agent)}")
+            case ev.Tell(_, _, message):
+                self._notes.append(message)
+
+    @property
+    def _agents(self) -> list[str]:
+        taking = robots(self.problem)
+        return sorted(self.problem.agents, key=lambda a: a not in taking) or [""]
+
+    def _cell(self, agent: str, text: str) -> None:
+        if agent in self._cells:
+            self._print_cells("")
+        self._cells[agent] = text
+
+    def _short(self, words: str, agent: str) -> str:
+        inner = words[1:-1].split(" ")
+        if agent in inner[1:]:
+            inner.remove(agent)
+        return " ".join(inner)
+
+    def _flush(self, run: Run) -> None:
+        """Print what has come together, after the time that has passed."""
+        if not (self._cells or self._notes):
+            return
+        if self.speed is not None:
+            time.sleep(max(0.0, run.t - self._shown_s) / self.speed)
+        self._shown_s = run.t
+        when = f"{run.t:g} s"
+        if not self.problem.domain.is_temporal:
+            when = f"{run.t:g}"
+        if self._cells:
+            self._print_cells(when, self._progress(run))
+        for note in self._notes:
+            self._line(when, f"· {note}")
+        self._notes = []
+
+    def _progress(self, run: Run) -> str:
+        if run.pursuit is None:
+            return ""
+        n, whole = len(run.pursuit.ended), len(run.pursuit.plan.actions)
+        return f"{'█' * n}{'░' * (whole - n)} {n}/{whole}" if whole <= 30 else f"{n}/{whole}"
+
+    def _print_cells(self, when: str, progress: str = "") -> None:
+        width = self._width()
+        cells = "".join(f"{self._cells.get(agent, ''):<{width}}" for agent in self._agents)
+        self._line(when, f"{cells}{progress}")
+        self._cells = {}
+
+    def _width(self) -> int:
+        room = (shutil.get_terminal_size((110, 24)).columns - 30) // len(self._agents)
+        return max(_WIDTH[0], min(_WIDTH[1], room))
+
+    def _line(self, when: str, text: str) -> None:
+        if not self._is_headed:
+            self._is_headed = True
+            names = "".join(f"{agent:<{self._width()}}" for agent in self._agents)
+            output.result(f"{'':9}  {names}done".rstrip())
+        output.result(f"{when:>9}  {text}".rstrip())
+
+    def finish(self, run: Run, row: Row) -> None:
+        """Print how the run ended and what was counted."""
+        why = f" ({run.why})" if run.why else ""
+        unit = " s" if self.problem.domain.is_temporal else " steps"
+        reasons = {
+            "change": row.replans_change, "failure": row.replans_failure,
+            "deviation": row.replans_deviation,
+        }  # fmt: skip
+        shown = ", ".join(f"{n} {kind}" for kind, n in reasons.items() if n)
+        failed = row.failed_human + row.failed_robot
+        output.result(
+            f"\n{row.ending}{why}: {row.makespan_s:g}{unit}, {plural(row.replans, 'replan')}"
+            f"{f' ({shown})' if shown else ''}, {plural(row.plans_confirmed, 'plan')} confirmed, "
+            f"{row.executed_human} human and {row.executed_robot} robot actions, {failed} failed"
+        )
+
+
+def _value(value: object) -> str:
+    return number_text(value) if not isinstance(value, float) else f"{value:g}"  # type: ignore[arg-type]

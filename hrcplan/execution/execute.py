@@ -1,0 +1,148 @@
+"""Carry one problem out, with a journal if wanted: what ``hrcplan execute`` does, as functions."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from hrcplan.agents import profile as profile_named
+from hrcplan.errors import UsageError
+from hrcplan.execution.driver import Watch
+from hrcplan.execution.events import Command, Event
+from hrcplan.execution.humans import STEADY, Change, nature_for
+from hrcplan.execution.journal import Journal, Setting, Writer, read_journal
+from hrcplan.execution.replanner import DEFAULT_TIMEOUT_S, Replanner
+from hrcplan.execution.row import Row
+from hrcplan.execution.run import Run
+from hrcplan.execution.simulate import Spec, make_engine
+from hrcplan.execution.timeline import Timeline
+from hrcplan.facade import load_problem
+from hrcplan.pddl.model import FluentKey, Number, Problem
+
+
+@dataclass(frozen=True, slots=True)
+class Executed:
+    """A finished run: its row, its last state, what happened, and whether it was resumed."""
+
+    row: Row
+    run: Run
+    timeline: Timeline
+    n_resumed: int = 0
+
+
+def execute(
+    domain: str,
+    problem: str,
+    *,
+    profile: str = "hrcplan",
+    human: str = STEADY,
+    changes: Sequence[Change] = (),
+    values: Mapping[FluentKey, Number] | None = None,
+    model: bool = True,
+    planner: str = "auto",
+    seed: int | str = 1,
+    replan_limit: int | None = None,
+    journal: Path | None = None,
+    resume: bool = False,
+) -> Executed:
+    """Return what came of a problem, given by paths or shipped names, in a simulated world.
+
+    Args:
+        domain: A path or a shipped name.
+        problem: A path or a shipped name.
+        profile: ``paper``, ``hrcplan``, or a ``.toml`` file.
+        human: ``steady``, ``case1``, ``case2``, … (see ``humans.spec_of``), or ``module:Class``.
+        changes: Changes of agent state or of facts at given times.
+        values: Function values to put into the initial state.
+        model: Whether what is sensed is used.
+        planner: Asked first; the others take over if it fails.
+        seed: Everything random follows from it.
+        replan_limit: Instead of the profile's.
+        journal: Where to write the run down.
+        resume: Go on with the run in the journal, if there is one.
+
+    Raises:
+        InputError: if a file is missing or has faults.
+        UsageError: if a name is unknown or a value out of range.
+
+    >>> execute("transport", "two-boxes").row.ending
+    'goal reached'
+    """
+    loaded = load_problem(domain, problem).with_values(values or {})
+    setting = make_setting(loaded, profile=profile, human=human, changes=changes, model=model,
+                           planner=planner, seed=seed, replan_limit=replan_limit)  # fmt: skip
+    return carry_out(setting, journal=journal, resume=resume)
+
+
+def make_setting(
+    problem: Problem, *, profile: str = "hrcplan", human: str = STEADY,
+    changes: Sequence[Change] = (), model: bool = True, planner: str = "auto",
+    seed: int | str = 1, replan_limit: int | None = None, timeout_s: float = DEFAULT_TIMEOUT_S,
+) -> Setting:  # fmt: skip
+    """Return everything that a run depends on; what chance decides is drawn here.
+
+    Raises:
+        UsageError: if a name is unknown or a value out of range.
+    """
+    chosen = profile_named(profile).limited_to(replan_limit)
+    planners = tuple(planner.split(",")) if not planner.startswith("cmd:") else (planner,)
+    engine = make_engine(problem, chosen, model, Replanner(problem, planners, timeout_s))
+    nature = nature_for(human, Spec(seed=seed), engine, changes)
+    return Setting(problem, chosen, model, nature, planners)
+
+
+def carry_out(
+    setting: Setting, *, journal: Path | None = None, resume: bool = False,
+    timeout_s: float = DEFAULT_TIMEOUT_S, watch: Watch | None = None,
+) -> Executed:  # fmt: skip
+    """Return the finished run of a setting; a resumed one takes the setting of its journal.
+
+    Raises:
+        InputError: if the journal is damaged or of another run.
+        UsageError: if it exists and ``resume`` was not asked for, or cannot be written.
+    """
+    known = _known(journal, resume)
+    if known is not None:
+        setting = _same_problem(known, setting)
+    writer = None
+    if journal is not None:
+        writer = Writer.begin(journal, setting) if known is None else Writer.resume(known)
+    planner = Replanner(setting.problem, setting.planners, timeout_s)
+    engine = make_engine(setting.problem, setting.profile, setting.sensing, planner)
+    timeline = Timeline()
+
+    def both(run: Run, event: Event, commands: tuple[Command, ...]) -> None:
+        timeline.watch(run, event, commands)
+        if watch is not None:
+            watch(run, event, commands)
+
+    run = engine.run(setting.nature, writer, both)
+    row = engine.row(run)
+    if writer is not None:
+        writer.close(row)
+    return Executed(row, run, timeline, 0 if known is None else len(known.lines))
+
+
+def _known(path: Path | None, resume: bool) -> Journal | None:
+    """Return the journal to go on with; None to begin anew."""
+    if not resume:
+        return None
+    if path is None:
+        raise UsageError("to resume a run its journal is needed", hint="--journal FILE --resume")
+    if not path.exists():
+        return None
+    known = read_journal(path)
+    if known.is_empty:
+        path.unlink()  # killed before the first line was complete
+        return None
+    return known
+
+
+def _same_problem(known: Journal, setting: Setting) -> Setting:
+    found = known.setting()
+    ours, theirs = setting.problem, found.problem
+    if (ours.domain.name, ours.name) != (theirs.domain.name, theirs.name):
+        message = f"the journal is of {theirs.domain.name}/{theirs.name}"
+        raise UsageError(message, path=str(known.path))
+    return found

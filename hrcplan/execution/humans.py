@@ -1,0 +1,93 @@
+"""Simulated humans by name: how they change, and what of what they do fails."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from importlib import import_module
+from typing import Protocol
+
+from hrcplan.errors import UsageError
+from hrcplan.execution.simulate import RANDOM, Engine, Spec, nature_of
+from hrcplan.execution.worlds.simulated import (
+    ATTEMPT,
+    DRAWS,
+    SENSED,
+    FactChange,
+    Nature,
+    StateChange,
+)
+from hrcplan.pddl.model import Problem
+from hrcplan.pddl.source import nearest
+
+STEADY = "steady"
+CASES = {STEADY: 0, "case1": 1, "case2": 2}
+OPTIONS = (*CASES, RANDOM, ATTEMPT, *SENSED)
+Change = StateChange | FactChange
+
+
+def spec_of(text: str, spec: Spec) -> Spec:
+    """Return a specification with what ``text`` says of the human, as in ``case2,random``.
+
+    ``steady`` (nothing changes by chance), ``case1`` or ``case2``; ``random``: the change comes
+    before a random action; ``attempt``: outcomes are drawn at every attempt; ``before``,
+    ``during`` or ``after``: when the change is sensed.
+
+    Raises:
+        UsageError: if a word is none of these.
+    """
+    for word in text.split(","):
+        if word in CASES:
+            spec = replace(spec, case=CASES[word])
+        elif word == RANDOM:
+            spec = replace(spec, when=RANDOM)
+        elif word in SENSED:
+            spec = replace(spec, sensed=word)
+        elif word in DRAWS:
+            spec = replace(spec, draws=word)
+        else:
+            hint = nearest(word, OPTIONS) or f"words: {', '.join(OPTIONS)}"
+            raise UsageError(f"there is no human '{word}'", code="unknown-human", hint=hint)
+    return spec
+
+
+class Human(Protocol):
+    """A human of somebody's own, named as ``module:Class``."""
+
+    def nature(self, problem: Problem, seed: object) -> Nature:
+        """Return how the world behaves with this human."""
+
+
+def nature_for(text: str, spec: Spec, engine: Engine, changes: Sequence[Change] = ()) -> Nature:
+    """Return the nature that a human brings along, with more changes at given times.
+
+    A change of agent state is checked as a sensed value is.
+
+    Raises:
+        UsageError: if there is no such human, a changed element is unknown, or its value is not
+            in [0, 10].
+    """
+    if ":" in text:
+        nature = _load(text).nature(engine.monitor.problem, spec.seed)
+    else:
+        nature = nature_of(spec_of(text, spec), engine)
+    agents = engine.monitor.agents
+    checked = tuple(
+        StateChange(c.t, {key: agents.check(key, value) for key, value in c.values.items()})
+        for c in changes
+        if isinstance(c, StateChange)
+    )
+    accidents = tuple(c for c in changes if isinstance(c, FactChange))
+    return replace(
+        nature, changes=(*nature.changes, *checked), accidents=(*nature.accidents, *accidents)
+    )
+
+
+def _load(text: str) -> Human:
+    module, _, name = text.partition(":")
+    try:
+        human: Human = getattr(import_module(module), name)()
+    except (ImportError, AttributeError, TypeError) as error:
+        message = f"human '{text}' cannot be loaded: {error}"
+        raise UsageError(message, code="unknown-human") from error
+    return human

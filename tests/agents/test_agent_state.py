@@ -1,0 +1,114 @@
+"""Agent state as data of the PDDL, profiles as data of a file, and what failures teach."""
+
+import math
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+from hrcplan.agents import AgentModel, profile
+from hrcplan.agents.memory import Memory
+from hrcplan.agents.state import combined, failure_probability, sensed_value
+from hrcplan.errors import InputError, UsageError
+from hrcplan.facade import load_problem
+
+MOTIVATION = ("motivation", "human")
+CAPACITY = ("capacity", "human", "wp4")
+KNOWLEDGE = ("knowledge", "human")
+
+
+@pytest.fixture(scope="module")
+def agents() -> AgentModel:
+    return AgentModel(load_problem("transport", "two-boxes"))
+
+
+def test_elements_come_from_the_costs(agents: AgentModel) -> None:
+    assert agents.robots == {"robot"}
+    assert len(agents.elements("human")) == 8  # knowledge, motivation, capacity at six waypoints
+    assert set(agents.touching("move", ("human", "wp1", "wp4"))) == {
+        KNOWLEDGE, MOTIVATION, CAPACITY,
+    }  # fmt: skip
+
+
+def test_kitchen_binds_the_same_elements_to_other_actions() -> None:
+    agents = AgentModel(load_problem("kitchen", "salad-greek"))
+    assert set(agents.touching("serve", ("human",))) == {KNOWLEDGE, MOTIVATION}
+    assert ("capacity", "human", "bowl") in agents.touching("mix", ("human", "oil", "bowl"))
+
+
+@pytest.mark.parametrize(("value", "p"), [(0, 0), (1, 0), (Fraction(3, 2), 0.15), (8, 0.8), (10, 1)])
+def test_failure_probability(value: Fraction, p: float) -> None:
+    assert failure_probability(value, 1) == pytest.approx(p)
+
+
+def test_causes_combine() -> None:
+    assert combined([0.2, 0.5]) == pytest.approx(1 - 0.8 * 0.5)
+    assert combined([]) == 0
+
+
+@pytest.mark.parametrize("value", [-0.1, 10.1, math.nan, math.inf])
+def test_values_outside_the_scale_are_refused(value: float) -> None:
+    with pytest.raises(UsageError, match=r"no value in \[0, 10\]"):
+        sensed_value(value)
+
+
+def test_unknown_element_is_refused(agents: AgentModel) -> None:
+    with pytest.raises(UsageError, match="no agent state"):
+        agents.check(("mood", "human"), 3)
+
+
+def test_paper_tells_the_planner_what_is_sensed(agents: AgentModel) -> None:
+    told = profile("paper").told(agents, {MOTIVATION: 9}, Memory().failed([KNOWLEDGE]))
+    assert told[MOTIVATION] == 9
+    assert told[KNOWLEDGE] == 1
+    assert set(told) == set(agents.low)
+
+
+def test_hrcplan_tells_log_losses_and_what_failed(agents: AgentModel) -> None:
+    own = profile("hrcplan")
+    told = own.told(agents, {MOTIVATION: 5, CAPACITY: 10}, Memory())
+    assert float(told[MOTIVATION]) == pytest.approx(1 - 10 * math.log(0.5), abs=0.01)
+    assert told[CAPACITY] == 61  # low + cap
+    assert own.told(agents, {MOTIVATION: 5}, Memory().failed([MOTIVATION]))[MOTIVATION] == 61
+
+
+def test_memory_narrows_the_cause_down() -> None:
+    memory = Memory().failed([KNOWLEDGE, MOTIVATION])
+    assert memory.blame() == {KNOWLEDGE: 0.5, MOTIVATION: 0.5}
+    assert memory.went_well([KNOWLEDGE]).blame() == {MOTIVATION: 1.0}
+    assert memory.failed([MOTIVATION, CAPACITY]).blame() == {MOTIVATION: 1.0}
+    assert memory.sensed(MOTIVATION).blame() == {KNOWLEDGE: 1.0}
+
+
+def test_success_before_a_failure_clears_nobody() -> None:
+    assert Memory().went_well([MOTIVATION]).failed([MOTIVATION]).blame() == {MOTIVATION: 1.0}
+
+
+def test_profile_of_the_user(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text('[mine]\nvalues = "log"\nreplan_limit = 2\n')
+    assert (profile(str(path)).name, profile(str(path)).replan_limit) == ("mine", 2)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ('[a]\nvalue = "log"', "has no 'value'"),
+        ('[a]\nvalues = "cubic"', "values must be sensed or log"),
+        ('[a]\nreplan_limit = "many"', "bad profile"),
+        ("[a]\nreplan_limit = -1", "positive"),
+        ("nonsense", "cannot read"),
+        ("", "no .profile"),
+    ],
+)
+def test_bad_profiles_are_named(tmp_path: Path, text: str, words: str) -> None:
+    path = tmp_path / "bad.toml"
+    path.write_text(text)
+    with pytest.raises(InputError, match=words):
+        profile(str(path))
+
+
+def test_unknown_profile_lists_the_shipped_ones() -> None:
+    with pytest.raises(UsageError) as error:
+        profile("nature")
+    assert "paper" in str(error.value.hint)
