@@ -22,6 +22,7 @@ COMMANDS = {
     "replay": "hrcplan.cli.replay",
     "check": "hrcplan.cli.check",
     "new-problem": "hrcplan.cli.new_problem",
+    "study": "hrcplan.cli.study",
     "planners": "hrcplan.cli.planners",
     "doctor": "hrcplan.cli.doctor",
 }
