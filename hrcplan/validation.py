@@ -282,8 +282,9 @@ def _check_duration(event: _Event, state: State) -> None:
         too_long = op != ">=" and over >= EPSILON_S
         too_short = op != "<=" and -over >= EPSILON_S
         if too_long or too_short:
-            lasts = f"lasts {op} {number_text(wanted)} s, not {number_text(event.duration)} s"
-            raise _BrokenError(event.step, f"{_shown(event)} {lasts}")
+            allowed = number_text(wanted) if op == "=" else f"{op} {number_text(wanted)}"
+            reason = f"{_shown(event)} lasts {allowed} s, not {number_text(event.duration)} s"
+            raise _BrokenError(event.step, reason)
 
 
 def _shown(event: _Event) -> str:

@@ -44,7 +44,7 @@ def built(checkout: Path, hook: str, target: Path) -> set[str]:
 
 def test_wheel_carries_code_types_and_pddl(checkout: Path, tmp_path: Path) -> None:
     names = built(checkout, "build_wheel", tmp_path)
-    assert {"hrcplan/__init__.py", "hrcplan/cli.py", "hrcplan/py.typed"} <= names
+    assert {"hrcplan/__init__.py", "hrcplan/cli/__init__.py", "hrcplan/py.typed"} <= names
     shipped = {name.removeprefix("hrcplan/_pddl/") for name in names if "/_pddl/" in name}
     assert shipped == pddl_files() != set()
     tops = {name.partition("/")[0] for name in names if ".dist-info/" not in name}

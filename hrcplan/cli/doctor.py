@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import platform
 from importlib import metadata
+from typing import Any
 
 import rich_click as click
 
@@ -17,26 +18,55 @@ PACKAGES = ("unified-planning", "up-fast-downward", "up-enhsp", "kairos-planner"
 @click.command("doctor")
 @output.common_options
 def command() -> int:
-    """Say what is installed and what to install; exit 5 if a planner is missing."""
+    """Say what is installed and what to install; exit 5 if a planner of ours cannot run."""
     from hrcplan.planners import registry
 
-    versions = {name: _version(name) for name in PACKAGES}
-    missing = {name: registry.make(name).missing() for name in registry.names()}
+    planners = {name: registry.make(name).missing() for name in registry.names()}
+    health = {
+        "hrcplan": __version__,
+        "python": platform.python_version(),
+        "platform": platform.platform(),
+        "java": _java(),
+        "packages": {name: _version(name) for name in PACKAGES},
+        "planners": {name: _state(why) for name, why in planners.items()},
+        "engines": {name: _state(why) for name, why in _engines().items()},
+    }
     if output.JSON:
-        output.document({
-            "hrcplan": __version__, "python": platform.python_version(),
-            "platform": platform.platform(), "java": _java(), "packages": versions,
-            "planners": {name: {"present": why is None, "missing": why}
-                         for name, why in missing.items()},
-        })  # fmt: skip
+        output.document(health)
     else:
-        output.result(f"hrcplan {__version__}, Python {platform.python_version()}")
-        output.result(f"java            {_java() or 'not found: install hrcplan[java]'}")
-        for name, version in versions.items():
-            output.result(f"{name:18} {version or '-'}")
-        for name, why in missing.items():
-            output.result(f"planner {name:14} {'ready' if why is None else why}")
-    return 5 if any(missing.values()) else 0
+        _print(health)
+    return 5 if any(planners.values()) else 0
+
+
+def _print(health: dict[str, Any]) -> None:
+    output.result(f"hrcplan {health['hrcplan']}, Python {health['python']}, {health['platform']}")
+    output.result(
+        f"java: {health['java'] or 'not found; install hrcplan[java], or a Java runtime'}"
+    )
+    output.result("\npackages")
+    for name, version in health["packages"].items():
+        output.result(f"  {name:18} {version or '-'}")
+    for title, key in (
+        ("planners", "planners"),
+        ("unified-planning engines, as up:NAME", "engines"),
+    ):
+        output.result(f"\n{title}")
+        for name, state in health[key].items():
+            output.result(f"  {name:18} {'ready' if state['present'] else state['missing']}")
+
+
+def _state(missing: str | None) -> dict[str, Any]:
+    return {"present": missing is None, "missing": missing}
+
+
+def _engines() -> dict[str, str | None]:
+    from hrcplan.errors import PlannerError
+    from hrcplan.planners.up import engines
+
+    try:
+        return dict(sorted(engines().items()))
+    except PlannerError as error:
+        return {"unified-planning": error.message}
 
 
 def _version(name: str) -> str | None:

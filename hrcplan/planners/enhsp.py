@@ -20,7 +20,7 @@ from hrcplan.errors import LimitError, MissingPlannerError, PlannerError, Unsupp
 from hrcplan.pddl.dialect import with_binary_sums, with_effects
 from hrcplan.pddl.model import TOTAL_COST, TRUE, Effect, Function, Number, Problem, functions_in
 from hrcplan.pddl.scope import to_number
-from hrcplan.pddl.write import domain_text, problem_text
+from hrcplan.pddl.write import decimal_text, domain_text, problem_text
 from hrcplan.planners.answer import Answer, Card, Request, Status
 from hrcplan.planners.lowering import Lowered, lower
 from hrcplan.planners.process import Ended, Finished, Limits, run
@@ -31,8 +31,7 @@ _JAVA = "java-runtime/bin/java"
 # As in its unified-planning engines: A* with h-max over redundant constraints, greedy with h-add.
 _PROOF = ("-s", "WAStar", "-h", "hrmax")
 _FIRST = ("-s", "gbfs", "-h", "hadd")
-_RESERVE = 0.2
-"""Part of the time that is kept for a plan without proof."""
+_RESERVE_S = 5.0  # kept for a plan without proof, but never more than half of the time
 _JVM_BYTES = 200 << 20  # what a Java runtime needs besides its heap
 
 
@@ -86,7 +85,8 @@ class Enhsp:
         given = _input(request)
         if request.any_plan:
             return _attempt(request, given, _FIRST, request.time_left_s)
-        answer = _attempt(request, given, _PROOF, request.time_left_s * (1 - _RESERVE))
+        reserve_s = min(_RESERVE_S, request.time_left_s / 2)
+        answer = _attempt(request, given, _PROOF, request.time_left_s - reserve_s)
         if answer.status is Status.UNSOLVED and request.time_left_s > 0:
             answer = _attempt(request, given, _FIRST, request.time_left_s)
         return answer
@@ -115,7 +115,9 @@ def _input(request: Request) -> _Input:
     problem = request.problem
     domain = problem.domain
     plain_metric = problem.metric == Function(TOTAL_COST) and not problem.maximize
-    if domain.is_temporal or domain.changed_functions - {TOTAL_COST} or not plain_metric:
+    written = all(Fraction(decimal_text(v)) == v for v in problem.values.values())
+    numeric = bool(domain.changed_functions - {TOTAL_COST})
+    if domain.is_temporal or numeric or not plain_metric or not written:
         with contextlib.suppress(*(() if domain.is_temporal else (UnsupportedError, LimitError))):
             lowered = lower(request.task)
             texts = lowered.domain_text, lowered.problem_text
@@ -125,8 +127,8 @@ def _input(request: Request) -> _Input:
         kept = with_effects(domain, lambda effect: effect.target.name != TOTAL_COST)
         problem = replace(problem, domain=kept, metric=None, maximize=False)
     simple = all(_is_simple(problem, e) for a in problem.domain.actions for e in a.effects)
-    written = with_binary_sums(problem)
-    texts = domain_text(written.domain), problem_text(written)
+    binary = with_binary_sums(problem)
+    texts = domain_text(binary.domain), problem_text(binary)
     return _Input(*texts, None, plain_metric and not moving, simple)
 
 

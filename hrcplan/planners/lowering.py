@@ -11,15 +11,14 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import reduce
 from math import lcm
-from operator import or_
 
 from hrcplan.errors import PlanFormatError, UnsupportedError
 from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, Number
 from hrcplan.pddl.write import decimal_text
+from hrcplan.planners.one_instant import unsure_changes
 from hrcplan.plans import Plan, PlannedAction, parse_plan
-from hrcplan.task import Change, GroundAction, Task
+from hrcplan.task import GroundAction, Task
 from hrcplan.task.conditions import Test
 from hrcplan.task.numbers import linear
 
@@ -31,7 +30,6 @@ _FUNCTIONS = "  (:functions (total-cost) - number)\n"
 _START = "    (= (total-cost) 0)\n"
 _METRIC = "  (:metric minimize (total-cost))\n"
 _ODD = re.compile(r"[^a-z0-9_-]")
-_ALWAYS: Test = (0, 0)
 
 
 @dataclass(frozen=True)
@@ -48,6 +46,7 @@ class Lowered:
         exact_for_metric: Whether the lowered cost is the problem's metric; False where the metric
             of a temporal problem looks at time, or where a temporal problem has no metric.
         conditional: Whether some effect depends on the state (``when``).
+        facts: Lowered names of the task's facts, in bit order.
     """
 
     domain_text: str
@@ -58,6 +57,7 @@ class Lowered:
     offset: Number
     exact_for_metric: bool
     conditional: bool
+    facts: tuple[str, ...]
 
     def plan(self, text: str) -> Plan:
         """Return a planner's plan for the lowered task in the names of the task itself.
@@ -125,6 +125,7 @@ def lower(task: Task) -> Lowered:
         offset=metric.offset,
         exact_for_metric=metric.exact,
         conditional=any(action.conditional for action in task.actions),
+        facts=tuple(facts),
     )
 
 
@@ -259,45 +260,7 @@ class _Text:
         yield from self._atoms(action.adds)
         yield from (f"(not {atom})" for atom in self._atoms(action.deletes))
         if action.conditional:
-            for change in _conditional(action):
+            for change in unsure_changes(action):
                 parts = [*self._atoms(change.adds)]
                 parts += [f"(not {atom})" for atom in self._atoms(change.deletes & ~change.adds)]
                 yield f"(when {self._tests(change.tests)} (and {' '.join(parts)}))"
-
-
-def _conditional(action: GroundAction) -> Iterator[Change]:
-    """Yield the changes that depend on the state, all of them read in the state before the action.
-
-    Raises:
-        UnsupportedError: where that state does not decide them.
-    """
-    sure = [c for c in action.at_start if c.tests == (_ALWAYS,)]
-    unsure = [c for c in action.at_start if c.tests != (_ALWAYS,)]
-    adds, deletes = _union(c.adds for c in sure), _union(c.deletes for c in sure)
-    maybe = _union(c.adds for c in unsure)
-    touched = maybe | _union(c.deletes for c in unsure)
-    yield from unsure
-    for change in action.at_end:
-        always = change.tests == (_ALWAYS,)
-        # One instant for both: an add of the start would win over a delete of the end.
-        if change.deletes & (maybe if always else maybe | adds):
-            raise UnsupportedError(f"the end of {action} undoes what its start may have done")
-        if any(mask & touched for mask, _ in change.tests):
-            raise UnsupportedError(f"the end of {action} depends on what its start may have done")
-        tests = () if always else [_before(test, adds, deletes) for test in change.tests]
-        known = tuple(test for test in tests if test is not None)
-        if known:
-            yield Change(change.adds, change.deletes, known)
-
-
-def _union(bits: Iterable[int]) -> int:
-    return reduce(or_, bits, 0)
-
-
-def _before(test: Test, adds: int, deletes: int) -> Test | None:
-    """Return what must hold before facts are added and deleted for ``test`` to hold after it."""
-    mask, value = test
-    if value & deletes or (mask & ~value) & adds:
-        return None
-    known = adds | deletes
-    return mask & ~known, value & ~known

@@ -28,6 +28,7 @@ from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.planners.answer import Answer, Card, Request, Status
 from hrcplan.planners.lowering import Lowered, lower
 from hrcplan.planners.process import Ended, Finished, Limits, run
+from hrcplan.planners.up_table import Build, Table, table
 from hrcplan.plans import parse_plan
 
 if TYPE_CHECKING:
@@ -76,7 +77,7 @@ class UnifiedPlanning:
         job: dict[str, Any] = {
             "engine": self._engine,
             "timeout_s": max(0.1, request.time_left_s - _MARGIN_S),
-            "forms": [[form.domain, form.problem] for form in forms],
+            "forms": [form.given for form in forms],
         }
         finished, reply = _call(job, Limits(request.time_left_s, request.memory_bytes))
         return self._answer(forms, finished, reply)
@@ -112,8 +113,7 @@ class UnifiedPlanning:
 class _Form:
     """One way to put the task. ``exact``: cheapest here means cheapest by the problem's metric."""
 
-    domain: str
-    problem: str
+    given: list[str] | Table
     lowered: Lowered | None
     exact: bool
 
@@ -123,7 +123,8 @@ def _forms(request: Request) -> Iterator[_Form]:
     temporal = problem.domain.is_temporal
     plain = problem.metric == Function(TOTAL_COST) and not problem.maximize
     free = problem if plain else _without_costs(problem)
-    lifted = _Form(domain_text(free.domain), problem_text(free), None, plain and not temporal)
+    texts = [domain_text(free.domain), problem_text(free)]
+    lifted = _Form(texts, None, plain and not temporal)
     if temporal:
         yield lifted
     try:
@@ -132,8 +133,8 @@ def _forms(request: Request) -> Iterator[_Form]:
         lowered = None
     if lowered is not None:
         exact = lowered.exact_for_metric and not temporal
-        yield _Form(lowered.domain_text, lowered.problem_text, lowered, exact)
-        yield _Form(*lowered.without_costs(), lowered, False)
+        yield _Form(table(request.task, lowered, costs=True), lowered, exact)
+        yield _Form(table(request.task, lowered, costs=False), lowered, False)
     if not temporal:
         yield lifted
 
@@ -213,7 +214,20 @@ def child() -> None:
 def _survey() -> dict[str, str | None]:
     from unified_planning.engines.factory import DEFAULT_ENGINES
 
-    return {name: _fault(name) for name in DEFAULT_ENGINES}
+    return {name: _fault(name) for name in DEFAULT_ENGINES if _may_plan(name)}
+
+
+def _may_plan(name: str) -> bool:
+    """Return whether an engine solves problems, as far as one can tell if it does not load."""
+    from importlib import import_module
+
+    from unified_planning.engines.factory import DEFAULT_ENGINES
+
+    module, attribute = DEFAULT_ENGINES[name]
+    try:
+        return bool(getattr(import_module(module), attribute).is_oneshot_planner())
+    except Exception:  # noqa: BLE001 - a stranger's import may raise anything
+        return True
 
 
 def _fault(name: str) -> str | None:
@@ -246,9 +260,9 @@ def _solve(job: Mapping[str, Any]) -> dict[str, Any]:
     if not engine.is_oneshot_planner():
         return {"unsupported": "it does not solve problems by itself"}
     faults: list[str] = []
-    for form, (domain, problem_) in enumerate(job["forms"]):
+    for form, given in enumerate(job["forms"]):
         try:
-            problem = _read(domain, problem_)
+            problem = _build(given)
         except Exception as error:  # noqa: BLE001 - pyparsing's and UP's own kinds
             faults.append(str(error))
             continue
@@ -256,6 +270,12 @@ def _solve(job: Mapping[str, Any]) -> dict[str, Any]:
             return {"form": form, **_run_engine(environment, name, problem, job["timeout_s"])}
         faults.append(", ".join(sorted(problem.kind.features - engine.supported_kind().features)))
     return {"unsupported": "; ".join(dict.fromkeys(faults))}
+
+
+def _build(given: list[str] | Table) -> Any:
+    from unified_planning import model
+
+    return _read(*given) if isinstance(given, list) else Build(model, given).problem
 
 
 def _run_engine(environment: Any, name: str, problem: Any, timeout_s: float) -> dict[str, Any]:

@@ -15,7 +15,6 @@ from hrcplan.pddl.model import (
     Formula,
     Number,
     functions_in,
-    number_text,
 )
 from hrcplan.pddl.semantics import (
     Binding,
@@ -38,7 +37,7 @@ Reached = Mapping[FluentKey, Collection[Number]]
 
 def value_fact(key: FluentKey, value: Number) -> Fact:
     """Return the fact that says that a changing function has a value."""
-    return ("=", *key, number_text(value))
+    return ("=", *key, str(value))
 
 
 @dataclass(frozen=True, slots=True)

@@ -197,6 +197,6 @@ def test_twenty_thousand_facts_are_read_in_seconds(tmp_path: Path) -> None:
         f" - place)\n(:init (at robot depot) (= (effort robot) 1)\n{facts})\n"
         "(:goal (at robot place-1)))"
     )
-    started = time.perf_counter()
+    started = time.process_time()
     assert codes(DOMAIN, path) == []
-    assert time.perf_counter() - started < 3
+    assert time.process_time() - started < 3

@@ -79,9 +79,9 @@ def test_mutated_files_give_typed_errors_only(pair: tuple[Path, Path], data: st.
         copies = [Path(folder, name) for name in ("domain.pddl", "problem.pddl")]
         for copy, text in zip(copies, texts, strict=True):
             copy.write_bytes(text)
-        started = time.perf_counter()
+        started = time.process_time()
         diagnostics = check_files(copies)
-        assert time.perf_counter() - started < SLOWEST_S
+        assert time.process_time() - started < SLOWEST_S
         for fault in diagnostics:
             assert is_inside(fault, texts[copies.index(Path(fault.path))]), fault
             assert len(str(fault).splitlines()) == 1

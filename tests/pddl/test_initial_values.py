@@ -109,9 +109,9 @@ def test_many_gaps_are_told_in_a_few_lines(tmp_path: Path) -> None:
         "robot - agent", f"robot - agent {objects} - place"
     )
     problem.write_text(text)
-    started = time.perf_counter()
+    started = time.process_time()
     found = check_files([domain, problem])
-    assert time.perf_counter() - started < 3
+    assert time.process_time() - started < 3
     assert len(found) == 21
     assert any("more functions are not set" in d.message for d in found)
 
@@ -130,9 +130,9 @@ def test_conditions_that_never_hold_are_given_up_in_time(body: str, tmp_path: Pa
     domain.write_text(DOMAIN.format(body=body, kind=""))
     text = PROBLEM.format(init="", goal="(open)", metric="")
     problem.write_text(text.replace("(:objects", f"(:objects {places} - place"))
-    started = time.perf_counter()
+    started = time.process_time()
     assert check_files([domain, problem]) == ()
-    assert time.perf_counter() - started < 3
+    assert time.process_time() - started < 3
 
 
 DURATION = (

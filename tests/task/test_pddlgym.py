@@ -1,0 +1,59 @@
+"""The kitchen, without its costs, against pddlgym on random walks."""
+
+from __future__ import annotations
+
+import random
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from hrcplan.facade import load_problem
+from hrcplan.pddl.write import domain_text, problem_text
+from hrcplan.task import Task
+
+pytestmark = [
+    pytest.mark.skipif(
+        sys.version_info >= (3, 12), reason="pddlgym needs a Pillow without wheels for this Python"
+    ),
+    pytest.mark.filterwarnings("ignore"),
+]
+
+
+def named(literal: Any) -> tuple[str, ...]:
+    return (literal.predicate.name, *(entity.name for entity in literal.variables))
+
+
+@pytest.mark.parametrize("name", ["oatmeal-apple", "smoothie-green", "stew-lentil"])
+def test_random_walk(name: str, tmp_path: Path) -> None:
+    from pddlgym.core import PDDLEnv
+
+    problem = load_problem("kitchen", name)
+    (tmp_path / "problems").mkdir()
+    (tmp_path / "domain.pddl").write_text(domain_text(problem.domain, strip_costs=True))
+    (tmp_path / "problems" / "p.pddl").write_text(problem_text(problem, strip_costs=True))
+    world = PDDLEnv(
+        str(tmp_path / "domain.pddl"),
+        str(tmp_path / "problems"),
+        operators_as_actions=True,
+        dynamic_action_space=True,
+    )
+    task = Task(problem)
+    there, _ = world.reset()
+    here = task.initial
+    chance = random.Random(name)
+    for _ in range(25):
+        offered = {named(a): a for a in world.action_space.all_ground_literals(there)}
+        ours = {(task.actions[i].name, *task.actions[i].args): i for i in task.applicable(here)}
+        assert ours.keys() <= offered.keys()
+        for extra in offered.keys() - ours.keys():  # only what changes nothing
+            index = task.find(extra[0], extra[1:])
+            assert all(task.successor(here, i) == here for i in index)
+        chosen = chance.choice(sorted(ours))
+        there, _, done, *_ = world.step(offered[chosen])
+        here = task.successor(here, ours[chosen])
+        assert {fact for fact in map(named, there.literals) if fact in task.bits} == set(
+            task.facts_of(here)
+        )
+        assert done == task.is_goal(here)
