@@ -22,7 +22,16 @@ from hrcplan.pddl.model import (
     Problem,
     formula_functions,
 )
-from hrcplan.pddl.semantics import Binding, State, Undefined, bind, changes, holds, unmet
+from hrcplan.pddl.semantics import (
+    Binding,
+    State,
+    Undefined,
+    Values,
+    bind,
+    changes,
+    holds,
+    unmet,
+)
 from hrcplan.plans import PlannedAction, lane, occupied
 from hrcplan.task.numbers import agent_state_functions
 
@@ -127,6 +136,14 @@ class Acting:
             return unmet(formula, state, step.binding, self.problem)
         except Undefined as error:
             return str(error)
+
+    def influence(self, step: Step, values: Values) -> dict[FluentKey, Number]:
+        """Return the agent-state values after an interaction that has its effect."""
+        effects = [e for e in step.schema.effects if e.target.name in self._agent_state]
+        if not effects:
+            return {}
+        full = State(frozenset(), {**self.problem.values, **values})
+        return dict(changes(effects, full, step.binding, self.problem).values)
 
     def begin(self, state: State, step: Step, duration: Number = 0) -> tuple[State, Undo]:
         """Return the state just after a step has begun, and how to take that back."""

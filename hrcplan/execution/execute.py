@@ -8,7 +8,7 @@ from pathlib import Path
 
 from hrcplan.agents import profile as profile_named
 from hrcplan.errors import UsageError
-from hrcplan.execution.driver import Watch
+from hrcplan.execution.driver import Asked, Watch
 from hrcplan.execution.events import Command, Event
 from hrcplan.execution.humans import STEADY, Change, nature_for
 from hrcplan.execution.journal import Journal, Setting, Writer, read_journal
@@ -95,8 +95,11 @@ def make_setting(
 def carry_out(
     setting: Setting, *, journal: Path | None = None, resume: bool = False,
     timeout_s: float = DEFAULT_TIMEOUT_S, watch: Watch | None = None,
+    planner: Asked | None = None,
 ) -> Executed:  # fmt: skip
     """Return the finished run of a setting; a resumed one takes the setting of its journal.
+
+    ``planner`` answers instead of the planners that the setting names.
 
     Raises:
         InputError: if the journal is damaged or of another run.
@@ -108,8 +111,8 @@ def carry_out(
     writer = None
     if journal is not None:
         writer = Writer.begin(journal, setting) if known is None else Writer.resume(known)
-    planner = Replanner(setting.problem, setting.planners, timeout_s)
-    engine = make_engine(setting.problem, setting.profile, setting.sensing, planner)
+    answering = planner or Replanner(setting.problem, setting.planners, timeout_s)
+    engine = make_engine(setting.problem, setting.profile, setting.sensing, answering)
     timeline = Timeline()
 
     def both(run: Run, event: Event, commands: tuple[Command, ...]) -> None:

@@ -89,6 +89,7 @@ def _nature_to_json(nature: Nature) -> dict[str, Any]:
         "seed": nature.seed, "changes": changes, "accidents": accidents, "sensed": nature.sensed,
         "draws": nature.draws,
         "can_fail": None if nature.can_fail is None else sorted(nature.can_fail),
+        "stretch": list(nature.stretch),
     }  # fmt: skip
 
 
@@ -103,6 +104,7 @@ def _nature(table: Mapping[str, Any]) -> Nature:
             for a in table["accidents"]
         ),
         table["sensed"], table["draws"], None if can_fail is None else frozenset(can_fail),
+        tuple(table["stretch"]),
     )  # fmt: skip
 
 
@@ -174,7 +176,7 @@ def _line(text: bytes, number: int, path: Path) -> dict[str, Any]:
 class Writer:
     """Appends to a journal; a run that is resumed first goes over the lines that are there.
 
-    Every line is on disk before the call returns.
+    Lines are written at once, and on disk before a decision is acted on.
     """
 
     def __init__(self, path: Path, known: Sequence[Mapping[str, Any]], n_bytes: int) -> None:
@@ -210,6 +212,8 @@ class Writer:
             InputError: if another decision stands in the journal at this place.
         """
         self._line({"decided": [to_json(command) for command in commands]})
+        if commands and not self.is_repeating:
+            os.fsync(self._file)  # what is acted on is on disk, with all that came before it
 
     def recorded_plan(self) -> ev.Planned | None:
         """Return the plan that was recorded at this place, if any."""
@@ -221,6 +225,7 @@ class Writer:
     def close(self, row: Row) -> None:
         """Write the row and close the file."""
         self._line({"row": row.to_json()})
+        os.fsync(self._file)
         os.close(self._file)
 
     def _line(self, content: Mapping[str, Any]) -> Mapping[str, Any]:
@@ -242,7 +247,6 @@ class Writer:
         data = text.encode()
         while data:
             data = data[os.write(self._file, data) :]
-        os.fsync(self._file)
 
     @classmethod
     def begin(cls, path: Path, setting: Setting) -> Writer:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
+from functools import cached_property
 
-from hrcplan.errors import HrcplanError
+from hrcplan.errors import HrcplanError, LimitError, UnsupportedError
 from hrcplan.execution import events as ev
 from hrcplan.execution.acting import Acting
 from hrcplan.pddl.model import Problem
@@ -19,26 +20,29 @@ DEFAULT_TIMEOUT_S = 20.0
 _Key = tuple[object, ...]
 
 
-@dataclass
 class Replanner:
     """Answers ``AskPlan``; equal questions are answered once.
 
-    ``planners`` are asked in turn, each for at most half of the time left. What one of them says
-    counts if it is a checked plan or a proof that there is none.
+    ``planners`` (names or objects; the built-in ones follow) are asked in turn, each for at most
+    half of the time left. What one of them says counts if it is a checked plan or a proof that
+    there is none. The task is grounded once, so ``exact`` keeps what it knows of it.
     """
 
-    problem: Problem
-    planners: Sequence[str | Planner] = ()
-    timeout_s: float = DEFAULT_TIMEOUT_S
-    n_asked: int = 0
-    wall_s: list[float] = field(default_factory=list)
-    _known: dict[_Key, ev.Planned] = field(default_factory=dict, repr=False)
-    _task: Task | None = field(default=None, repr=False)
+    def __init__(
+        self, problem: Problem, planners: Sequence[str | Planner] = (),
+        timeout_s: float = DEFAULT_TIMEOUT_S,
+    ) -> None:  # fmt: skip
+        self.problem = problem
+        self.timeout_s = timeout_s
+        self.planners = list(with_successors(planners))
+        self.wall_s: list[float] = []
+        self._acting = Acting(problem)
+        self._known: dict[_Key, ev.Planned] = {}
 
-    def __post_init__(self) -> None:
-        """Take the built-in planners where none is given."""
-        self.planners = with_successors(self.planners)
-        self._acting = Acting(self.problem)
+    @property
+    def n_asked(self) -> int:
+        """How often planners were asked, not counting questions that were known."""
+        return len(self.wall_s)
 
     def answer(self, ask: ev.AskPlan) -> ev.Planned:
         """Return a checked plan for what was asked, or none with the reason."""
@@ -49,36 +53,39 @@ class Replanner:
             begun = time.perf_counter()
             found = self._ask(ask)
             found = replace(found, wall_s=round(time.perf_counter() - begun, 6))
-            self.n_asked += 1
             self.wall_s.append(found.wall_s)
             if found.plan is not None:
                 self._known[key] = found
         return replace(found, t=ask.t)
 
     def _ask(self, ask: ev.AskPlan) -> ev.Planned:
-        problem = self._from_now(ask)
         deadline = time.monotonic() + self.timeout_s
+        problem, task = self._from_now(ask)
         failures: list[str] = []
-        for position, planner in enumerate(self.planners):
+        for position in range(len(self.planners)):
             left_s = max(0.001, deadline - time.monotonic())
             share_s = left_s if position == len(self.planners) - 1 else left_s / 2
-            result = self._try(planner, problem, share_s, failures)
+            result = self._try(position, problem, task, share_s, failures)
             if result is None:
                 continue
-            note = "; ".join(failures)
             if result.plan is None:
                 return ev.Planned(ask.t, None, None, result.planner, "the goal is unsolvable")
             assert result.report is not None
-            return ev.Planned(ask.t, result.plan, objective(result.report), result.planner, note)
+            value, note = objective(result.report), "; ".join(failures)
+            return ev.Planned(ask.t, result.plan, value, result.planner, note)
         return ev.Planned(ask.t, None, note="; ".join(failures))
 
     def _try(
-        self, planner: str | Planner, problem: Problem, share_s: float, failures: list[str]
-    ) -> Result | None:
+        self, position: int, problem: Problem, task: Task | None, share_s: float,
+        failures: list[str],
+    ) -> Result | None:  # fmt: skip
         """Return a usable result, or None with one more failure noted."""
+        planner = self.planners[position]
         name = planner if isinstance(planner, str) else planner.card.name
         try:
-            result = solve(problem, planner, timeout_s=share_s, lanes=True)
+            if isinstance(planner, str):
+                planner = self.planners[position] = registry.make(planner)
+            result = solve(problem, planner, timeout_s=share_s, lanes=True, task=task)
         except HrcplanError as error:
             failures.append(f"{name}: {error.message}")
             return None
@@ -90,10 +97,22 @@ class Replanner:
             return None
         return result
 
-    def _from_now(self, ask: ev.AskPlan) -> Problem:
+    def _from_now(self, ask: ev.AskPlan) -> tuple[Problem, Task | None]:
+        """Return the problem from here on, and its grounding if bits can hold it."""
         state = self._acting.state(ask.facts, ask.numbers)
-        values = {**self.problem.values, **ask.numbers, **ask.values}
-        return replace(self.problem, facts=frozenset(state.facts), values=values)
+        values = {**ask.numbers, **ask.values}
+        problem = replace(self.problem.with_values(values), facts=frozenset(state.facts))
+        if self._task is None:
+            return problem, None
+        task = self._task.with_values(values).with_facts(problem.facts)
+        return task.problem, task
+
+    @cached_property
+    def _task(self) -> Task | None:
+        try:
+            return Task(self.problem)
+        except (UnsupportedError, LimitError):
+            return None
 
 
 def with_successors(planners: Sequence[str | Planner]) -> tuple[str | Planner, ...]:

@@ -12,7 +12,7 @@ from functools import lru_cache
 from hrcplan.agents import Profile, profile
 from hrcplan.errors import UsageError
 from hrcplan.execution import events as ev
-from hrcplan.execution.driver import Driver, Nowhere, Record, Watch
+from hrcplan.execution.driver import Asked, Driver, Nowhere, Record, Watch
 from hrcplan.execution.monitor import Monitor
 from hrcplan.execution.replanner import Replanner
 from hrcplan.execution.row import Row, row_of
@@ -80,7 +80,7 @@ class Engine:
     """What runs of one problem and profile share: monitor, and planner with its cached plans."""
 
     monitor: Monitor
-    planner: Replanner
+    planner: Asked
 
     def run(
         self, nature: Nature, record: Record | None = None, watch: Watch | None = None
@@ -130,7 +130,7 @@ def _replanner(
 
 
 def make_engine(
-    problem: Problem, chosen: Profile, model: bool = True, planner: Replanner | None = None
+    problem: Problem, chosen: Profile, model: bool = True, planner: Asked | None = None
 ) -> Engine:
     """Return the engine for a problem and a profile; ``model`` false leaves sensing unused."""
     return Engine(Monitor(problem, chosen, model), planner or Replanner(problem))

@@ -18,6 +18,7 @@ from hrcplan.planners import registry
 from hrcplan.planners.answer import Answer, Card, Planner, Request, Status
 from hrcplan.planners.lanes import schedule
 from hrcplan.plans import Plan
+from hrcplan.task import Task
 from hrcplan.validation import Report, validate
 
 AUTO = "auto"
@@ -74,6 +75,7 @@ def solve(
     timeout_s: float = DEFAULT_TIMEOUT_S,
     any_plan: bool = False,
     lanes: bool = False,
+    task: Task | None = None,
 ) -> Result:
     """Return a checked plan, or a proof that there is none, or that nobody knew in time.
 
@@ -84,6 +86,7 @@ def solve(
         timeout_s: Seconds for all planners together.
         any_plan: The first valid plan is enough.
         lanes: Lay a sequential plan out in lanes, one action per agent at a time.
+        task: The problem grounded, if that was done before.
 
     Raises:
         UnsupportedError: if the planner named cannot hold the task.
@@ -93,6 +96,8 @@ def solve(
     """
     begun = time.monotonic()
     request = Request(problem, begun + timeout_s, any_plan)
+    if task is not None:
+        request.__dict__["task"] = task
     if planner != AUTO:
         chosen = registry.make(planner) if isinstance(planner, str) else planner
         result = _attempt(chosen, request, lanes, "it was asked for")

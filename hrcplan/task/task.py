@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence, Set
+from dataclasses import replace
 from functools import cached_property
 
 from hrcplan.errors import UnsupportedError
@@ -138,6 +139,34 @@ class Task:
         other.__dict__.pop("costs", None)
         other.problem = problem
         return other
+
+    def with_facts(self, facts: Iterable[Fact]) -> Task:
+        """Return this task from another initial state, grounded anew only if that is needed.
+
+        What is reachable from reachable facts is reachable, so a state that has been reached from
+        the initial state keeps the grounding (it may hold more than the new task needs).
+
+        >>> from hrcplan import load
+        >>> task = load("transport", "two-boxes")
+        >>> moved = task.with_facts(task.problem.facts - {("at", "human", "wp1")})
+        >>> moved.actions is task.actions, moved.initial == task.initial
+        (True, False)
+        """
+        problem = replace(self.problem, facts=frozenset(facts))
+        known = self.bits.keys()
+        if problem.facts - known != self.problem.facts - known:
+            return Task(problem)
+        other = object.__new__(Task)
+        other.__dict__.update(self.__dict__)
+        other.problem = problem
+        changing = self._value_facts & self.facts_of(self.initial)
+        other.initial = self.state_of([*problem.facts, *changing])
+        return other
+
+    @cached_property
+    def _value_facts(self) -> frozenset[Fact]:
+        """The facts that stand for values of functions that actions change."""
+        return frozenset(fact for fact in self.facts if fact[0] == "=")
 
     @cached_property
     def _structural(self) -> frozenset[str]:

@@ -36,7 +36,9 @@ def test_kitchen_binds_the_same_elements_to_other_actions() -> None:
     assert ("capacity", "human", "bowl") in agents.touching("mix", ("human", "oil", "bowl"))
 
 
-@pytest.mark.parametrize(("value", "p"), [(0, 0), (1, 0), (Fraction(3, 2), 0.15), (8, 0.8), (10, 1)])
+@pytest.mark.parametrize(
+    ("value", "p"), [(0, 0), (1, 0), (Fraction(3, 2), 0.15), (8, 0.8), (10, 1)]
+)
 def test_failure_probability(value: Fraction, p: float) -> None:
     assert failure_probability(value, 1) == pytest.approx(p)
 

@@ -227,7 +227,8 @@ def test_the_sixth_failure_ends_the_run() -> None:
         script.tell(*(ev.Ended(t, n, ev.FAILED if n == number else ev.DONE) for n in running))
         script.settle(t)
         if failure < 5:
-            script.tell(ev.Planned(t, None), ev.Settled(t))  # no better plan: what is left of the running one is tried again
+            # No better plan: what is left of the running one is tried again.
+            script.tell(ev.Planned(t, None), ev.Settled(t))
     assert script.run.ending == ev.REPLAN_LIMIT
     assert script.run.tally.n_replans == 5
     assert script.run.tally.assigned == {"robot": 10, "human": 24}
@@ -277,7 +278,9 @@ def test_stopping_is_a_named_ending_and_the_last_word() -> None:
 
 
 ANY_EVENT = st.one_of(
-    st.builds(ev.Ended, st.floats(0, 500), st.integers(-1, 12), st.sampled_from([*ev.OUTCOMES, "x"])),
+    st.builds(
+        ev.Ended, st.floats(0, 500), st.integers(-1, 12), st.sampled_from([*ev.OUTCOMES, "x"])
+    ),
     st.builds(ev.Overdue, st.floats(0, 500), st.integers(-1, 12)),
     st.builds(sensed, st.floats(0, 500), st.one_of(st.integers(0, 10), st.floats())),
     st.builds(ev.Settled, st.floats(0, 500)),

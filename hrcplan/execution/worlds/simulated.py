@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from hrcplan.agents import AgentModel
+from hrcplan.agents.state import LEAST, MOST
 from hrcplan.execution import events as ev
 from hrcplan.execution.acting import Acting, Step, Undo
 from hrcplan.execution.events import Command, Event
@@ -48,7 +49,8 @@ class Nature:
     ``sensed``: a change is sensed when it happens (``before`` the next action), in the middle of
     the human's first action under it (``during``), or when that action has ended (``after``).
     ``draws``: whether an element makes actions fail is drawn ``once`` per simulation or anew at
-    every ``attempt``. ``can_fail``: the actions that can fail, None for all.
+    every ``attempt``. ``can_fail``: the actions that can fail, None for all. ``stretch``: a human's
+    action lasts this many times its duration, drawn uniformly between two factors.
     """
 
     seed: object = 0
@@ -57,6 +59,7 @@ class Nature:
     sensed: str = DURING
     draws: str = ONCE
     can_fail: frozenset[str] | None = None
+    stretch: tuple[float, float] = (1.0, 1.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,11 +124,17 @@ class SimulatedWorld:
         assert step is not None
         duration = ev.exact(command.duration_s)
         self.state, undo = self.acting.begin(self.state, step, duration)  # type: ignore[arg-type]
-        end_s = command.t + command.duration_s
+        end_s = command.t + command.duration_s * self._stretch(step, command.number)
         self._acted[command.number] = _Acted(step, duration, end_s, undo)  # type: ignore[arg-type]
         self._at(end_s, _END, command.number)
         if self._unsensed and self._is_human(step):
             self._schedule_sensing(command.t, end_s)
+
+    def _stretch(self, step: Step, number: int) -> float:
+        least, most = self.nature.stretch
+        if not self._is_human(step) or least == most == 1:
+            return 1.0
+        return least + (most - least) * chance.uniform(self.nature.seed, "stretch", number)
 
     def _cancel(self, number: int) -> None:
         """Break an action off in this instant; it leaves no effect."""
@@ -182,7 +191,22 @@ class SimulatedWorld:
             self.state = self.acting.undo(self.state, action.undo)
             return [ev.Ended(t, number, ev.FAILED)]
         self.state = self.acting.finish(self.state, action.step, action.duration)
-        return [ev.Ended(t, number, ev.DONE)]
+        return [ev.Ended(t, number, ev.DONE), *self._influence(t, number, action.step)]
+
+    def _influence(self, t: float, number: int, step: Step) -> Sequence[Event]:
+        """Let an interaction have its effect, or not, and sense what has come of it."""
+        values = self.acting.influence(step, self.values)
+        if not values:
+            return []
+        name = step.schema.name
+        if chance.uniform(self.nature.seed, "interaction", number) < self._success(name):
+            self.values.update({k: min(max(v, LEAST), MOST) for k, v in values.items()})
+        for key in values:
+            self._unsensed.pop(key, None)
+        return [ev.Sensed(t, {key: self.values[key] for key in values})]
+
+    def _success(self, name: str) -> float:
+        return float(self.acting.problem.domain.success(name))
 
     def _succeeds(self, number: int, action: _Acted) -> bool:
         """Return the outcome of an action, from the true agent state and what was drawn for it."""

@@ -1,0 +1,141 @@
+"""``hrcplan execute`` and ``replay`` as users see them."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from hrcplan.execution import execute as execute_module
+from hrcplan.execution.execute import execute
+
+
+def hrcplan(*args: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([sys.executable, "-m", "hrcplan", *args], capture_output=True, text=True,
+                          check=False, timeout=120)  # fmt: skip
+
+
+def test_a_run_is_shown_in_two_lanes_with_its_replans(tmp_path: Path) -> None:
+    journal = tmp_path / "run.jsonl"
+    run = hrcplan("execute", "transport/two-boxes", "--change", "motivation human=9@0",
+                  "--seed", "3", "--journal", str(journal))  # fmt: skip
+    assert run.returncode == 0, run.stderr
+    head, *lines = run.stdout.splitlines()
+    assert head.split() == ["robot", "human", "done"]
+    assert any("▶ move wp0 wp3" in line and "▶ move wp1 wp4" in line for line in lines)
+    assert any("replanning, change: (motivation human) 1 → 9" in line for line in lines)
+    assert lines[-1].startswith("goal reached: ")
+    again = hrcplan("replay", str(journal))
+    assert again.returncode == 0
+    assert "all of them follow" in again.stdout
+
+
+def test_json_is_one_document() -> None:
+    run = hrcplan("execute", "transport", "two-boxes", "--profile", "paper", "--no-model",
+                  "--change", "motivation human=10@0", "--json")  # fmt: skip
+    assert run.returncode == 1  # the goal was not reached
+    found = json.loads(run.stdout)
+    assert found["ending"] == "replan limit"
+    assert found["row"]["failed_human"] == 6
+    assert found["measures"]["failed_pct"] == 60.0
+    assert [a["outcome"] for a in found["actions"] if a["agent"] == "human"] == ["failed"] * 6
+    assert len(found["plans"]) == 6
+
+
+def test_replay_names_the_first_difference(tmp_path: Path) -> None:
+    journal = tmp_path / "run.jsonl"
+    execute("transport", "two-boxes", journal=journal)
+    text = journal.read_text().replace('"outcome":"done"', '"outcome":"failed"', 1)
+    journal.write_text(text)
+    run = hrcplan("replay", str(journal), "--json")
+    assert run.returncode == 1
+    found = json.loads(run.stdout)
+    assert found["ok"] is False
+    assert "failed" in found["difference"]["expected"]
+
+
+@pytest.mark.parametrize(
+    ("args", "code", "words"),
+    [
+        (["--profile", "nature"], 2, "there is no profile"),
+        (["--human", "alien"], 2, "there is no human"),
+        (["--human", "nowhere:Human"], 2, "cannot be loaded"),
+        (["--change", "motivation human=9"], 2, "@SECONDS"),
+        (["--change", "motivation human=11@0"], 2, "[0, 10]"),
+        (["--change", "mood human=3@0"], 2, "no function 'mood'"),
+        (["--change", "box-at blue@0"], 2, "no fact"),
+        (["--change", "box-at blue wp9@0"], 2, "no object"),
+        (["--resume"], 2, "journal"),
+        (["--planner", "nobody"], 0, "goal reached"),  # the next planner takes over
+    ],
+)
+def test_wrong_use(args: list[str], code: int, words: str) -> None:
+    run = hrcplan("execute", "transport/two-boxes", *args)
+    assert run.returncode == code
+    assert words in run.stdout + run.stderr
+
+
+def test_replay_of_no_journal(tmp_path: Path) -> None:
+    assert hrcplan("replay", str(tmp_path / "none.jsonl")).returncode == 3
+
+
+class Lazy:
+    """A human of a researcher's own."""
+
+    def nature(self, problem: object, seed: object) -> object:
+        nature = execute_module.nature_for
+        assert nature
+        from hrcplan.execution.worlds.simulated import Nature, StateChange
+
+        return Nature(seed, (StateChange(0.0, {("knowledge", "human"): 10}),))
+
+
+def test_a_human_of_ones_own(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "laboratory", sys.modules[__name__])
+    done = execute("transport", "two-boxes", human="laboratory:Lazy")
+    assert done.row.failed_human == 1
+    assert done.row.success
+
+
+def test_the_same_loop_runs_in_the_kitchen() -> None:
+    done = execute("kitchen", "smoothie-mango", human="case1,random", seed=2)
+    assert done.row.ending == "goal reached"
+    assert done.row.executed_human + done.row.executed_robot >= 5
+
+
+NEW_DOMAIN = """
+(define (domain garden)
+  (:requirements :strips :typing :durative-actions :numeric-fluents :negative-preconditions)
+  (:types agent bed)
+  (:predicates (controllable ?a - agent) (dug ?b - bed) (sown ?b - bed) (busy ?b - bed))
+  (:functions (fatigue ?a - agent) (total-cost))
+  (:durative-action dig :parameters (?a - agent ?b - bed) :duration (= ?duration 7)
+    :condition (and (at start (not (dug ?b))) (at start (not (busy ?b))))
+    :effect (and (at start (busy ?b)) (at end (not (busy ?b))) (at end (dug ?b))
+      (at start (increase (total-cost) (* 2 (fatigue ?a))))))
+  (:durative-action sow :parameters (?a - agent ?b - bed) :duration (= ?duration 3)
+    :condition (and (at start (dug ?b)) (at start (not (busy ?b))))
+    :effect (and (at start (busy ?b)) (at end (not (busy ?b))) (at end (sown ?b))
+      (at start (increase (total-cost) (fatigue ?a))))))
+"""
+NEW_PROBLEM = """
+(define (problem spring) (:domain garden)
+  (:objects ann rover - agent b1 b2 b3 - bed)
+  (:init (controllable rover) (= (fatigue ann) 1) (= (fatigue rover) 1) (= (total-cost) 0))
+  (:goal (and (sown b1) (sown b2) (sown b3)))
+  (:metric minimize (+ (total-cost) (total-time))))
+"""
+
+
+def test_the_same_loop_runs_on_a_domain_that_nobody_has_seen(tmp_path: Path) -> None:
+    domain, problem = tmp_path / "garden.pddl", tmp_path / "spring.pddl"
+    domain.write_text(NEW_DOMAIN)
+    problem.write_text(NEW_PROBLEM)
+    rows = [
+        execute(str(domain), str(problem), human=human, seed=seed).row
+        for human in ("steady", "case1", "case2,attempt")
+        for seed in (1, 2)
+    ]
+    assert all(row.success for row in rows), rows
+    assert any(row.failed_human for row in rows)

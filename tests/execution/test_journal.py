@@ -1,0 +1,221 @@
+"""Nothing is lost: a run that is killed anywhere goes on to the same end, and can be replayed."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from functools import lru_cache
+from pathlib import Path
+
+import pytest
+
+from hrcplan.errors import InputError, UsageError
+from hrcplan.execution import events as ev
+from hrcplan.execution.events import from_json, to_json
+from hrcplan.execution.execute import Executed, carry_out, execute, make_setting
+from hrcplan.execution.journal import Setting, read_journal, setting_of
+from hrcplan.execution.replanner import Replanner
+from hrcplan.execution.replay import replay
+from hrcplan.execution.worlds.simulated import FactChange, Nature, StateChange
+from hrcplan.facade import load_problem
+from hrcplan.plans import parse_plan
+
+# A change that is sensed, failures, a deviation and several replans.
+CHANGES = (
+    StateChange(0.0, {("motivation", "human"): 9}),
+    FactChange(
+        120.0, frozenset({("box-at", "blue", "wp0")}), frozenset({("box-at", "blue", "wp4")})
+    ),
+)
+
+
+def eventful(journal: Path, resume: bool = False) -> Executed:
+    problem = load_problem("transport", "two-boxes")
+    setting = make_setting(problem, profile="paper", changes=CHANGES, seed=5)
+    return carry_out(setting, journal=journal, resume=resume, planner=shared_planner())
+
+
+@lru_cache
+def shared_planner() -> Replanner:
+    """Plans are the same every time, so one planner with its memory serves all runs."""
+    return Replanner(load_problem("transport", "two-boxes"))
+
+
+def content(path: Path) -> list[dict[str, object]]:
+    """Return the lines of a journal, without what the wall clock says."""
+    lines = [json.loads(line) for line in path.read_text().splitlines()]
+    for line in lines:
+        line.get("event", {}).pop("wall_s", None)
+    return lines
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Executed]:
+    path = tmp_path_factory.mktemp("journal") / "run.jsonl"
+    return path, eventful(path)
+
+
+def test_the_run_has_something_in_it(whole: tuple[Path, Executed]) -> None:
+    row = whole[1].row
+    assert row.success
+    assert row.replans_deviation + row.replans_failure + row.replans_change >= 2
+
+
+def test_a_run_killed_at_any_position_goes_on_to_the_same_end(
+    whole: tuple[Path, Executed], tmp_path: Path
+) -> None:
+    path, done = whole
+    lines = path.read_bytes().splitlines(keepends=True)
+    for n in range(len(lines) + 1):
+        torn = [*lines, b'{"seq'][n][: 40 * (n % 2)]  # half of the time in the middle of a line
+        killed = tmp_path / "killed.jsonl"
+        killed.write_bytes(b"".join(lines[:n]) + torn)
+        again = eventful(killed, resume=True)
+        assert (again.row, again.run.state) == (done.row, done.run.state), n
+        assert again.timeline == done.timeline, n
+        assert content(killed) == content(path), n
+
+
+def test_a_killed_process_is_resumed(tmp_path: Path) -> None:
+    """The real thing: kill -9 in the middle, then --resume; compared with an undisturbed run."""
+    command = [sys.executable, "-m", "hrcplan", "execute", "transport/two-boxes", "--profile",
+               "paper", "--human", "case2", "--seed", "4", "--json"]  # fmt: skip
+    path = tmp_path / "killed.jsonl"
+    arguments = ["--journal", str(path)]
+    running = subprocess.Popen([*command[:-1], *arguments, "--speed", "150"],
+                               stdout=subprocess.DEVNULL)  # fmt: skip
+    until = time.monotonic() + 30
+    while time.monotonic() < until and (not path.exists() or path.read_bytes().count(b"\n") < 9):
+        time.sleep(0.01)
+    os.kill(running.pid, signal.SIGKILL)
+    assert running.wait() == -signal.SIGKILL
+    assert "row" not in read_journal(path).lines[-1]
+    resumed = subprocess.run([*command, *arguments, "--resume"], capture_output=True, check=False)
+    whole = subprocess.run(command, capture_output=True, check=False)
+    assert json.loads(resumed.stdout) == json.loads(whole.stdout)
+    assert replay(read_journal(path)).difference is None
+
+
+def test_resuming_a_finished_run_changes_nothing(whole: tuple[Path, Executed]) -> None:
+    path, done = whole
+    before = path.read_bytes()
+    assert eventful(path, resume=True).row == done.row
+    assert path.read_bytes() == before
+
+
+def test_resume_without_a_journal_begins_anew(tmp_path: Path) -> None:
+    assert eventful(tmp_path / "new.jsonl", resume=True).n_resumed == 0
+
+
+def test_a_journal_is_never_overwritten(whole: tuple[Path, Executed]) -> None:
+    with pytest.raises(UsageError, match="exists"):
+        eventful(whole[0])
+
+
+def test_a_journal_of_another_problem_is_refused(whole: tuple[Path, Executed]) -> None:
+    with pytest.raises(UsageError, match="transport/two-boxes"):
+        execute("transport", "handover", journal=whole[0], resume=True)
+
+
+def test_every_decision_follows(whole: tuple[Path, Executed]) -> None:
+    found = replay(read_journal(whole[0]))
+    assert found.difference is None
+    assert found.row == whole[1].row
+    assert found.n_events == found.n_decisions
+
+
+def tampered(path: Path, old: str, new: str, to: Path) -> Path:
+    text = path.read_text()
+    assert old in text
+    to.write_text(text.replace(old, new, 1))
+    return to
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ('"kind":"dispatch","t":0.0,"number":0', '"kind":"dispatch","t":0.0,"number":3'),
+        ('"outcome":"done"', '"outcome":"failed"'),
+        ('"success":true', '"success":false'),
+        ("(move human wp1 wp4)", "(move human wp1 wp5)"),
+        ('"kind":"ended"', '"kind":"exploded"'),
+    ],
+    ids=["decision", "event", "row", "plan", "kind"],
+)
+def test_what_does_not_follow_is_found(
+    whole: tuple[Path, Executed], tmp_path: Path, old: str, new: str
+) -> None:
+    path = tampered(whole[0], old, new, tmp_path / "tampered.jsonl")
+    difference = replay(read_journal(path)).difference
+    assert difference is not None
+    assert difference.line > 1
+
+
+def test_a_run_does_not_go_on_from_a_tampered_journal(
+    whole: tuple[Path, Executed], tmp_path: Path
+) -> None:
+    path = tampered(whole[0], '"outcome":"done"', '"outcome":"failed"', tmp_path / "bad.jsonl")
+    with pytest.raises(InputError, match="another way"):
+        eventful(path, resume=True)
+
+
+@pytest.mark.parametrize(
+    ("damage", "words"),
+    [
+        (lambda lines: [lines[0], b"{nonsense}\n", *lines[1:]], "line 2 .* damaged"),
+        (lambda lines: [lines[0], *lines[2:]], "line 2 .* not 1"),
+        (lambda lines: [*lines[:3], lines[1], *lines[3:]], "line 4 .* not 3"),
+    ],
+    ids=["damaged", "missing", "repeated"],
+)
+def test_damage_inside_is_named(
+    whole: tuple[Path, Executed], tmp_path: Path, words: str,
+    damage: Callable[[list[bytes]], list[bytes]],
+) -> None:  # fmt: skip
+    path = tmp_path / "damaged.jsonl"
+    path.write_bytes(b"".join(damage(whole[0].read_bytes().splitlines(keepends=True))))
+    with pytest.raises(InputError, match=words):
+        read_journal(path)
+
+
+def test_not_a_journal(tmp_path: Path) -> None:
+    path = tmp_path / "other.jsonl"
+    path.write_text('{"seq": 0, "a": 1}\n')
+    with pytest.raises(InputError, match="no journal"):
+        replay(read_journal(path))
+    with pytest.raises(InputError, match="cannot read"):
+        read_journal(tmp_path / "missing.jsonl")
+
+
+def test_settings_survive_the_journal() -> None:
+    problem = load_problem("kitchen", "salad-greek")
+    nature = Nature("a/1", CHANGES[:1], CHANGES[1:], "after", "attempt", frozenset({"mix"}))
+    setting = make_setting(problem, profile="hrcplan", seed="x")
+    setting = Setting(setting.problem, setting.profile, False, nature, ("kairos",))
+    table = json.loads(json.dumps(setting.to_json()))
+    found = setting_of(table, "test")
+    assert found.to_json() == setting.to_json()
+    assert (found.profile, found.nature.can_fail) == (setting.profile, nature.can_fail)
+
+
+def test_events_survive_the_journal() -> None:
+    plan = parse_plan("0.001: (move human wp1 wp4) [50.25]")
+    for event in (
+        ev.Ended(1.5, 3, ev.FAILED),
+        ev.Observed(2.0, frozenset({("at", "human", "wp1")}), {("fuel", "truck"): 3}),
+        ev.Sensed(25.0, {("motivation", "human"): 9}),
+        ev.Planned(0.0, plan, 58, "exact", "", 0.25),
+        ev.Planned(0.0, None, note="no plan in time"),
+        ev.AskPlan(0.0, frozenset({("free", "human")}), {}, {("a", "b"): 1}, ("failure: x",)),
+    ):
+        assert from_json(json.loads(json.dumps(to_json(event)))) == event
+
+
+def test_a_value_that_json_cannot_hold_survives_too() -> None:
+    text = json.dumps(to_json(ev.Sensed(0.0, {("motivation", "human"): float("nan")})))
+    assert "NaN" not in text
+    (value,) = from_json(json.loads(text)).values.values()
+    assert value != value

@@ -1,0 +1,122 @@
+"""Planners that crash, hang or lie in the middle of a run: the next one takes over."""
+
+import time
+
+import pytest
+
+from hrcplan.agents import profile
+from hrcplan.errors import PlannerError
+from hrcplan.execution import events as ev
+from hrcplan.execution.monitor import Monitor
+from hrcplan.execution.replanner import Replanner
+from hrcplan.execution.run import Run
+from hrcplan.execution.simulate import Engine, make_engine
+from hrcplan.execution.timeline import Timeline
+from hrcplan.execution.worlds.simulated import Nature, StateChange
+from hrcplan.facade import load_problem
+from hrcplan.planners import registry
+from hrcplan.planners.answer import Answer, Card, Request, Status
+from hrcplan.plans import parse_plan
+
+DISTRACTED = Nature(0, (StateChange(0.0, {("motivation", "human"): 9}),))
+
+
+class Faulty:
+    """Answers well ``n_good`` times and then does something else."""
+
+    def __init__(self, fault: str, n_good: int = 1) -> None:
+        self.card = Card("faulty", "a planner with a fault", temporal=True, metric="cost+time")
+        self.fault = fault
+        self.n_good = n_good
+        self.good = registry.make("exact")
+
+    def missing(self) -> str | None:
+        return None
+
+    def solve(self, request: Request) -> Answer:
+        self.n_good -= 1
+        if self.n_good >= 0:
+            return self.good.solve(request)
+        match self.fault:
+            case "crash":
+                raise PlannerError("segmentation fault")
+            case "bug":
+                raise ZeroDivisionError("a stranger's bug")
+            case "timeout":
+                time.sleep(request.time_left_s)
+                return Answer(Status.UNSOLVED)
+            case _:  # a plan that is none
+                return Answer(Status.SOLVED, parse_plan("0: (move robot wp5 wp2) [50]"))
+
+
+def engine_with(planner: Replanner) -> Engine:
+    return make_engine(planner.problem, profile("paper"), True, planner)
+
+
+@pytest.mark.parametrize("fault", ["crash", "bug", "timeout", "lie"])
+def test_the_next_planner_takes_over(fault: str) -> None:
+    problem = load_problem("transport", "two-boxes")
+    planner = Replanner(problem, (Faulty(fault),), timeout_s=1.0)
+    timeline = Timeline()
+    asked: list[ev.Planned] = []
+
+    def watch(run: Run, event: ev.Event, commands: tuple[ev.Command, ...]) -> None:
+        timeline.watch(run, event, commands)
+        if isinstance(event, ev.Planned):
+            asked.append(event)
+
+    run = engine_with(planner).run(DISTRACTED, None, watch)
+    assert run.ending == ev.GOAL
+    assert [p.planner for p in asked][:2] == ["faulty", "exact"]
+    assert "faulty: " in asked[1].note
+
+
+class Silent(Replanner):
+    """No planner has an answer after the first plan."""
+
+    def answer(self, ask: ev.AskPlan) -> ev.Planned:
+        return ev.Planned(ask.t, None, note="all crashed") if ask.reasons else super().answer(ask)
+
+
+def test_without_any_planner_the_running_plan_goes_on_and_the_run_ends_by_name() -> None:
+    planner = Silent(load_problem("transport", "two-boxes"))
+    last: list[ev.Command] = []
+
+    def watch(run: Run, event: ev.Event, commands: tuple[ev.Command, ...]) -> None:
+        last.extend(commands)
+
+    run = engine_with(planner).run(DISTRACTED, None, watch)
+    assert run.ending == ev.REPLAN_LIMIT
+    assert isinstance(last[-1], ev.Finish)  # nobody is left without a command or a stop
+
+
+def test_an_unsolvable_rest_is_a_named_ending() -> None:
+    """The robot alone cannot hand a box over, and the human's actions have no cause to fail."""
+    problem = load_problem("transport", "two-boxes")
+    stranded = Monitor(problem, profile("paper"))
+    facts = problem.facts - {("free", "human"), ("free", "robot")}
+    ask = ev.AskPlan(0.0, stranded.acting.changing(stranded.acting.initial()) & facts, {},
+                     dict(stranded.agents.low), ("failure: x",))  # fmt: skip
+    planned = Replanner(problem).answer(ask)
+    assert planned.plan is None
+    assert planned.note == "the goal is unsolvable"
+
+
+def test_equal_questions_are_answered_once() -> None:
+    planner = Replanner(load_problem("transport", "two-boxes"))
+    engine = engine_with(planner)
+    first = engine.row(engine.run(DISTRACTED))
+    n_asked = planner.n_asked
+    assert engine.row(engine.run(DISTRACTED)) == first
+    assert planner.n_asked == n_asked
+
+
+def test_replanning_is_quick() -> None:
+    """The goal is 20 ms in the median; the bound here leaves room for a busy machine."""
+    planner = Replanner(load_problem("transport", "two-boxes"))
+    engine = engine_with(planner)
+    for value in range(2, 11):
+        engine.run(Nature(0, (StateChange(0.0, {("motivation", "human"): value}),)))
+    walls = sorted(planner.wall_s[1:])
+    assert len(walls) >= 8
+    assert walls[len(walls) // 2] < 0.1

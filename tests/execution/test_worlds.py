@@ -1,0 +1,168 @@
+"""The simulated world: real durations, failures from the truth, sensing when it is asked for."""
+
+import pytest
+
+from hrcplan.errors import UsageError
+from hrcplan.execution import Spec, engine_for, simulate
+from hrcplan.execution import events as ev
+from hrcplan.execution.events import Event
+from hrcplan.execution.simulate import cause_of, nature_of
+from hrcplan.execution.worlds import chance
+from hrcplan.execution.worlds.simulated import FactChange, Nature, SimulatedWorld, StateChange
+from hrcplan.facade import load_problem
+from hrcplan.pddl.model import Problem
+
+MOTIVATION = ("motivation", "human")
+
+
+@pytest.fixture(scope="module")
+def problem() -> Problem:
+    return load_problem("transport", "two-boxes")
+
+
+def lost(t: float) -> StateChange:
+    """At a time the human loses all motivation, so that every action fails."""
+    return StateChange(t, {MOTIVATION: 10})
+
+
+def moving(problem: Problem, nature: Nature, human_s: float = 50.0) -> SimulatedWorld:
+    world = SimulatedWorld(problem, nature)
+    world.begin()
+    world.do(ev.Dispatch(0.0, 0, "robot", "move", ("robot", "wp0", "wp3"), 50.0))
+    world.do(ev.Dispatch(0.0, 1, "human", "move", ("human", "wp1", "wp4"), human_s))
+    return world
+
+
+def everything(world: SimulatedWorld) -> list[Event]:
+    found: list[Event] = []
+    while events := world.next():
+        found += [e for e in events if not isinstance(e, ev.Observed)]
+    return found
+
+
+def test_actions_take_their_own_time(problem: Problem) -> None:
+    assert everything(moving(problem, Nature(), 70.0)) == [
+        ev.Ended(50.0, 0, ev.DONE), ev.Ended(70.0, 1, ev.DONE),
+    ]  # fmt: skip
+
+
+def test_events_of_an_instant_come_together(problem: Problem) -> None:
+    world = moving(problem, Nature(), 50.005)
+    events = world.next()
+    assert [type(e) for e in events] == [ev.Ended, ev.Ended, ev.Observed]
+    assert {e.t for e in events} == {50.0}
+    assert world.next() == ()
+
+
+def test_the_human_fails_and_the_robot_does_not(problem: Problem) -> None:
+    world = moving(problem, Nature(changes=(lost(0.0),)))
+    assert everything(world) == [
+        ev.Sensed(25.0, {MOTIVATION: 10}), ev.Ended(50.0, 0, ev.DONE), ev.Ended(50.0, 1, ev.FAILED),
+    ]  # fmt: skip
+    assert ("at", "human", "wp1") in world.state.facts
+
+
+@pytest.mark.parametrize(
+    ("sensed", "t"), [("before", 0.0), ("during", 25.0), ("after", 50.0)]
+)
+def test_when_a_change_is_sensed(problem: Problem, sensed: str, t: float) -> None:
+    world = SimulatedWorld(problem, Nature(changes=(lost(0.0),), sensed=sensed))
+    first = [e.t for e in world.begin() if isinstance(e, ev.Sensed)]
+    world.do(ev.Dispatch(0.0, 1, "human", "move", ("human", "wp1", "wp4"), 50.0))
+    assert first + [e.t for e in everything(world) if isinstance(e, ev.Sensed)] == [t]
+
+
+def test_an_outcome_comes_before_a_change_of_the_same_instant(problem: Problem) -> None:
+    world = moving(problem, Nature(changes=(lost(50.002),)))
+    assert ev.Ended(50.0, 1, ev.DONE) in everything(world)
+
+
+def test_a_change_while_an_action_runs_lets_it_fail_and_is_sensed_before_its_end(
+    problem: Problem,
+) -> None:
+    found = everything(moving(problem, Nature(changes=(lost(20.0),))))
+    assert ev.Sensed(35.0, {MOTIVATION: 10}) in found
+    assert ev.Ended(50.0, 1, ev.FAILED) in found
+
+
+def test_actions_that_cannot_fail_do_not(problem: Problem) -> None:
+    nature = Nature(changes=(lost(0.0),), can_fail=frozenset({"grasp"}))
+    assert ev.Ended(50.0, 1, ev.DONE) in everything(moving(problem, nature))
+
+
+def test_a_cancelled_action_leaves_no_trace(problem: Problem) -> None:
+    world = moving(problem, Nature())
+    before = SimulatedWorld(problem, Nature()).state.facts
+    world.do(ev.Cancel(0.0, 0))
+    world.do(ev.Cancel(0.0, 1))
+    assert {(e.number, e.outcome) for e in everything(world) if isinstance(e, ev.Ended)} == {
+        (0, ev.CANCELLED), (1, ev.CANCELLED),
+    }  # fmt: skip
+    assert world.state.facts == before
+
+
+def test_an_accident_is_observed(problem: Problem) -> None:
+    fact = ("box-at", "blue", "wp0")
+    world = SimulatedWorld(problem, Nature(accidents=(FactChange(5.0, frozenset({fact})),)))
+    (event, *_) = world.next()
+    assert isinstance(event, ev.Observed)
+    assert fact in event.facts
+
+
+def test_outcomes_are_drawn_once_or_at_every_attempt(problem: Problem) -> None:
+    def outcomes(draws: str) -> set[str]:
+        change = StateChange(0.0, {MOTIVATION: 5})
+        world = SimulatedWorld(problem, Nature("s", (change,), draws=draws))
+        found = set()
+        for n in range(30):
+            world.do(ev.Dispatch(50.0 * n, n, "human", "move", ("human", "wp1", "wp1"), 50.0))
+            found |= {e.outcome for e in everything(world) if isinstance(e, ev.Ended)}
+        return found
+
+    assert len(outcomes("once")) == 1
+    assert outcomes("attempt") == {ev.DONE, ev.FAILED}
+
+
+def test_chance_depends_on_the_purpose_only() -> None:
+    assert chance.uniform(1, "a") == chance.uniform(1, "a")
+    assert len({chance.uniform(s, p) for s in range(20) for p in "ab"}) == 40
+    draws = [chance.choice("abcd", seed, "letter") for seed in range(4000)]
+    assert all(900 < draws.count(letter) < 1100 for letter in "abcd")
+
+
+def test_causes_are_uniform_over_functions_and_then_over_their_parameters() -> None:
+    engine = engine_for(Spec())
+    causes = [cause_of(Spec(seed=s), engine) for s in range(3000)]
+    names = [cause[0] for cause in causes]
+    assert all(900 < names.count(n) < 1100 for n in ("knowledge", "motivation", "capacity"))
+    places = [cause[2] for cause in causes if cause[0] == "capacity"]
+    assert all(120 < places.count(f"wp{i}") < 215 for i in range(6))
+    assert {cause[1] for cause in causes} == {"human"}
+
+
+def test_variants_are_paired() -> None:
+    """What happens does not depend on the profile, the model, or when it is sensed."""
+    for seed in range(5):
+        natures = [
+            nature_of(spec, engine_for(spec)).changes
+            for spec in (Spec(case=2, seed=seed), Spec(case=2, seed=seed, model=False),
+                         Spec(case=2, seed=seed, profile="hrcplan", sensed="before"))
+        ]  # fmt: skip
+        assert natures[0] == natures[1] == natures[2]
+
+
+def test_a_random_change_comes_before_one_of_the_human_s_actions() -> None:
+    engine = engine_for(Spec())
+    times = {round(nature_of(Spec(seed=s, when="random"), engine).changes[0].t) for s in range(60)}
+    assert times == {0, 50, 100, 150}
+
+
+def test_a_change_known_before_the_first_plan_needs_no_replan() -> None:
+    rows = [simulate(Spec(case=1, seed=s, sensed="before", profile="hrcplan")) for s in range(8)]
+    assert all(row.success and row.replans == 0 and row.failed_human == 0 for row in rows)
+
+
+@pytest.mark.parametrize("wrong", [{"case": 3}, {"when": "never"}, {"sensed": "x"}, {"draws": "x"}])
+def test_wrong_specifications_are_refused(wrong: dict[str, object]) -> None:
+    with pytest.raises(UsageError):
+        Spec(**wrong)  # type: ignore[arg-type]
