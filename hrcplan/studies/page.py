@@ -8,20 +8,19 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from hrcplan.studies.study import Claim, Findings
+from hrcplan.studies.study import Claim, Findings, Section
 
 STYLE = Path(__file__).with_name("page.css")
 
 
 def html(title: str, about: Mapping[str, Any], n_rows: int, findings: Findings) -> str:
     """Return the page of a study."""
+    parts = [*_claims(findings.claims), *findings.sections]
     sections = "\n".join(
         f'<section id="{anchor(s.title)}">\n<h2>{escape(s.title)}</h2>\n{s.html}\n</section>'
-        for s in findings.sections
+        for s in parts
     )
-    contents = " ".join(
-        f'<a href="#{anchor(s.title)}">{escape(s.title)}</a>' for s in findings.sections
-    )
+    contents = " ".join(f'<a href="#{anchor(s.title)}">{escape(s.title)}</a>' for s in parts)
     return f"""<!DOCTYPE html>
 <html lang="en">
 <head>
@@ -40,10 +39,6 @@ def html(title: str, about: Mapping[str, Any], n_rows: int, findings: Findings) 
 <nav>{contents}</nav>
 </header>
 <main>
-<section id="claims">
-<h2>Claims</h2>
-{_claims(findings.claims)}
-</section>
 {sections}
 </main>
 </body>
@@ -57,12 +52,19 @@ def _facts(about: Mapping[str, Any], n_rows: int) -> str:
     return " · ".join(escape(part) for part in parts if part)
 
 
-def _claims(claims: Sequence[Claim]) -> str:
-    return "\n".join(
-        f'<article class="claim {"yes" if c.holds else "no"}">'
-        f'<p class="verdict">{"holds" if c.holds else "does not hold"}</p>'
-        f"<div><h3>{escape(c.claim)}</h3><p>{escape(c.evidence)}</p></div></article>"
-        for c in claims
+def _claims(claims: Sequence[Claim]) -> list[Section]:
+    """Return a section per group of claims, in the order of their first ones."""
+    groups = dict.fromkeys(c.group for c in claims)
+    return [
+        Section(group, "\n".join(_claim(c) for c in claims if c.group == group)) for group in groups
+    ]
+
+
+def _claim(claim: Claim) -> str:
+    kind, verdict = ("yes", "holds") if claim.holds else ("no", "does not hold")
+    return (
+        f'<article class="claim {kind}"><p class="verdict">{verdict}</p>'
+        f"<div><h3>{escape(claim.claim)}</h3><p>{escape(claim.evidence)}</p></div></article>"
     )
 
 

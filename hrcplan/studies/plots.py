@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import functools
 import io
 import re
-from typing import Any
+from collections.abc import Callable
+from typing import Any, ParamSpec
+
+P = ParamSpec("P")
 
 BLUE, ORANGE, GREEN, RED, PINK, GRAY = (
     "#0072B2", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#8A97A5",
@@ -33,16 +37,26 @@ _STYLE = {
 _ID = re.compile(r' id="([^"]+)"')
 
 
+def styled(draw: Callable[P, str]) -> Callable[P, str]:
+    """Return a function that draws in the style of all our plots."""
+
+    @functools.wraps(draw)
+    def drawn(*args: P.args, **options: P.kwargs) -> str:
+        import matplotlib as mpl
+
+        mpl.use("Agg")
+        with mpl.rc_context(_STYLE):  # type: ignore[arg-type]
+            return draw(*args, **options)
+
+    return drawn
+
+
 def figure(columns: int, rows: int, width: float, height: float, **options: Any) -> tuple[Any, Any]:
     """Return a figure of ``width`` by ``height`` inches, and its axes as a 2-d array."""
-    import matplotlib as mpl
+    from matplotlib.figure import Figure
 
-    mpl.use("Agg")
-    with mpl.rc_context(_STYLE):  # type: ignore[arg-type]
-        from matplotlib.figure import Figure
-
-        made = Figure(figsize=(width, height), layout="constrained")
-        return made, made.subplots(rows, columns, squeeze=False, **options)
+    made = Figure(figsize=(width, height), layout="constrained")
+    return made, made.subplots(rows, columns, squeeze=False, **options)
 
 
 def svg(made: Any, name: str, label: str) -> str:
@@ -53,7 +67,7 @@ def svg(made: Any, name: str, label: str) -> str:
     import matplotlib as mpl
 
     buffer = io.StringIO()
-    with mpl.rc_context({**_STYLE, "svg.hashsalt": name}):  # type: ignore[arg-type]
+    with mpl.rc_context({"svg.hashsalt": name}):
         made.savefig(buffer, format="svg", metadata={"Date": None, "Creator": None})
     text = buffer.getvalue()
     text = re.sub(r"<metadata>.*?</metadata>", "", text[text.index("<svg") :], flags=re.DOTALL)

@@ -41,11 +41,12 @@ class Table:
 
 @dataclass(frozen=True, slots=True)
 class Claim:
-    """Something that the rows can show to hold, or not."""
+    """Something that the rows can show to hold, or not; claims of one group stand together."""
 
     claim: str
     holds: bool
     evidence: str
+    group: str = "Claims"
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,6 +23,7 @@ NAMES = {
 }
 UNITS = {"makespan_s": " s", "replans": ""}
 H1 = "H1: the model raises success and lowers failed actions and replans"
+PAPER, OURS = "Claims of the paper", "What we want to reach"
 H2 = "H2: with the model the human contributes more, and fails less"
 
 
@@ -65,7 +66,8 @@ def hypothesis_1(rows: Rows) -> Claim:
         holds &= found["success_pct"].is_above_zero
         holds &= found["failed_pct"].is_below_zero and found["replans"].is_below_zero
         words.append(f"case {case}: {_changes(found)}")
-    return Claim(H1, holds, "; ".join(words) + ". Mean of b - a over pairs, ± standard error.")
+    evidence = f"{'; '.join(words)}. Means of b − a over pairs of runs, ± standard error."
+    return Claim(H1, holds, evidence, PAPER)
 
 
 def hypothesis_2(rows: Rows) -> Claim:
@@ -83,7 +85,8 @@ def hypothesis_2(rows: Rows) -> Claim:
     more = difference(able, unable)
     holds &= more.is_above_zero
     words.append(f"the human's share is {_signed(more)} points larger in 2b than in 1b")
-    return Claim(H2, holds, "; ".join(words) + ". Mean over pairs, ± standard error.")
+    evidence = f"{'; '.join(words)}. Means of b − a over pairs of runs, ± standard error."
+    return Claim(H2, holds, evidence, PAPER)
 
 
 def _changes(found: Mapping[str, Estimate]) -> str:
@@ -95,7 +98,7 @@ def _changes(found: Mapping[str, Estimate]) -> str:
 
 
 def _signed(e: Estimate) -> str:
-    return f"{e.mean:+.2f} ± {e.se:.2f}"
+    return f"{e.mean:+.2f} ± {e.se:.2f}".replace("-", "−")
 
 
 def switch(options: Options, profile: str, rows: Iterable[Row]) -> Claim:
@@ -111,8 +114,9 @@ def switch(options: Options, profile: str, rows: Iterable[Row]) -> Claim:
     when = "known before the first action" if profile == "paper" else "at any time"
     text = f"Above {MOST} all actions go to the robot ({profile} profile, change {when})"
     holds = bool(judged) and all(_switches(thresholds[at], points, at) for at in judged)
-    words = [f"before action {at + 1}: {_until(thresholds[at], points)}" for at in changes]
-    return Claim(text, holds, "; ".join(words) if words else "no rows")
+    words = [f"{_until(thresholds[at], points)} (before action {at + 1})" for at in changes]
+    evidence = f"The human gets actions {', '.join(words)}." if words else "no rows"
+    return Claim(text, holds, evidence, PAPER if profile == "paper" else OURS)
 
 
 def last_with_human(points: Iterable[Row], at: int) -> int | None:
@@ -130,10 +134,8 @@ def _switches(last: int | None, points: Iterable[Row], at: int) -> bool:
 def _until(last: int | None, points: Iterable[Row]) -> str:
     most = max(int(row["value"] or 0) for row in points)
     if last is None:
-        return "the human gets nothing at any value"
-    if last == most:
-        return f"the human keeps actions up to {most}"
-    return f"the human gets actions up to {last}, nothing from {last + 1} on"
+        return "at no value"
+    return f"at all values up to {most}" if last == most else f"up to {last}"
 
 
 def reaches(options: Options) -> Iterator[Mapping[str, Any]]:
@@ -156,8 +158,9 @@ def reach(wanted: Mapping[str, Any], rows: Rows) -> Claim:
         holds &= more.n > 0 and more.mean <= bound["by"]
         goals.append(f"{NAMES[bound['measure']]} at most {bound['by']} points above {least}")
         words.append(f"{NAMES[bound['measure']]} {_signed(more)} points above (n = {more.n})")
-    text = f"Reach, {case} {method}: {', '.join(goals)}"
-    return Claim(text, holds, f"{', '.join(words)}; n = {len(found)}")
+    return Claim(
+        f"{case} {method}: {', '.join(goals)}", holds, f"{', '.join(words)}; n = {len(found)}", OURS
+    )
 
 
 def _above(bound: Mapping[str, Any], found: Iterable[Row], rows: Rows) -> tuple[Estimate, str]:

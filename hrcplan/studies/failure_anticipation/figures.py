@@ -20,6 +20,7 @@ _REASONS = (
 _ACTION_COLORS = ("#7fb8da", "#f3c969", "#7cc7ae", "#d9a5c4", "#c8b273", "#a7b7e0", "#e2a184")
 
 
+@plots.styled
 def measures(
     by_cell: Mapping[Cell, Sequence[Row]],
     names: Mapping[str, str],
@@ -58,6 +59,7 @@ def _places(cells: Sequence[Cell]) -> list[float]:
     return places
 
 
+@plots.styled
 def reasons(by_cell: Mapping[Cell, Sequence[Row]]) -> str:
     """Return bars of the mean number of replans, split by what they were for."""
     cells = [cell for cell, rows in by_cell.items() if rows]
@@ -78,17 +80,20 @@ def reasons(by_cell: Mapping[Cell, Sequence[Row]]) -> str:
     return plots.svg(figure, "reasons", "Replans per run, by reason")
 
 
+@plots.styled
 def allocation(rows: Sequence[Row], element: str) -> str:
     """Return Figure 5: shares of the replanned plan against the value, a panel per profile."""
     profiles = list(dict.fromkeys(str(row["profile"]) for row in rows))
     profiles.sort(key=lambda name: name != "paper")
-    figure, grid = plots.figure(max(1, len(profiles)), 1, 11.5, 3.5, sharey=True)
+    figure, grid = plots.figure(max(1, len(profiles)), 1, 11.5, 3.9, sharey=True)
     for axes, profile in zip(grid[0], profiles, strict=False):
         points = [row for row in rows if row["profile"] == profile]
         _shares(axes, points)
         axes.set_title(f"profile {profile}")
         axes.set_xlabel(f"{element} (value told to the planner)")
     grid[0][0].set_ylabel("share of the plan's actions (%)")
+    handles, labels = grid[0][0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=len(labels))
     return plots.svg(figure, "allocation", f"Shares of human and robot against {element}")
 
 
@@ -101,23 +106,25 @@ def _shares(axes: Any, points: Sequence[Row]) -> None:
         for row in points
     }  # fmt: skip
     mean = [estimate(share[at, v] for at in changes).mean for v in values]
-    axes.fill_between(values, mean, 0, color=plots.ORANGE, alpha=0.35, linewidth=0)
-    axes.fill_between(values, mean, 100, color=plots.BLUE, alpha=0.18, linewidth=0)
+    axes.fill_between(values, mean, 0, step="mid", color=plots.ORANGE, alpha=0.35, linewidth=0)
+    axes.fill_between(values, mean, 100, step="mid", color=plots.BLUE, alpha=0.18, linewidth=0)
     for at, dashes in zip(changes, ("--", ":", "-.", (0, (1, 3)), (0, (5, 3))), strict=False):
-        label = "change before the first action" if at == 0 else f"before action {at + 1}"
-        axes.plot(values, [share[at, v] for v in values], linestyle=dashes, linewidth=1.2,
-                  color=plots.SOFT, label=label)  # fmt: skip
-    axes.plot(values, mean, color=plots.RED, linewidth=2.2, label="human, mean over changes")
+        label = "change before its first action" if at == 0 else f"before action {at + 1}"
+        axes.step(values, [share[at, v] for v in values], where="mid", linestyle=dashes,
+                  linewidth=2 if at == 0 else 1.1, color=plots.INK if at == 0 else plots.SOFT,
+                  label=label)  # fmt: skip
+    axes.step(values, mean, where="mid", color=plots.RED, linewidth=2.2, label="mean over these")
     axes.axvline(MOST, color=plots.INK, linewidth=0.8)
     axes.text(MOST + 0.2, 97, f"{MOST}: failure is certain", va="top", color=plots.SOFT)
     axes.text(values[-1] - 0.3, 84, "robot", ha="right", color=plots.BLUE, weight="bold")
     axes.text(0.4, 6, "human", color="#9a6a00", weight="bold")
     axes.set_xlim(values[0], values[-1])
+    axes.set_xticks(values[:: max(1, len(values) // 10)])
     axes.set_ylim(0, 100)
-    axes.legend(loc="center right", fontsize=8)
     plots.bare(axes, "y")
 
 
+@plots.styled
 def levels(lines: Mapping[str, Sequence[Row]], names: Mapping[str, str]) -> str:
     """Return measures against the value that was drawn; a line per name, one panel per measure."""
     colors = (plots.GRAY, plots.BLUE, plots.GREEN, plots.ORANGE)
@@ -140,13 +147,14 @@ def levels(lines: Mapping[str, Sequence[Row]], names: Mapping[str, str]) -> str:
     return plots.svg(figure, "levels", "Measures against the drawn value")
 
 
+@plots.styled
 def lanes(rows: Sequence[Row]) -> str:
     """Return one Gantt chart per variant of the example: what was carried out, lane by lane."""
     films = [(row, json.loads(str(row["bars"])), json.loads(str(row["plans"]))) for row in rows]
     agents = list(dict.fromkeys(bar["agent"] for _, bars, _ in films for bar in bars))
     names = list(dict.fromkeys(bar["action"] for _, bars, _ in films for bar in bars))
     colors = {name: _ACTION_COLORS[i % len(_ACTION_COLORS)] for i, name in enumerate(names)}
-    figure, grid = plots.figure(1, len(films), 11.5, 0.5 + 1.5 * len(films), sharex=True)
+    figure, grid = plots.figure(1, len(films), 11.5, 0.5 + 1.6 * len(films), sharex=True)
     end_s = max((bar["end_s"] for _, bars, _ in films for bar in bars), default=1.0)
     for (axes,), (row, bars, plans) in zip(grid, films, strict=True):
         for bar in bars:
@@ -154,8 +162,8 @@ def lanes(rows: Sequence[Row]) -> str:
         for plan in plans[1:]:
             axes.axvline(plan["t"], color=plots.INK, linewidth=1, linestyle=(0, (2, 2)))
             axes.text(plan["t"] + end_s / 400, -0.62, "replan", fontsize=7, color=plots.SOFT)
-        axes.set_title(f"{row['variant']}: {row['ending']}, {_times(int(row['replans'] or 0))}",
-                       pad=12)  # fmt: skip
+        end = f"{row['ending']}, {_times(int(row['replans'] or 0))}"
+        axes.set_title(f"{row['variant']}: {end}", pad=14)
         axes.set_yticks(range(len(agents)), labels=[agent or "no agent" for agent in agents])
         axes.set_ylim(len(agents) - 0.5, -0.5)
         axes.set_xlim(0, end_s)

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from hrcplan.studies.estimate import Estimate
 from hrcplan.studies.failure_anticipation import figures, scenario
-from hrcplan.studies.failure_anticipation.claims import NAMES, claims, is_far, of_cell
+from hrcplan.studies.failure_anticipation.claims import claims, is_far, of_cell
 from hrcplan.studies.page import escape, picture, table
 from hrcplan.studies.report import cells_of, estimates
 from hrcplan.studies.study import Cell, Findings, Options, Row, Rows, Section
@@ -15,14 +15,21 @@ _HEADS = {
     "success_pct": "success<small>%</small>",
     "replans": "replans<small>per run</small>",
     "failed_pct": "failed<small>% of actions</small>",
-    "assigned_human_pct": "assigned human<small>%</small>",
-    "assigned_robot_pct": "assigned robot<small>%</small>",
-    "successful_human_pct": "successful human<small>%</small>",
-    "successful_robot_pct": "successful robot<small>%</small>",
+    "assigned_human_pct": "assigned<br>human<small>%</small>",
+    "assigned_robot_pct": "assigned<br>robot<small>%</small>",
+    "successful_human_pct": "successful<br>human<small>%</small>",
+    "successful_robot_pct": "successful<br>robot<small>%</small>",
     "makespan_s": "makespan<small>s</small>",
 }
-_SHOWN = ("success_pct", "replans", "failed_pct", "assigned_human_pct", "successful_human_pct",
-          "makespan_s")  # fmt: skip
+_TITLES = {
+    "success_pct": "success\n(%)",
+    "replans": "replans\nper run",
+    "failed_pct": "failed\n(% of actions)",
+    "assigned_human_pct": "assigned\nhuman (%)",
+    "successful_human_pct": "successful\nhuman (%)",
+    "makespan_s": "makespan\n(s)",
+}
+_SHOWN = tuple(_TITLES)
 _CASES = (
     "Case 1: the human does not contribute (an element of its state takes the value 10, where "
     "every action that it touches fails). Case 2: it contributes to a varying degree (5 to 10). "
@@ -90,12 +97,7 @@ def all_methods(by_cell: Mapping[Cell, Sequence[Row]], own_task: bool) -> Sectio
             str(case): dict(zip(data["columns"], data[case], strict=True))
             for case, _ in by_cell if case in data
         }  # fmt: skip
-    names = {n: NAMES[n].replace("human's successful", "successful human") for n in _SHOWN}
-    titles = {n: f"{title} ({'s' if n == 'makespan_s' else '%'})" if n != "replans" else title
-              for n, title in names.items()}  # fmt: skip
-    titles["assigned_human_pct"] = "assigned human (%)"
-    titles["successful_human_pct"] = "successful human (%)"
-    svg = figures.measures(by_cell, titles, printed)
+    svg = figures.measures(by_cell, _TITLES, printed)
     caption = "Dots: means, with 95 % intervals. Diamonds: the figures that the paper prints."
     return Section("All methods", picture(svg, caption) + _table_of(by_cell))
 
