@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import hashlib
+import os
+import threading
+import time
 from collections.abc import Callable, Iterator, Mapping
+from functools import cache
 from itertools import groupby
 from pathlib import Path
 
@@ -50,7 +55,9 @@ def run_study(
     study = find(name)
     chosen = study.with_defaults(options or {})
     wanted = list(episodes(study, chosen, runs, limit))
-    about = {"study": name, "version": __version__, "seed": seed, "options": chosen}
+    digest = hashlib.sha256(study.inputs(chosen).encode()).hexdigest()
+    about = {"study": name, "version": __version__, "seed": seed, "options": chosen,
+             "inputs_sha256": digest}  # fmt: skip
     with Store.to_write(Path(folder), about, study.tables) as store:
         left = store.missing(study.tables, wanted)
         done = len(wanted) - len(left)
@@ -76,7 +83,26 @@ def _results(
     from joblib import Parallel, delayed
 
     workers = Parallel(n_jobs=jobs, return_as="generator", batch_size=1)
-    yield from workers(delayed(_rows)(name, options, seed, chunk) for chunk in chunks)
+    yield from workers(delayed(_work)(os.getpid(), name, options, seed, chunk) for chunk in chunks)
+
+
+def _work(
+    parent: int, name: str, options: Options, seed: int, chunk: list[Episode]
+) -> list[tuple[Episode, Row]]:
+    _end_with(parent)
+    return _rows(name, options, seed, chunk)
+
+
+@cache
+def _end_with(parent: int) -> None:
+    """End this worker soon after its parent was killed: it would wait for work for minutes."""
+
+    def watch() -> None:
+        while os.getppid() == parent:
+            time.sleep(1)
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
 
 
 def _rows(

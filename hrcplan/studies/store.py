@@ -87,7 +87,8 @@ class Store:
 
     def _prepare(self, about: dict[str, Any], tables: Iterable[Table]) -> None:
         with self._connection as connection:
-            connection.execute(f"create table if not exists {_ABOUT} (key text primary key, value)")
+            columns = "(key text primary key, value) without rowid"
+            connection.execute(f"create table if not exists {_ABOUT} {columns}")
             for table in tables:
                 connection.execute(_create(table))
             found = self.about()
@@ -140,11 +141,19 @@ class Store:
         return [dict(zip(names, row, strict=True)) for row in cursor]
 
     def compact(self) -> None:
-        """Rewrite the file, so that its bytes depend on its rows and not on how they came."""
+        """Write the file anew, so that its bytes depend on its rows and not on how they came."""
         path, fresh = self.folder / FILE, self.folder / f".{FILE}.new"
         fresh.unlink(missing_ok=True)
-        self._connection.execute("vacuum into ?", [str(fresh)])
+        tables = self._connection.execute("select name, sql from sqlite_master").fetchall()
         self._connection.close()
+        made = sqlite3.connect(fresh)
+        made.execute("attach ? as old", [str(path)])
+        with made:
+            for name, statement in sorted(tables):
+                if statement is not None:  # an index that SQLite makes by itself
+                    made.execute(statement)
+                    made.execute(f"insert into main.{name} select * from old.{name} order by 1, 2")
+        made.close()
         fresh.replace(path)
         self._connection = sqlite3.connect(path)
 

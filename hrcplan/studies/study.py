@@ -9,7 +9,6 @@ import importlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import islice
-from typing import Any
 
 from hrcplan.errors import UsageError
 from hrcplan.pddl.source import nearest
@@ -72,13 +71,18 @@ Rows = Mapping[str, Sequence[Row]]
 
 @dataclass(frozen=True, slots=True)
 class Study:
-    """A study; the first table holds what is reported by cell, the others what explains it."""
+    """A study; the first table holds what is reported by cell, the others what explains it.
+
+    ``inputs`` returns the text of the files that rows depend on; where it has changed, rows made
+    before are not added to.
+    """
 
     name: str
     title: str
     tables: tuple[Table, ...]
     measures: tuple[str, ...]
     findings: Callable[[Options, Rows], Findings]
+    inputs: Callable[[Options], str]
     details: tuple[str, ...] = ()
     options: Options = field(default_factory=dict)
 
@@ -110,17 +114,28 @@ class Episode:
 
 
 def find(name: str) -> Study:
-    """Return a study by its name.
+    """Return a study by its name, or somebody's own as ``module:NAME``.
 
     Raises:
         UsageError: if there is none.
     """
+    if name.count(":") == 1:
+        return _own(*name.split(":"))
     if name not in STUDIES:
         hint = nearest(name, STUDIES) or f"studies: {', '.join(STUDIES)}"
         raise UsageError(f"there is no study '{name}'", code="unknown-study", hint=hint)
-    module: Any = importlib.import_module(STUDIES[name])
-    study: Study = module.STUDY
+    study: Study = importlib.import_module(STUDIES[name]).STUDY
     return study
+
+
+def _own(module: str, name: str) -> Study:
+    try:
+        found = getattr(importlib.import_module(module), name)
+    except (ImportError, AttributeError) as error:
+        raise UsageError(f"no study {module}:{name}: {error}", code="unknown-study") from None
+    if not isinstance(found, Study):
+        raise UsageError(f"{module}:{name} is no Study", code="unknown-study")
+    return found
 
 
 def episodes(

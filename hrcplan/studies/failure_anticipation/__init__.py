@@ -33,4 +33,5 @@ STUDY = Study(
              "replans_deviation", "plans_confirmed", "interactions"),
     options=scenario.defaults(),
     findings=findings,
+    inputs=scenario.inputs,
 )  # fmt: skip

@@ -11,7 +11,9 @@ from typing import Any
 
 from hrcplan.errors import UsageError
 from hrcplan.execution import Spec
+from hrcplan.facade import load_problem
 from hrcplan.pddl.model import FluentKey
+from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.studies.study import Cell, Options
 
 HERE = Path(__file__).parent
@@ -41,6 +43,15 @@ def defaults() -> dict[str, str]:
 def is_own_task(options: Options) -> bool:
     """Whether the options name the task that the file was written for."""
     return dict(options) == defaults()
+
+
+def inputs(options: Options) -> str:
+    """Return domain and problems of the study, and its own files."""
+    own = [path.read_text(encoding="utf-8") for path in sorted(HERE.glob("*.toml"))]
+    names = {options["problem"]}
+    names.update(m.changes.get("problem", "") for m in methods("methods", options).values())
+    problems = [load_problem(options["domain"], name) for name in sorted(names - {""})]
+    return "".join([*own, domain_text(problems[0].domain), *map(problem_text, problems)])
 
 
 def methods(kind: str, options: Options) -> dict[str, Method]:
