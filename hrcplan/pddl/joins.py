@@ -87,7 +87,7 @@ class Join:
         options = [index.candidates(atom, binding) for atom in atoms]
         chosen = min(range(len(atoms)), key=lambda i: len(options[i]))
         rest = atoms[:chosen] + atoms[chosen + 1 :]
-        for fact in tuple(options[chosen]):
+        for fact in options[chosen]:
             wider = self._match(atoms[chosen], fact, binding)
             if wider is not None:
                 yield from self._extend(wider, rest, index)
@@ -101,17 +101,18 @@ class Join:
             yield from self._free({**binding, missing: value})
 
     def _match(self, atom: Atom, fact: Fact, binding: Binding) -> Binding | None:
-        wider = dict(binding)
-        for term, value in zip(atom.args, fact[1:], strict=True):
-            if not term.startswith("?"):
-                if term != value:
+        """Return the binding with the variables of an atom bound to a fact; None if it differs."""
+        wider = binding
+        for position, term in enumerate(atom.args, start=1):
+            value = fact[position]
+            known = wider.get(term) if term[0] == "?" else term
+            if known is None:
+                if value not in self._allowed[term]:
                     return None
-            elif term in wider:
-                if wider[term] != value:
-                    return None
-            elif value in self._allowed[term]:
+                if wider is binding:
+                    wider = dict(binding)
                 wider[term] = value
-            else:
+            elif known != value:
                 return None
         return wider
 

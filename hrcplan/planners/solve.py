@@ -13,11 +13,12 @@ from hrcplan.errors import (
     PlannerError,
     UnsupportedError,
 )
-from hrcplan.pddl.model import TOTAL_COST, Number, Problem, number_text
+from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, Number, Problem, number_text
+from hrcplan.pddl.semantics import evaluate
 from hrcplan.planners import registry
 from hrcplan.planners.answer import Answer, Card, Planner, Request, Status
 from hrcplan.planners.lanes import schedule
-from hrcplan.plans import Plan
+from hrcplan.plans import EPSILON_S, Plan
 from hrcplan.task import Task
 from hrcplan.validation import Report, validate
 
@@ -43,6 +44,8 @@ class Result:
     ``status`` and ``planner`` are those of the answer that was kept; ``why`` says why that planner
     was asked; ``attempts`` tells of every planner that was, in order. ``shortest`` says of a
     sequential plan laid into lanes whether its makespan is proven minimal for its steps.
+    ``objective`` is what planners minimize here (metric, else makespan or cost), ``gaps`` how much
+    of it may be due to the gaps between actions.
     """
 
     status: Status
@@ -53,19 +56,27 @@ class Result:
     why: str
     attempts: tuple[Attempt, ...] = ()
     shortest: bool | None = None
-
-    @property
-    def objective(self) -> Number | None:
-        """The metric of the plan; its cost, or makespan, where the problem has no metric."""
-        return None if self.report is None else objective(self.report)
+    objective: Number | None = None
+    gaps: Number = 0
 
 
-def objective(report: Report) -> Number | None:
-    """Return what planners minimize: metric, else cost, else makespan."""
-    for value in (report.metric, report.cost, report.makespan_s):
-        if value is not None:
-            return value
-    return None
+def objective(problem: Problem, report: Report) -> Number | None:
+    """Return what planners minimize: the metric, else the makespan if temporal, else the cost."""
+    if problem.metric is not None:
+        return report.metric
+    return report.makespan_s if problem.domain.is_temporal else report.cost
+
+
+def _gaps(problem: Problem, plan: Plan) -> Number:
+    """Return what gaps of ``EPSILON_S`` can add to the objective of a schedule."""
+    if not problem.domain.is_temporal:
+        return 0
+    gaps = EPSILON_S * len(plan.actions)
+    if problem.metric is None:
+        return gaps
+    values = {**problem.values, (TOTAL_COST,): 0}
+    late = evaluate(problem.metric, {**values, (TOTAL_TIME,): gaps}, {})
+    return abs(late - evaluate(problem.metric, {**values, (TOTAL_TIME,): 0}, {}))
 
 
 def solve(
@@ -199,17 +210,29 @@ def _attempt(planner: Planner, request: Request, lanes: bool, why: str) -> Resul
         raise MissingPlannerError(f"planner '{planner.card.name}' cannot run here: {missing}")
     begun = time.monotonic()
     answer = planner.solve(request)
-    plan, shortest = answer.plan, None
-    report = None
-    if plan is not None:
-        check_answer(planner, request.problem, answer)
-        if not plan.is_schedule and (lanes or request.problem.domain.is_temporal):
-            plan, shortest = schedule(request.problem, plan)
-        report = validate(request.problem, plan)
-        _demand_valid(planner, report)
+    found = Result(answer.status, planner.card.name, None, None, 0, why)
+    if answer.plan is not None:
+        found = _checked(found, planner, request.problem, answer, lanes)
     wall_s = time.monotonic() - begun
     attempts = (Attempt(planner.card.name, answer.note, wall_s),) if answer.note else ()
-    return Result(answer.status, planner.card.name, plan, report, wall_s, why, attempts, shortest)
+    return replace(found, wall_s=wall_s, attempts=attempts)
+
+
+def _checked(
+    found: Result, planner: Planner, problem: Problem, answer: Answer, lanes: bool
+) -> Result:
+    """Return ``found`` with an answer's plan: guarded, laid into lanes if need be, replayed."""
+    check_answer(planner, problem, answer)
+    plan, shortest = answer.plan, None
+    assert plan is not None
+    if not plan.is_schedule and (lanes or problem.domain.is_temporal):
+        plan, shortest = schedule(problem, plan)
+    report = validate(problem, plan)
+    _demand_valid(planner, report)
+    return replace(
+        found, plan=plan, report=report, shortest=shortest,
+        objective=objective(problem, report), gaps=_gaps(problem, plan),
+    )  # fmt: skip
 
 
 def check_answer(planner: Planner, problem: Problem, answer: Answer) -> Report:
@@ -222,7 +245,7 @@ def check_answer(planner: Planner, problem: Problem, answer: Answer) -> Report:
     assert answer.plan is not None
     report = validate(problem, answer.plan)
     _demand_valid(planner, report)
-    ours = objective(report)
+    ours = objective(problem, report)
     if answer.objective is not None and ours is not None and _differ(answer.objective, ours):
         message = (
             f"planner '{planner.card.name}' reports {number_text(answer.objective)} for a plan "
@@ -259,7 +282,9 @@ def compare(results: Sequence[Result]) -> None:
                 raise CostGuardError(message)
         for best in proven:
             mine, theirs = result.objective, best.objective
-            if mine is not None and theirs is not None and mine < theirs and _differ(mine, theirs):
+            if mine is None or theirs is None:
+                continue
+            if mine < theirs - best.gaps and _differ(mine, theirs):
                 raise CostGuardError(
                     f"'{best.planner}' claims {number_text(theirs)} is optimal, but "
                     f"'{result.planner}' has a plan for {number_text(mine)}"

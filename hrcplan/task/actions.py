@@ -224,6 +224,8 @@ class _Builder:
 
 def _net(changes: Sequence[Change]) -> tuple[int, int]:
     """Return adds and deletes of the unconditional changes, one after the other."""
+    if len(changes) == 1 and changes[0].tests == ALWAYS:
+        return changes[0].adds, changes[0].deletes
     adds = deletes = 0
     for change in changes:
         if change.tests == ALWAYS:

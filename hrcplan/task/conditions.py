@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Set
+from collections.abc import Iterable, Iterator, Mapping, Set
 from dataclasses import dataclass
+from functools import cached_property
 
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.model import (
@@ -46,7 +47,12 @@ class Grounder:
     def bit(self, fact: Fact) -> int:
         """Return a state in which only this fact holds; 0 if it never changes."""
         position = self.bits.get(fact)
-        return 0 if position is None else 1 << position
+        return 0 if position is None else self._powers[position]
+
+    @cached_property
+    def _powers(self) -> list[int]:
+        """The powers of two, made once: in large tasks they are large."""
+        return [1 << position for position in range(len(self.bits))]
 
     def conditions(self, action: Action, when: str, binding: Binding, values: Values) -> Tests:
         """Return the alternatives that mean an action's conditions of one phase."""
@@ -67,7 +73,11 @@ class Grounder:
             case Atom():
                 fact = ground_key(formula, binding)
                 bit = self.bit(fact)
-                return ((bit, bit * positive),) if bit else _known((fact in self.fixed) == positive)
+                return (
+                    ((bit, bit if positive else 0),)
+                    if bit
+                    else _known((fact in self.fixed) == positive)
+                )
             case And(parts) | Or(parts):
                 inner = (self.tests(part, binding, values, positive) for part in parts)
                 return all_of(inner) if isinstance(formula, And) == positive else any_of(inner)
@@ -110,17 +120,25 @@ def all_of(parts: Iterable[Tests]) -> Tests:
     """Return alternatives of which one holds where all parts hold."""
     found = ALWAYS
     for part in parts:
-        found = _bounded(
-            tuple(
-                dict.fromkeys(
-                    (mask | other_mask, value | other_value)
-                    for mask, value in found
-                    for other_mask, other_value in part
-                    if not (value ^ other_value) & mask & other_mask
-                )
-            )
-        )
+        if found == ALWAYS or part == NEVER:
+            found = part
+        elif part != ALWAYS:
+            pairs = [_both(one, other) for one in found for other in part]
+            known = [pair for pair in pairs if pair is not None]
+            found = tuple(known) if len(known) < 2 else _bounded(tuple(dict.fromkeys(known)))
+        if found == NEVER:
+            return NEVER
     return found
+
+
+def _both(one: Test, other: Test) -> Test | None:
+    """Return the conjunction of two tests, or None if they contradict each other."""
+    mask, value = one
+    other_mask, other_value = other
+    if (value ^ other_value) & mask & other_mask:
+        return None
+    both, wanted = mask | other_mask, value | other_value
+    return both, both if wanted == both else wanted  # one object for both saves half the memory
 
 
 def negation(tests: Tests) -> Tests:
@@ -128,12 +146,17 @@ def negation(tests: Tests) -> Tests:
     return all_of(tuple((bit, ~value & bit) for bit in single_bits(mask)) for mask, value in tests)
 
 
-def single_bits(bits: int) -> Iterable[int]:
+def single_bits(bits: int) -> Iterator[int]:
     """Yield the powers of two that make up a number, from low to high."""
     while bits:
         low = bits & -bits
         yield low
         bits ^= low
+
+
+def positions(bits: int) -> Iterator[int]:
+    """Yield the positions of the bits that are set, from low to high."""
+    return (bit.bit_length() - 1 for bit in single_bits(bits))
 
 
 def _bounded(found: Tests) -> Tests:

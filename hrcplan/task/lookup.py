@@ -1,13 +1,18 @@
-"""Which actions can run in a state: tables over slices of the state, filled as they are used.
+"""Which actions can run in a state, without a look at each.
 
-Every action is either kept from running by some fact or changed nothing by all of them, and either
-can be read off one slice of the state at a time. A query is one table look-up per slice; it costs
-the same wherever the state comes from.
+An action cannot run if a fact says no, and is not offered unless a fact would change. Both can be
+read off one slice of the state at a time: a query is one table look-up per slice, and costs the
+same wherever the state comes from. The tables hold bits for every action, so that in tasks with
+tens of thousands of facts and actions they would be too large; there each action waits at one
+fact that it needs.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections import Counter, defaultdict
+from collections.abc import Callable, Iterable, Sequence
+
+from hrcplan.task.conditions import positions
 
 Rule = tuple[int, int, int, int, int]
 """Index, mask and value of the condition, facts added, facts deleted."""
@@ -17,14 +22,45 @@ _BYTES = SLICE // 8
 MAX_BITS = 2**29  # bound on what the tables of one task hold: 64 MB
 
 
-class Lookup:
-    """Answers which rules hold in a state and change it.
+def lookup(n_facts: int, n_actions: int, rules: Sequence[Rule]) -> Callable[[int], list[int]]:
+    """Return what answers which rules hold in a state and change it: their indices, in order.
 
     Args:
         n_facts: Bits of a state.
         n_actions: One more than the largest index of a rule.
         rules: Conditions and effects of the actions.
     """
+    large = n_facts * n_actions > MAX_BITS // 8
+    return Waiting(rules) if large else Lookup(n_facts, n_actions, rules)
+
+
+class Waiting:
+    """Rules by one fact that each needs: only those of facts that hold are looked at."""
+
+    def __init__(self, rules: Sequence[Rule]) -> None:
+        needs = [list(positions(value)) for _, _, value, _, _ in rules]
+        users = Counter(position for needed in needs for position in needed)
+        self._free: list[Rule] = []
+        self._at: dict[int, list[Rule]] = defaultdict(list)
+        for rule, needed in zip(rules, needs, strict=True):
+            (self._at[min(needed, key=users.__getitem__)] if needed else self._free).append(rule)
+        self._watched = sum(1 << position for position in self._at)
+
+    def __call__(self, state: int) -> list[int]:
+        """Return the indices of the rules, in order."""
+        candidates = [self._free, *(self._at[i] for i in positions(state & self._watched))]
+        found = [
+            index
+            for rules in candidates
+            for index, mask, value, adds, deletes in rules
+            if state & mask == value and (state & deletes or adds & ~state)
+        ]
+        found.sort()
+        return found
+
+
+class Lookup:
+    """Tables over slices of the state, filled as they are used."""
 
     def __init__(self, n_facts: int, n_actions: int, rules: Iterable[Rule]) -> None:
         self._n_actions = n_actions
@@ -68,10 +104,8 @@ def _verdicts(n_facts: int, n_actions: int, rules: Iterable[Rule]) -> tuple[list
             (false, adds, changes),
             (true, deletes, changes),
         ):
-            while facts:
-                position = facts.bit_length() - 1
+            for position in positions(facts):
                 verdicts[position] |= says
-                facts ^= 1 << position
     return false, true
 
 

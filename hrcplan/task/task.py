@@ -19,8 +19,8 @@ from hrcplan.pddl.model import (
 from hrcplan.pddl.semantics import evaluate, ground_key, instances, mentions
 from hrcplan.task.actions import Change, ground_actions
 from hrcplan.task.changing import Reached, combinations, reached_values, value_fact
-from hrcplan.task.conditions import Grounder, Test, Tests, all_of, any_of, meets, single_bits
-from hrcplan.task.lookup import Lookup
+from hrcplan.task.conditions import Grounder, Test, Tests, all_of, any_of, meets, positions
+from hrcplan.task.lookup import lookup
 from hrcplan.task.numbers import check_supported, divisors, exact, functions_read, numeric_effects
 from hrcplan.task.reachable import Instance, reachable
 
@@ -60,11 +60,11 @@ class Task:
         self.initial = self.state_of([*problem.facts, *given])
         self.goal: tuple[Test, ...] = _goal(grounder, reached)
         self._adds = [action.adds for action in self.actions]
-        self._keeps = [~action.deletes for action in self.actions]
+        self._deletes = [action.deletes for action in self.actions]
         simple = [a for a in self.actions if len(a.tests) == 1 and not a.conditional]
         rules = [(a.index, *a.tests[0], a.adds, a.deletes) for a in simple]
         self._complex = sorted({a.index for a in self.actions}.difference(a.index for a in simple))
-        self._runnable = Lookup(len(self.facts), len(self.actions), rules)
+        self._runnable = lookup(len(self.facts), len(self.actions), rules)
 
     # The ten verbs, over states as integers and actions as indices.
 
@@ -85,7 +85,8 @@ class Task:
         action = self.actions[index]
         if action.conditional:
             return self.finish(self.start(state, index), index)
-        return state & self._keeps[index] | self._adds[index]
+        deletes = self._deletes[index]
+        return (state | deletes) ^ deletes | self._adds[index]
 
     def start(self, state: int, index: int) -> int:
         """Return the state just after an action has started."""
@@ -111,7 +112,7 @@ class Task:
 
     def facts_of(self, state: int) -> frozenset[Fact]:
         """Return the fluents that hold in a state."""
-        return frozenset(self.facts[bit.bit_length() - 1] for bit in single_bits(state))
+        return frozenset(self.facts[position] for position in positions(state))
 
     @cached_property
     def costs(self) -> tuple[Number, ...]:

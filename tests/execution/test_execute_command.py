@@ -139,3 +139,38 @@ def test_the_same_loop_runs_on_a_domain_that_nobody_has_seen(tmp_path: Path) -> 
     ]
     assert all(row.success for row in rows), rows
     assert any(row.failed_human for row in rows)
+
+
+def test_executing_loads_nothing_heavy() -> None:
+    code = (
+        "import sys; from hrcplan import execute; execute('transport', 'two-boxes');"
+        "print({'unified_planning', 'sklearn', 'matplotlib', 'scipy'} & set(sys.modules))"
+    )
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert run.stdout.strip() == "set()"
+
+
+CLASSICAL = """
+(define (domain blocks) (:requirements :strips)
+  (:predicates (on ?x ?y) (clear ?x) (table ?x))
+  (:action stack :parameters (?x ?y)
+    :precondition (and (clear ?x) (clear ?y) (table ?x))
+    :effect (and (on ?x ?y) (not (table ?x)) (not (clear ?y)))))
+"""
+CLASSICAL_PROBLEM = """
+(define (problem three) (:domain blocks) (:objects a b c)
+  (:init (clear a) (clear b) (clear c) (table a) (table b) (table c))
+  (:goal (and (on b c) (on a b))))
+"""
+
+
+def test_a_domain_without_agents_is_executed_too(tmp_path: Path) -> None:
+    domain, problem = tmp_path / "blocks.pddl", tmp_path / "three.pddl"
+    domain.write_text(CLASSICAL)
+    problem.write_text(CLASSICAL_PROBLEM)
+    run = hrcplan("execute", str(domain), str(problem))
+    assert run.returncode == 0, run.stderr
+    assert "goal reached: 2 steps" in run.stdout
+    nobody = hrcplan("execute", str(domain), str(problem), "--human", "case1")
+    assert nobody.returncode == 2
+    assert "nobody" in nobody.stderr

@@ -1,5 +1,7 @@
 """The simulated world: real durations, failures from the truth, sensing when it is asked for."""
 
+from pathlib import Path
+
 import pytest
 
 from hrcplan.errors import UsageError
@@ -10,6 +12,7 @@ from hrcplan.execution.simulate import cause_of, nature_of
 from hrcplan.execution.worlds import chance
 from hrcplan.execution.worlds.simulated import FactChange, Nature, SimulatedWorld, StateChange
 from hrcplan.facade import load_problem
+from hrcplan.pddl import library
 from hrcplan.pddl.model import Problem
 
 MOTIVATION = ("motivation", "human")
@@ -155,6 +158,45 @@ def test_a_random_change_comes_before_one_of_the_human_s_actions() -> None:
     engine = engine_for(Spec())
     times = {round(nature_of(Spec(seed=s, when="random"), engine).changes[0].t) for s in range(60)}
     assert times == {0, 50, 100, 150}
+
+
+def test_unequal_durations_lose_no_time_and_reach_the_goal() -> None:
+    """A human who takes one and a half times as long keeps the robot waiting for nothing."""
+    engine = engine_for(Spec())
+    slow = Nature("slow", stretch=(1.5, 1.5))
+    run = engine.run(slow)
+    assert run.ending == ev.GOAL
+    assert run.tally.last_end_s == 300.0
+    varied = Nature("varied", (lost(120.0),), stretch=(0.5, 2.0))
+    assert engine_for(Spec(profile="hrcplan")).run(varied).ending == ev.GOAL
+
+
+REMIND = """
+  (:durative-action remind
+    :parameters (?a - agent ?h - agent)
+    :duration (= ?duration 10)
+    :condition (and (at start (partner ?a ?h)) (at start (idle ?a)) (at start (idle ?h)))
+    :effect (and (at start (not (idle ?a))) (at end (idle ?a))
+      (at start (not (idle ?h))) (at end (idle ?h)) (at end (assign (motivation ?h) 1))
+      (at start (increase (total-cost) 3)))))
+"""
+
+
+@pytest.mark.parametrize(("success", "value"), [("1", 1), ("0", 10)])
+def test_an_interaction_changes_the_truth_if_it_succeeds(
+    tmp_path: Path, success: str, value: int
+) -> None:
+    text = library.find_domain("transport").read_text()
+    (tmp_path / "transport.pddl").write_text(
+        f";; hrcplan: success remind {success}\n{text.rstrip()[:-1]}{REMIND}"
+    )
+    loaded = load_problem(
+        str(tmp_path / "transport.pddl"), str(library.find_problem("transport", "two-boxes"))
+    )
+    world = SimulatedWorld(loaded, Nature(changes=(lost(0.0),), sensed="before"))
+    world.begin()
+    world.do(ev.Dispatch(0.0, 0, "robot", "remind", ("robot", "human"), 10.0))
+    assert everything(world) == [ev.Ended(10.0, 0, ev.DONE), ev.Sensed(10.0, {MOTIVATION: value})]
 
 
 def test_a_change_known_before_the_first_plan_needs_no_replan() -> None:

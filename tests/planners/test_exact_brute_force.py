@@ -17,6 +17,7 @@ from hrcplan.pddl.model import And, Atom, Effect, Fact, Formula, Not, Problem
 from hrcplan.pddl.semantics import Binding, State, Undefined, evaluate, ground_key, holds, instances
 from hrcplan.planners.answer import Answer, Request, Status
 from hrcplan.planners.exact import Exact
+from hrcplan.plans import EPSILON_S
 from hrcplan.validation import validate
 
 Facts = frozenset[Fact]
@@ -236,7 +237,7 @@ def compare(problem: Problem, answer: Answer, optimum: Fraction | None, w_time: 
     report = validate(problem, answer.plan)
     assert report.valid, report.reason
     assert report.metric == answer.objective
-    gaps = w_time * 2 * len(answer.plan.actions) / 1000  # a gap, and up to a whole millisecond
+    gaps = w_time * len(answer.plan.actions) * (EPSILON_S + Fraction(1, 10**9))
     assert optimum <= report.metric <= optimum + gaps
 
 

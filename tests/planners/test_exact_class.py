@@ -98,7 +98,7 @@ def test_it_declines_metrics(metric: str, ann: str, reason: str, tmp_path: Path)
 
 
 def test_it_declines_classical_tasks() -> None:
-    with pytest.raises(UnsupportedError, match="no action has a duration"):
+    with pytest.raises(UnsupportedError, match="exact declines: no action has a duration"):
         Exact().replan(load("kitchen", "oatmeal-apple"))
 
 

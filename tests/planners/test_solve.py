@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import pytest
 
@@ -15,7 +15,7 @@ from hrcplan.errors import (
     UsageError,
 )
 from hrcplan.facade import load_problem
-from hrcplan.pddl.model import Problem
+from hrcplan.pddl.model import Arithmetic, Constant, Function, Problem
 from hrcplan.planners import registry
 from hrcplan.planners.answer import Answer, Card, Request, Status
 from hrcplan.planners.solve import compare, solve
@@ -177,3 +177,22 @@ def test_an_unknown_planner_gets_a_hint() -> None:
     with pytest.raises(UsageError) as error:
         registry.make("fast-downwart")
     assert error.value.hint == "did you mean 'fast-downward'?"
+
+
+def test_a_gap_more_is_no_contradiction(two_boxes: Problem) -> None:
+    from fractions import Fraction
+
+    dear = replace(two_boxes, metric=Arithmetic("*", (Constant(9), Function("total-time"))))
+    more = GOOD.replace(
+        "150.003: (place human blue wp5) [50]", "150.007: (place human blue wp5) [50]"
+    )
+    proven = solve(dear, Scripted(Answer(Status.OPTIMAL, parse_plan(more))))
+    better = solve(dear, Scripted(solved(GOOD)))
+    assert proven.objective == Fraction("200.007") * 9
+    compare([proven, better])
+
+
+def test_without_a_metric_a_temporal_plan_is_as_good_as_it_is_short(two_boxes: Problem) -> None:
+    found = solve(replace(two_boxes, metric=None), Scripted(solved(GOOD)))
+    assert found.report is not None
+    assert found.objective == found.report.makespan_s

@@ -36,7 +36,7 @@ def test_random_walks_of_shipped_problems(domain: str, name: str, oracle: Any) -
     lifted, task = oracle(problem), Task(problem)
     chance = random.Random(name)
     state = lifted.initial
-    for _ in range(15):
+    for _ in range(8):
         followers = lifted.compare(task, state)
         state = followers[chance.choice(sorted(followers))].state
 

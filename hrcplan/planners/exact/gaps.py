@@ -58,7 +58,7 @@ class Gaps:
         for action, tick in starts(path, frame):
             touches = self._touches(task, action)
             start = _earliest(touches, tick, placed)
-            end = start + (task.actions[action].duration or 0)
+            end = start + printable(task.actions[action].duration or 0)
             last = tick + frame.ticks[action]
             placed.append(Placed(action, tick, last, start, end, touches))
         placed.sort(key=lambda p: (p.start_s, p.action))
@@ -85,24 +85,31 @@ def _earliest(touches: Accesses, tick: int, placed: list[Placed]) -> Number:
         if clash(other.touches.whole, touches.whole) is None:
             continue
         if other.end_tick <= tick:
-            start = max(start, _whole_ms(other.end_s + EPSILON_S))
+            since, event = other.end_s, other.touches.end
         else:
-            gap = EPSILON_S if clash(other.touches.start, touches.start) else 0
-            start = max(start, _whole_ms(other.start_s + gap))
+            since, event = other.start_s, other.touches.start
+        start = max(start, since + (EPSILON_S if clash(event, touches.start) else 0))
     for other in sorted(placed, key=lambda p: p.end_s):
         # Starting after an end instead of just before it is always possible (see frame.py).
         near = -EPSILON_S < other.end_s - start < EPSILON_S
         if near and clash(other.touches.end, touches.start):
-            start = _whole_ms(other.end_s + EPSILON_S)
+            start = other.end_s + EPSILON_S
     return start
 
 
-def _whole_ms(seconds: Number) -> Number:
-    """Return the first whole millisecond at or after a time: what a printed plan can say."""
-    whole = Fraction(ceil(seconds * 1000), 1000)
-    return int(whole) if whole.denominator == 1 else whole
+def printable(seconds: Number) -> Number:
+    """Return a duration as a plan can say it: nine decimals, rounded up.
+
+    So the plan that is read again is the plan that was made, gaps included.
+
+    >>> printable(50), printable(Fraction(1, 3))
+    (50, Fraction(166666667, 500000000))
+    """
+    found = Fraction(ceil(seconds * 10**9), 10**9)
+    return int(found) if found.denominator == 1 else found
 
 
 def _planned(task: Task, placed: Placed) -> PlannedAction:
     action = task.actions[placed.action]
-    return PlannedAction(action.name, action.args, placed.start_s, action.duration)
+    duration = placed.end_s - placed.start_s
+    return PlannedAction(action.name, action.args, placed.start_s, duration)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 
-from hrcplan.errors import LimitError
+from hrcplan.errors import LimitError, UnsupportedError
 from hrcplan.pddl.model import TOTAL_COST, Number, Problem
 from hrcplan.planners.answer import Answer, Card, Request, Status
 from hrcplan.planners.exact.frame import Frame, frame
@@ -107,12 +107,14 @@ class Exact:
             UnsupportedError: if the task is outside the class that ``frame.py`` describes.
         """
         until = time.monotonic() + 60 if deadline is None else deadline
-        wanted = metric(task.problem)
         try:
+            wanted = metric(task.problem)
             if self._kept is None or self._kept.actions is not task.actions:
                 self._kept = None  # frees the graph of another task first
                 self._kept = _Kept(task)
             return _answer(task, self._kept, wanted, until, any_plan)
+        except UnsupportedError as error:
+            raise UnsupportedError(f"exact declines: {error.message}", hint=error.hint) from None
         except LimitError as error:
             return Answer(Status.UNSOLVED, note=error.message)
 

@@ -23,7 +23,7 @@ from hrcplan.planners.exact.graph import FAR, Graph
 from hrcplan.planners.exact.weights import Weights
 from hrcplan.task.conditions import meets
 
-MAX_NODES = 1_500_000  # about 0.8 kB each
+MAX_NODES = 1_000_000  # about 0.8 kB each
 WAIT = chr(0x10FFFF)
 _CHECK = 0xFF  # nodes between two looks at the clock
 
