@@ -152,7 +152,7 @@ class Monitor(Observer):
             return None
         rest = rest_of(pursuit.plan, pursuit.order, pursuit.ended, self.problem.domain.is_temporal)
         report = validate(self.now(run), rest)
-        value = objective(report)
+        value = objective(self.problem, report)
         return None if not report.valid or value is None else (rest, value)
 
     # Dispatch: every action whose turn has come, if it still can be done.

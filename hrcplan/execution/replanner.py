@@ -71,7 +71,7 @@ class Replanner:
             if result.plan is None:
                 return ev.Planned(ask.t, None, None, result.planner, "the goal is unsolvable")
             assert result.report is not None
-            value, note = objective(result.report), "; ".join(failures)
+            value, note = objective(problem, result.report), "; ".join(failures)
             return ev.Planned(ask.t, result.plan, value, result.planner, note)
         return ev.Planned(ask.t, None, note="; ".join(failures))
 
