@@ -32,7 +32,7 @@ def report_study(folder: str | Path) -> dict[str, Any]:
     main = study.tables[0]
     findings = study.findings(options, rows)
     by_cell = cells_of(rows[main.name], main.keys, main.cells(options))
-    document = {
+    document: dict[str, Any] = {
         "study": study.name,
         "n_rows": len(rows[main.name]),
         "rows": [_summary(study, cell, found) for cell, found in by_cell.items() if found],

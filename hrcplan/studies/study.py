@@ -15,7 +15,7 @@ from hrcplan.pddl.source import nearest
 
 Value = int | float | str | None
 Row = dict[str, Value]
-Cell = tuple[str | int, ...]
+Cell = tuple[str | int | float, ...]
 Options = Mapping[str, str]
 
 STUDIES = {"failure-anticipation": "hrcplan.studies.failure_anticipation"}
@@ -141,10 +141,11 @@ def _own(module: str, name: str) -> Study:
 def episodes(
     study: Study, options: Options, runs: int, limit: int | None = None
 ) -> Iterator[Episode]:
-    """Yield the episodes of a study in their fixed order: run by run, each over all cells.
+    """Yield the episodes of a study in their fixed order.
 
-    ``limit`` cuts the first table after that many episodes, so a larger one extends a smaller one;
-    the other tables then get as many runs as the first one completes, but at least one.
+    Those of the first table come run by run, each over all cells, and ``limit`` cuts them after
+    that many: a larger one extends a smaller one. The other tables come cell by cell; under a limit
+    they get as many runs as the first table completes, but at least one.
     """
     for table in study.tables:
         cells = table.cells(options)
@@ -155,4 +156,4 @@ def episodes(
             if limit is not None and cells:
                 runs = min(runs, max(1, limit // len(cells)))
         else:
-            yield from (Episode(table.name, cell, run) for run in range(wanted) for cell in cells)
+            yield from (Episode(table.name, cell, run) for cell in cells for run in range(wanted))

@@ -22,11 +22,11 @@ TASK = {"domain": str(FETCH / "domain.pddl"), "problem": str(FETCH / "four-items
 METHODS = ["paper", "hrcplan", "memory", "interaction", "estimated", "random-time", "all-fail"]
 MEASURES = {"success_pct", "replans", "failed_pct", "assigned_human_pct", "successful_human_pct",
             "makespan_s"}  # fmt: skip
-TABLES = ("rows", "variants", "allocation", "example")
+TABLES = ("rows", "variants", "sweeps", "allocation", "example")
 
 
 def run(folder: Path, **options: Any) -> int:
-    return run_study(NAME, folder, **{"runs": 6, "options": TASK, **options})
+    return run_study(NAME, folder, **{"runs": 2, "options": TASK, **options})
 
 
 def rows(folder: Path) -> dict[str, list[tuple[Any, ...]]]:
@@ -55,7 +55,9 @@ def test_a_limit_is_spread_evenly_and_a_larger_one_extends_it(tmp_path: Path) ->
     run(tmp_path / "grown", limit=small)
     before = rows(tmp_path / "grown")
     assert len(before["rows"]) == small
-    per_cell = [sum(row[:2] == cell for row in before["rows"]) for cell in study.tables[0].cells(TASK)]
+    per_cell = [
+        sum(row[:2] == cell for row in before["rows"]) for cell in study.tables[0].cells(TASK)
+    ]
     assert max(per_cell) - min(per_cell) == 1
     run(tmp_path / "grown", limit=large)
     run(tmp_path / "at-once", limit=large)
@@ -67,10 +69,10 @@ def test_a_limit_is_spread_evenly_and_a_larger_one_extends_it(tmp_path: Path) ->
 
 def test_more_runs_extend_fewer(tmp_path: Path) -> None:
     run(tmp_path / "grown", runs=2)
-    n_new = run(tmp_path / "grown", runs=5)
-    run(tmp_path / "at-once", runs=5)
+    n_new = run(tmp_path / "grown", runs=3)
+    run(tmp_path / "at-once", runs=3)
     assert n_new > 0
-    assert run(tmp_path / "grown", runs=5) == 0
+    assert run(tmp_path / "grown", runs=3) == 0
     grown, at_once = tmp_path / "grown" / "rows.sqlite", tmp_path / "at-once" / "rows.sqlite"
     assert grown.read_bytes() == at_once.read_bytes()
 
@@ -86,7 +88,7 @@ def test_cells_are_paired() -> None:
 
 @pytest.mark.parametrize("jobs", [1, 2])
 def test_killed_in_the_middle_it_goes_on_to_the_same_rows(tmp_path: Path, jobs: int) -> None:
-    command = [sys.executable, "-m", "hrcplan", "study", "run", NAME, "--runs", "40",
+    command = [sys.executable, "-m", "hrcplan", "study", "run", NAME, "--runs", "20",
                "--domain", TASK["domain"], "--problem", TASK["problem"], "--jobs", str(jobs),
                "-o", str(tmp_path / "killed")]  # fmt: skip
     process = subprocess.Popen(command, stdout=subprocess.DEVNULL, start_new_session=True)
@@ -96,10 +98,10 @@ def test_killed_in_the_middle_it_goes_on_to_the_same_rows(tmp_path: Path, jobs: 
         process.kill()
         process.wait()
     _wait_for_end_of_group(process.pid)
-    wanted = len(list(episodes(find(NAME), TASK, 40)))
+    wanted = len(list(episodes(find(NAME), TASK, 20)))
     assert 0 < n_before < wanted
-    assert run(tmp_path / "killed", runs=40, jobs=jobs) < wanted
-    run(tmp_path / "whole", runs=40)
+    assert run(tmp_path / "killed", runs=20, jobs=jobs) < wanted
+    run(tmp_path / "whole", runs=20)
     killed, whole = tmp_path / "killed" / "rows.sqlite", tmp_path / "whole" / "rows.sqlite"
     assert killed.read_bytes() == whole.read_bytes()
 
@@ -137,7 +139,9 @@ def test_the_keys_of_the_report(tmp_path: Path) -> None:
     document = json.loads((tmp_path / "report.json").read_text())
     assert document == returned
     assert document["study"] == NAME
-    assert document["n_rows"] == len(rows(tmp_path)["rows"]) == sum(r["n"] for r in document["rows"])
+    assert (
+        document["n_rows"] == len(rows(tmp_path)["rows"]) == sum(r["n"] for r in document["rows"])
+    )
     for row in document["rows"]:
         assert set(row["cell"]) == {"case", "method"}
         assert row["cell"]["method"] in METHODS
@@ -224,7 +228,7 @@ def test_a_failing_episode_is_named_and_the_rows_before_it_stay(
     )
     monkeypatch.syspath_prepend(str(tmp_path))
     with pytest.raises(ZeroDivisionError) as error:
-        run_study("breaking:STUDY", tmp_path / "out", runs=50)
+        run_study("breaking:STUDY", tmp_path / "out", runs=30)
     assert "run 40" in "".join(error.value.__notes__)
     document = report_study(tmp_path / "out")
     assert document["n_rows"] == 32

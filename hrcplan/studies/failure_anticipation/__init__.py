@@ -22,6 +22,8 @@ STUDY = Study(
         Table("variants", ("case", "method"), episodes.COLUMNS,
               partial(scenario.cells, "variants"), partial(episodes.simulated, "variants"),
               at_most=400),
+        Table("sweeps", ("parameter", "setting"), episodes.COLUMNS,
+              scenario.sweep_cells, episodes.swept, at_most=200),
         Table("allocation", ("profile", "action", "value"), episodes.SHARES,
               episodes.allocation_cells, episodes.allocated, at_most=1),
         Table("example", ("variant",), episodes.TOLD,

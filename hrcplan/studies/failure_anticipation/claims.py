@@ -66,7 +66,7 @@ def hypothesis_1(rows: Rows) -> Claim:
         holds &= found["success_pct"].is_above_zero
         holds &= found["failed_pct"].is_below_zero and found["replans"].is_below_zero
         words.append(f"case {case}: {_changes(found)}")
-    evidence = f"{'; '.join(words)}. Means of b − a over pairs of runs, ± standard error."
+    evidence = f"{'; '.join(words)}. Means of b minus a over pairs of runs, ± standard error."
     return Claim(H1, holds, evidence, PAPER)
 
 
@@ -85,7 +85,7 @@ def hypothesis_2(rows: Rows) -> Claim:
     more = difference(able, unable)
     holds &= more.is_above_zero
     words.append(f"the human's share is {_signed(more)} points larger in 2b than in 1b")
-    evidence = f"{'; '.join(words)}. Means of b − a over pairs of runs, ± standard error."
+    evidence = f"{'; '.join(words)}. Means of b minus a over pairs of runs, ± standard error."
     return Claim(H2, holds, evidence, PAPER)
 
 
@@ -98,7 +98,7 @@ def _changes(found: Mapping[str, Estimate]) -> str:
 
 
 def _signed(e: Estimate) -> str:
-    return f"{e.mean:+.2f} ± {e.se:.2f}".replace("-", "−")
+    return f"{e.mean:+.2f} ± {e.se:.2f}".replace("-", "\u2212")
 
 
 def switch(options: Options, profile: str, rows: Iterable[Row]) -> Claim:

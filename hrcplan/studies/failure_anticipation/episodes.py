@@ -34,6 +34,11 @@ def simulated(kind: str, options: Options, cell: Cell, seed: str) -> Row:
     return row_of(spec)
 
 
+def swept(options: Options, cell: Cell, seed: str) -> Row:
+    """Return the row of one simulated run of the sweeps."""
+    return row_of(scenario.swept(options, cell, seed))
+
+
 def row_of(spec: Spec) -> Row:
     """Return the row of one simulated run."""
     engine = engine_for(spec)

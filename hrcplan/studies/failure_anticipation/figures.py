@@ -148,6 +148,28 @@ def levels(lines: Mapping[str, Sequence[Row]], names: Mapping[str, str]) -> str:
 
 
 @plots.styled
+def sweeps(by_cell: Mapping[Cell, Sequence[Row]], names: Mapping[str, str]) -> str:
+    """Return measures against each swept parameter: a column per parameter, a row per measure."""
+    parameters = list(dict.fromkeys(str(parameter) for parameter, _ in by_cell))
+    figure, grid = plots.figure(
+        len(parameters), len(names), 11.5, 0.6 + 1.7 * len(names), sharex="col", sharey="row"
+    )
+    for column, parameter in enumerate(parameters):
+        found = sorted((float(v), rows) for (name, v), rows in by_cell.items() if name == parameter)
+        for line, (measure, title) in enumerate(names.items()):
+            axes = grid[line][column]
+            got = [estimate(float(row[measure] or 0) for row in rows) for _, rows in found]
+            axes.errorbar([v for v, _ in found], [e.mean for e in got],
+                          [CONFIDENT * e.se for e in got], fmt="o-", markersize=4,
+                          color=plots.BLUE, elinewidth=1, linewidth=1.4)  # fmt: skip
+            if column == 0:
+                axes.set_ylabel(title)
+            plots.bare(axes, "y")
+        grid[-1][column].set_xlabel(parameter)
+    return plots.svg(figure, "sweeps", "Measures against the numbers of the interactions")
+
+
+@plots.styled
 def lanes(rows: Sequence[Row]) -> str:
     """Return one Gantt chart per variant of the example: what was carried out, lane by lane."""
     films = [(row, json.loads(str(row["bars"])), json.loads(str(row["plans"]))) for row in rows]

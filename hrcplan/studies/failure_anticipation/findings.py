@@ -48,12 +48,13 @@ def findings(options: Options, rows: Rows) -> Findings:
         figure_5(rows["allocation"]),
         example(rows["example"]),
         by_level(rows["rows"]),
+        sweeps(cells_of(rows["sweeps"], ("parameter", "setting"), scenario.sweep_cells(options))),
         beside(variants),
         readings(),
     ]
     lead = (
-        "A human and a robot share a task. When the human's state changes, the planner is told, and "
-        f"plans anew before an action fails. {_CASES}"
+        "A human and a robot share a task. When the human's state changes, the planner is told, "
+        f"and plans anew before an action fails. {_CASES}"
     )
     return Findings(lead, claims(options, rows), [s for s in sections if s is not None])
 
@@ -71,9 +72,9 @@ def printed_table(by_cell: Mapping[Cell, Sequence[Row]]) -> Section | None:
     if not lines:
         return None
     note = (
-        '<p class="note">Each cell: our mean ± its standard error, and below it the printed mean of '
-        f"{printed['runs']} simulations; green where the two differ by no more than chance explains "
-        f"({printed['runs']} runs like ours, 95 %), orange where by more.</p>"
+        '<p class="note">Each cell: our mean ± its standard error, and below it the printed mean '
+        f"of {printed['runs']} simulations; green where the two differ by no more than chance "
+        f"explains ({printed['runs']} runs like ours, 95 %), orange where by more.</p>"
     )
     html = table(["", *(_HEADS[n] for n in names)], lines) + note
     return Section("Table I beside the paper", html)
@@ -163,6 +164,22 @@ def by_level(rows: Sequence[Row]) -> Section | None:
     return Section("How much the human contributes", picture(figures.levels(lines, names), caption))
 
 
+def sweeps(by_cell: Mapping[Cell, Sequence[Row]]) -> Section | None:
+    """Return how the interactions depend on their invented numbers."""
+    found = {cell: rows for cell, rows in by_cell.items() if rows}
+    if not found:
+        return None
+    shown = ("successful_human_pct", "interactions", "replans", "makespan_s")
+    names = {name: {**_TITLES, "interactions": "interactions\nper run"}[name] for name in shown}
+    caption = (
+        f"Method {scenario.data()['sweep']['method']} in case {scenario.data()['sweep']['case']}, "
+        "one number changed at a time: the probability with which an interaction succeeds, its "
+        "price, and the value to which it brings the element. These numbers are ours; the planner "
+        f"chooses by cost alone. n = {min(map(len, found.values()))} runs each, 95 % intervals."
+    )
+    return Section("Interaction sweeps", picture(figures.sweeps(found, names), caption))
+
+
 def beside(by_cell: Mapping[Cell, Sequence[Row]]) -> Section | None:
     """Return the variants: readings that we did not take, and bounds."""
     if not any(by_cell.values()):
@@ -178,9 +195,9 @@ def beside(by_cell: Mapping[Cell, Sequence[Row]]) -> Section | None:
 def readings() -> Section:
     """Return where the readings are explained."""
     words = (
-        "<p>Where the paper is silent a reading was taken: what fails and when, how causes combine, "
-        "when a change is sensed, what counts as assigned. <code>docs/reproduce.md</code> lists all "
-        "of them with their reasons. Every number here can be computed again from "
+        "<p>Where the paper is silent a reading was taken: what fails and when, how causes "
+        "combine, when a change is sensed, what counts as assigned. <code>docs/reproduce.md</code> "
+        "lists all of them with their reasons. Every number here can be computed again from "
         "<code>rows.sqlite</code>, one row per simulated run.</p>"
     )
     return Section("Readings", words)

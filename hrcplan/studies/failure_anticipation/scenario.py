@@ -9,9 +9,11 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from hrcplan.agents import profile_names
 from hrcplan.errors import UsageError
 from hrcplan.execution import Spec
 from hrcplan.facade import load_problem
+from hrcplan.pddl.library import problem_names
 from hrcplan.pddl.model import FluentKey
 from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.studies.study import Cell, Options
@@ -55,16 +57,47 @@ def inputs(options: Options) -> str:
 
 
 def methods(kind: str, options: Options) -> dict[str, Method]:
-    """Return the ``methods`` or ``variants``; on another task, those that do not name this one."""
+    """Return the ``methods`` or ``variants``; on another task, those that do not name this one.
+
+    What needs a problem or a profile that is not shipped is left out.
+    """
     found = {}
     for name, table in data()[kind].items():
         changes = {key: value for key, value in table.items() if key != "cases"}
         if not is_own_task(options):
-            if "problem" in changes:
-                continue
             changes.pop("can_fail", None)  # names of this task's actions
-        found[name] = Method(name, tuple(table["cases"]), changes)
+        if _is_there(changes, options):
+            found[name] = Method(name, tuple(table["cases"]), changes)
     return found
+
+
+def _is_there(changes: Mapping[str, Any], options: Options) -> bool:
+    own, chosen = changes.get("problem"), changes.get("profile", "paper")
+    known = own is None or (is_own_task(options) and own in problem_names(options["domain"]))
+    return known and (chosen.endswith(".toml") or chosen in profile_names())
+
+
+def sweep_cells(options: Options) -> list[Cell]:
+    """Return parameter and value of every cell of the sweeps; none without their method."""
+    wanted = data()["sweep"]
+    if wanted["method"] not in methods("methods", options):
+        return []
+    return [
+        (name, value)
+        for name, parameter in wanted["parameters"].items()
+        for value in parameter["values"]
+    ]
+
+
+def swept(options: Options, cell: Cell, seed: str) -> Spec:
+    """Return the simulated run of one cell of the sweeps."""
+    wanted = data()["sweep"]
+    method = methods("methods", options)[wanted["method"]]
+    plain = spec(method, wanted["case"], options, seed)
+    parameter, value = wanted["parameters"][cell[0]], cell[1]
+    if "field" in parameter:
+        return changed(plain, {parameter["field"]: value})
+    return changed(plain, {"values": (((parameter["function"],), value),)})
 
 
 def cells(kind: str, options: Options) -> list[Cell]:
@@ -85,7 +118,7 @@ def spec(method: Method, case: str, options: Options, seed: str) -> Spec:
 
 def changed(plain: Spec, changes: Mapping[str, Any]) -> Spec:
     """Return a run with some of its fields changed; profiles of the study are files beside it."""
-    fields = {key: tuple(v) if isinstance(v, list) else v for key, v in changes.items()}
+    fields: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in changes.items()}
     if str(fields.get("profile", "")).endswith(".toml"):
         fields["profile"] = str(HERE / fields["profile"])
     return replace(plain, **fields)
