@@ -9,6 +9,7 @@ import rich_click as click
 from hrcplan.cli import output
 
 if TYPE_CHECKING:
+    from hrcplan.pddl.model import Problem
     from hrcplan.validation import Report
 
 
@@ -40,7 +41,16 @@ def command(names: tuple[str, ...]) -> int:
     else:
         step = "" if report.failed_step is None else f"step {report.failed_step + 1}: "
         output.result(f"invalid: {step}{report.reason}")
+        output.result(f"state there: {_fluents(report, problem)}")
     return 0 if report.valid else 1
+
+
+def _fluents(report: Report, problem: Problem) -> str:
+    """Return the facts of the state that actions can change, in order."""
+    from hrcplan.pddl.model import fact_text
+
+    changing = {e.target.name for action in problem.domain.actions for e in action.effects}
+    return " ".join(fact_text(fact) for fact in sorted(report.state) if fact[0] in changing)
 
 
 def _figures(report: Report) -> str:

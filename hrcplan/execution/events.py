@@ -12,6 +12,7 @@ from dataclasses import dataclass, fields
 from fractions import Fraction
 from typing import Any
 
+from hrcplan.errors import PlanFormatError
 from hrcplan.pddl.model import Fact, FluentKey, Number, fact_text
 from hrcplan.plans import Plan, PlannedAction, format_plan, parse_plan
 
@@ -185,12 +186,15 @@ def from_json(document: Mapping[str, Any]) -> Any:
     """Return the event or command that ``to_json`` made a JSON object of.
 
     Raises:
-        ValueError: if it is none (KeyError and TypeError are turned into it).
+        ValueError: if it is none.
     """
     try:
         kind = _KINDS[document["kind"]]
-        return kind(**{k: _decoded(k, v) for k, v in document.items() if k != "kind"})
-    except (KeyError, TypeError, AttributeError) as error:
+        found = kind(**{k: _decoded(k, v) for k, v in document.items() if k != "kind"})
+        if found.t >= 0 and isinstance(getattr(found, "number", 0), int):
+            return found
+        raise ValueError(f"no event: {document}")
+    except (KeyError, TypeError, AttributeError, PlanFormatError) as error:
         raise ValueError(f"no event: {error}") from None
 
 

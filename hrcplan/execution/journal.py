@@ -7,6 +7,7 @@ loses at most a torn last line, which is cut off when the run is resumed.
 
 from __future__ import annotations
 
+import fcntl
 import json
 import os
 import tempfile
@@ -185,11 +186,18 @@ class Writer:
         self._position = 1
         try:
             self._file = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
+            fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
             os.ftruncate(self._file, n_bytes)
             os.lseek(self._file, n_bytes, os.SEEK_SET)
-        except OSError as error:
-            message = f"cannot write the journal: {error.strerror}"
+        except BlockingIOError:
+            message = "another process is writing this journal"
             raise UsageError(message, path=str(path)) from None
+        except OSError as error:
+            raise self._refused(error) from None
+
+    def _refused(self, error: OSError) -> UsageError:
+        message = f"cannot write the journal: {error.strerror}"
+        return UsageError(message, path=str(self.path))
 
     @property
     def is_repeating(self) -> bool:
@@ -245,8 +253,11 @@ class Writer:
     def _append(self, line: Mapping[str, Any]) -> None:
         text = json.dumps(line, ensure_ascii=False, separators=(",", ":")) + "\n"
         data = text.encode()
-        while data:
-            data = data[os.write(self._file, data) :]
+        try:
+            while data:
+                data = data[os.write(self._file, data) :]
+        except OSError as error:  # no room left
+            raise self._refused(error) from None
 
     @classmethod
     def begin(cls, path: Path, setting: Setting) -> Writer:

@@ -26,7 +26,7 @@ from hrcplan.plans import Plan, PlannedAction
 from hrcplan.validation import validate
 
 MAX_ASKED_AGAIN = 3  # times that one replan may ask anew because something changed meanwhile
-_TIE = 1e-4  # relative; the gaps between printed actions differ by less between plans
+_TIE = 1e-3  # relative; the gaps between printed actions differ by less between plans
 
 
 class Monitor(Observer):
@@ -151,8 +151,9 @@ class Monitor(Observer):
         if pursuit is None:
             return None
         rest = rest_of(pursuit.plan, pursuit.order, pursuit.ended, self.problem.domain.is_temporal)
-        report = validate(self.now(run), rest)
-        value = objective(self.problem, report)
+        now = self.now(run)
+        report = validate(now, rest)
+        value = objective(now, report)
         return None if not report.valid or value is None else (rest, value)
 
     # Dispatch: every action whose turn has come, if it still can be done.

@@ -13,7 +13,7 @@ from hrcplan.execution.acting import Acting
 from hrcplan.pddl.model import Problem
 from hrcplan.planners import registry
 from hrcplan.planners.answer import Planner, Status
-from hrcplan.planners.solve import Result, objective, solve
+from hrcplan.planners.solve import Result, solve
 from hrcplan.task import Task
 
 DEFAULT_TIMEOUT_S = 20.0
@@ -70,9 +70,8 @@ class Replanner:
                 continue
             if result.plan is None:
                 return ev.Planned(ask.t, None, None, result.planner, "the goal is unsolvable")
-            assert result.report is not None
-            value, note = objective(problem, result.report), "; ".join(failures)
-            return ev.Planned(ask.t, result.plan, value, result.planner, note)
+            note = "; ".join(failures)
+            return ev.Planned(ask.t, result.plan, result.objective, result.planner, note)
         return ev.Planned(ask.t, None, note="; ".join(failures))
 
     def _try(

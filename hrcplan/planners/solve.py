@@ -76,7 +76,8 @@ def _gaps(problem: Problem, plan: Plan) -> Number:
         return gaps
     values = {**problem.values, (TOTAL_COST,): 0}
     late = evaluate(problem.metric, {**values, (TOTAL_TIME,): gaps}, {})
-    return abs(late - evaluate(problem.metric, {**values, (TOTAL_TIME,): 0}, {}))
+    added: Number = late - evaluate(problem.metric, {**values, (TOTAL_TIME,): 0}, {})
+    return max(added, -added)
 
 
 def solve(

@@ -191,6 +191,9 @@ def test_validate_names_the_first_wrong_step(plan_file: Path) -> None:
     value = document("validate", "transport/two-boxes", str(plan_file), code=1)
     assert value["failed_step"] == 2
     assert value["reason"].startswith("(grasp human blue wp4) needs (idle human)")
+    found = run("validate", "transport/two-boxes", str(plan_file))
+    assert "step 3: (grasp human blue wp4) needs (idle human)" in found.stdout
+    assert "state there: (box-at blue wp4) (box-at green wp3) (free human)" in found.stdout
 
 
 def test_validate_names_an_unknown_action(plan_file: Path) -> None:

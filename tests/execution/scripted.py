@@ -57,8 +57,9 @@ class Script:
     def plan(self, text: str, t: float = 0.0) -> tuple[Command, ...]:
         """Answer the request for a plan, and let the instant settle."""
         plan = parse_plan(text)
-        report = validate(self.monitor.now(self.run), plan)
-        metric = objective(report) if report.valid else None
+        now = self.monitor.now(self.run)
+        report = validate(now, plan)
+        metric = objective(now, report) if report.valid else None
         return self.tell(ev.Planned(t, plan, metric, "script"), ev.Settled(t))
 
     def begin(self) -> tuple[Command, ...]:

@@ -5,18 +5,22 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from functools import lru_cache
 from pathlib import Path
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from hrcplan.errors import InputError, UsageError
 from hrcplan.execution import events as ev
 from hrcplan.execution.events import from_json, to_json
 from hrcplan.execution.execute import Executed, carry_out, execute, make_setting
-from hrcplan.execution.journal import Setting, read_journal, setting_of
+from hrcplan.execution.journal import Setting, Writer, read_journal, setting_of
 from hrcplan.execution.replanner import Replanner
 from hrcplan.execution.replay import replay
 from hrcplan.execution.worlds.simulated import FactChange, Nature, StateChange
@@ -179,6 +183,32 @@ def test_damage_inside_is_named(
     path.write_bytes(b"".join(damage(whole[0].read_bytes().splitlines(keepends=True))))
     with pytest.raises(InputError, match=words):
         read_journal(path)
+
+
+@given(st.integers(1, 10_000), st.integers(0, 10_000), st.sampled_from(list('x"0{[-')))
+def test_damage_anywhere_is_found_or_harmless(
+    whole: tuple[Path, Executed], line: int, column: int, character: str
+) -> None:
+    """One character of one line is overwritten: bad input, a difference, or no matter."""
+    lines = whole[0].read_text().splitlines()
+    line = 1 + line % (len(lines) - 1)
+    column %= len(lines[line])
+    lines[line] = lines[line][:column] + character + lines[line][column + 1 :]
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder, "damaged.jsonl")
+        path.write_text("\n".join(lines) + "\n")
+        with suppress(InputError):
+            replay(read_journal(path))
+
+
+def test_two_processes_do_not_write_one_journal(
+    whole: tuple[Path, Executed], tmp_path: Path
+) -> None:
+    path = tmp_path / "shared.jsonl"
+    writer = Writer.begin(path, read_journal(whole[0]).setting())
+    with pytest.raises(UsageError, match="another process"):
+        Writer.resume(read_journal(path))
+    writer.close(whole[1].row)
 
 
 def test_not_a_journal(tmp_path: Path) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator
 from dataclasses import dataclass, field, fields
+from functools import lru_cache
 from typing import Any
 
 from hrcplan.agents.memory import Memory
@@ -12,7 +13,7 @@ from hrcplan.execution import MEASURES, Engine, Spec, engine_for
 from hrcplan.execution import Row as Outcome
 from hrcplan.execution import events as ev
 from hrcplan.execution.run import Run
-from hrcplan.execution.simulate import nature_of
+from hrcplan.execution.simulate import forget, nature_of
 from hrcplan.execution.worlds.simulated import Nature, StateChange
 from hrcplan.pddl.model import FluentKey
 from hrcplan.pddl.semantics import State
@@ -36,7 +37,14 @@ def simulated(kind: str, options: Options, cell: Cell, seed: str) -> Row:
 
 def swept(options: Options, cell: Cell, seed: str) -> Row:
     """Return the row of one simulated run of the sweeps."""
+    _make_room_for(cell)
     return row_of(scenario.swept(options, cell, seed))
+
+
+@lru_cache(maxsize=1)
+def _make_room_for(cell: Cell) -> None:
+    """Free what the cell before this one kept: each plans for a problem of its own."""
+    forget()
 
 
 def row_of(spec: Spec) -> Row:

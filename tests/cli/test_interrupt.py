@@ -1,0 +1,60 @@
+"""Ctrl-C during planning: exit 130, one message, and nothing left behind."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent.parent
+
+
+def running(marker: str) -> list[str]:
+    """Return the processes whose command line holds a marker."""
+    found = []
+    for entry in Path("/proc").glob("[0-9]*/cmdline"):
+        try:
+            line = entry.read_bytes().replace(b"\0", b" ").decode(errors="replace")
+        except OSError:
+            continue
+        if marker in line and str(os.getpid()) != entry.parent.name:
+            found.append(line)
+    return found
+
+
+@pytest.mark.parametrize("flags", [[], ["--json"]], ids=["text", "json"])
+def test_ctrl_c_leaves_nothing_behind(tmp_path: Path, flags: list[str]) -> None:
+    marker = f"marker-{os.getpid()}-{tmp_path.name}"
+    planner = (
+        f"cmd:{sys.executable} -c 'import time; time.sleep(60)' {marker} {{domain}} {{problem}}"
+    )
+    words = ["plan", "kitchen/parfait-nut", "--planner", planner, *flags]
+    process = subprocess.Popen(
+        [sys.executable, "-m", "hrcplan", *words], cwd=tmp_path, text=True,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+    )  # fmt: skip
+    sleeper = f"sleep(60) {marker}"
+    limit = time.monotonic() + 20
+    while not running(sleeper) and time.monotonic() < limit:
+        time.sleep(0.05)
+    assert running(sleeper)
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=20)
+    assert process.returncode == 130
+    assert "Traceback" not in err
+    if flags:
+        assert json.loads(out)["error"]["code"] == "interrupted"
+    else:
+        assert err.strip() == "error: interrupted"
+    limit = time.monotonic() + 5
+    while running(marker) and time.monotonic() < limit:
+        time.sleep(0.05)
+    assert running(marker) == []
+    assert list(tmp_path.iterdir()) == []
