@@ -13,6 +13,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+from hrcplan.agents.estimate import Estimate, Prior
 from hrcplan.agents.memory import Memory
 from hrcplan.agents.state import AgentModel
 from hrcplan.errors import InputError, UsageError
@@ -20,7 +21,10 @@ from hrcplan.pddl.model import FluentKey, Number
 from hrcplan.pddl.source import nearest
 
 _SHIPPED = Path(__file__).with_name("profiles.toml")
+_ALONE = 2  # the length of an element that depends on its agent alone
+_SURE = 1e-9  # probabilities that differ by less are the same
 _PLACES = 100  # function values are rounded to hundredths: planners scale costs to integers
+Experience = Memory | Estimate
 _CHOICES = {
     "values": ("sensed", "log"),
     "replan": ("change", "worse"),
@@ -35,6 +39,7 @@ class Profile:
     name: str
     values: str = "sensed"
     memory: bool = False
+    estimate: bool = False
     replan: str = "change"
     while_draining: str = "finish"
     replan_limit: int = 5
@@ -55,31 +60,54 @@ class Profile:
             message = f"profile '{self.name}': limits, scale and cap are positive"
             raise InputError(message, code="bad-profile")
 
+    def begin(self, model: AgentModel) -> Experience:
+        """Return what is remembered, or believed, before anything has happened."""
+        return Estimate.begin(Prior.of(model)) if self.estimate else Memory()
+
     def told(
-        self, model: AgentModel, sensed: Mapping[FluentKey, Number], memory: Memory
+        self, model: AgentModel, sensed: Mapping[FluentKey, Number], memory: Experience
     ) -> dict[FluentKey, Number]:
         """Return the function values that the planner is given for a belief about the agents.
 
         Every element has a value, also those at their low value, so that equal beliefs are equal.
         """
-        blame = memory.blame() if self.memory else {}
-        return {
-            key: self._value(sensed.get(key, low), low, blame.get(key, 0.0))
+        blame = self._blamed(memory.blame()) if self.memory or self.estimate else {}
+        told = {
+            key: self._value(sensed.get(key, low), low, blame.get(key, 0))
             for key, low in model.low.items()
         }
+        left = model.problem.values
+        return told | {key: self._value(left[key], low, 0) for key, low in model.left.items()}
 
-    def _value(self, value: Number, low: Number, blame: float) -> Number:
+    def _value(self, value: Number, low: Number, blame: Number) -> Number:
         p = 0.0 if value <= low else min(1.0, float(value) / 10)
         if self.values == "sensed" and not blame:
             return value
-        excess = max(self._excess(p) if self.values == "log" else value - low, self._excess(blame))
-        return low + excess
+        return low + max(self._excess(p) if self.values == "log" else value - low, blame)
+
+    def _blamed(self, blame: Mapping[FluentKey, float]) -> dict[FluentKey, Number]:
+        """Return the excess of each element that may make an action fail.
+
+        Only one of them does, so probabilities add up: excesses are such that those of what depends
+        on the agent alone (it touches all its actions) and of one element more give together the
+        excess of the sum of their probabilities.
+        """
+        found: dict[FluentKey, Number] = {}
+        always = {agent: 0.0 for _, agent, *_ in blame}
+        for key, p in blame.items():
+            always[key[1]] += p if len(key) == _ALONE else 0
+        for key, p in blame.items():
+            p_all = always[key[1]]
+            if len(key) == _ALONE:
+                found[key] = _rounded(Fraction(self._excess(p_all)) * Fraction(p) / Fraction(p_all))
+            else:
+                found[key] = self._excess(min(1.0, p_all + p)) - self._excess(p_all)
+        return found
 
     def _excess(self, p: float) -> Number:
         """Return ``-scale * ln(1 - p)``, at most ``cap``, in hundredths."""
-        loss = self.cap if p >= 1 else min(self.cap, -self.scale * math.log1p(-p))
-        exact = Fraction(round(loss * _PLACES), _PLACES)
-        return int(exact) if exact.denominator == 1 else exact
+        loss = self.cap if p >= 1 - _SURE else min(self.cap, -self.scale * math.log1p(-p))
+        return _rounded(Fraction(loss))
 
     def to_json(self) -> dict[str, Any]:
         """Return the profile as a JSON object."""
@@ -90,11 +118,16 @@ class Profile:
         return self if replan_limit is None else replace(self, replan_limit=replan_limit)
 
 
+def _rounded(value: Fraction) -> Number:
+    exact = Fraction(round(value * _PLACES), _PLACES)
+    return int(exact) if exact.denominator == 1 else exact
+
+
 def profile_names() -> tuple[str, ...]:
     """Return the names of the shipped profiles.
 
     >>> profile_names()
-    ('paper', 'hrcplan')
+    ('paper', 'hrcplan', 'estimated')
     """
     return tuple(_read(_SHIPPED))
 

@@ -14,7 +14,15 @@ from functools import cached_property
 
 from hrcplan.errors import UsageError
 from hrcplan.pddl.conventions import CONTROLLABLE, ROBOT
-from hrcplan.pddl.model import TOTAL_COST, Action, FluentKey, Number, Problem, functions_in
+from hrcplan.pddl.model import (
+    TOTAL_COST,
+    Action,
+    FluentKey,
+    Function,
+    Number,
+    Problem,
+    functions_in,
+)
 from hrcplan.pddl.semantics import ground_key
 from hrcplan.task.numbers import agent_state_functions
 
@@ -106,6 +114,24 @@ class AgentModel:
             for effect in action.effects
             if effect.target.name in self.functions and effect.kind in ("decrease", "assign")
         )
+
+    @cached_property
+    def left(self) -> Mapping[FluentKey, Number]:
+        """The functions whose value interactions leave, with the least low value of each.
+
+        They are sensed values as the elements are, so planners are told of them in the same way.
+        """
+        found: dict[FluentKey, Number] = {}
+        for action in self.problem.domain.actions:
+            for effect in action.effects:
+                source = effect.value
+                if effect.target.name not in self.functions or not isinstance(source, Function):
+                    continue
+                key = (source.name, *source.args)
+                lows = [v for k, v in self.low.items() if k[0] == effect.target.name]
+                if effect.kind == "assign" and key in self.problem.values and lows:
+                    found[key] = min([*lows, found.get(key, MOST)])
+        return found
 
     def failure_probability(self, key: FluentKey, values: Mapping[FluentKey, Number]) -> float:
         """Return how likely one element makes an action fail; unknown values count as low."""

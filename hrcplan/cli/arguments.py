@@ -47,13 +47,30 @@ def setting(text: str, problem: Problem) -> tuple[FluentKey, Number]:
         UsageError: if the function or an object is unknown, or the value is no number.
     """
     words, equals, spelled = text.lower().partition("=")
-    key = tuple(re.sub(r"[()]", " ", words).split())
+    key = _words(words)
     value = to_number(spelled.strip())
     if not equals or not key or value is None:
         message = f"'{text}' is not FUNCTION OBJECT…=NUMBER"
         raise UsageError(message, code="bad-setting", hint='as in --set "motivation human=8"')
     _check_key(key, problem)
     return key, value
+
+
+def function(text: str, problem: Problem) -> FluentKey:
+    """Return the function that a text such as ``motivation human`` names.
+
+    Raises:
+        UsageError: if the function or an object is unknown.
+    """
+    key = _words(text.lower())
+    if not key:
+        raise UsageError("a function is needed, as in 'motivation human'", code="bad-setting")
+    _check_key(key, problem)
+    return key
+
+
+def _words(text: str) -> FluentKey:
+    return tuple(re.sub(r"[()]", " ", text).split())
 
 
 def _check_key(key: FluentKey, problem: Problem) -> None:

@@ -17,6 +17,7 @@ from hrcplan.errors import HrcplanError, LimitError, PddlError
 
 COMMANDS = {
     "plan": "hrcplan.cli.plan",
+    "allocation": "hrcplan.cli.allocation",
     "validate": "hrcplan.cli.validate",
     "execute": "hrcplan.cli.execute",
     "replay": "hrcplan.cli.replay",

@@ -18,6 +18,7 @@ from hrcplan.execution.order import Waits
 from hrcplan.execution.run import Phase, Run, Running, plus
 from hrcplan.pddl.model import FluentKey, Number, Problem, fact_text, number_text
 from hrcplan.pddl.semantics import State
+from hrcplan.planners.retries import expected_retries
 from hrcplan.plans import Plan
 
 Stepped = tuple[Run, tuple[Command, ...]]
@@ -32,16 +33,18 @@ class Observer:
     sensing: bool = True
     agents: AgentModel = field(init=False)
     acting: Acting = field(init=False)
+    _priced: Problem = field(init=False, repr=False)
     _orders: dict[Plan, Waits] = field(init=False, default_factory=dict, repr=False)
 
     def __post_init__(self) -> None:
         """Look up what depends on the problem alone."""
         object.__setattr__(self, "agents", AgentModel(self.problem))
         object.__setattr__(self, "acting", Acting(self.problem))
+        object.__setattr__(self, "_priced", expected_retries(self.problem))
 
     def begin(self) -> Run:
         """Return a run at time 0, before its first plan."""
-        return Run(self.acting.initial())
+        return Run(self.acting.initial(), memory=self.profile.begin(self.agents))
 
     def _ended(self, run: Run, event: ev.Ended) -> Stepped:
         action = run.find(event.number)
@@ -156,9 +159,9 @@ class Observer:
         return self.profile.told(self.agents, run.sensed, run.memory)
 
     def now(self, run: Run) -> Problem:
-        """Return the problem from here on, as it is believed to be."""
+        """Return the problem from here on, as it is believed to be and as planners get it."""
         values = {**self.problem.values, **run.state.values, **self.told(run)}
-        return replace(self.problem, facts=frozenset(run.state.facts), values=values)
+        return replace(self._priced, facts=frozenset(run.state.facts), values=values)
 
 
 def _number(seconds: float) -> Number:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import cached_property
 
 from hrcplan.errors import HrcplanError, LimitError, UnsupportedError
 from hrcplan.execution import events as ev
@@ -13,8 +12,10 @@ from hrcplan.execution.acting import Acting
 from hrcplan.pddl.model import Problem
 from hrcplan.planners import registry
 from hrcplan.planners.answer import Planner, Status
+from hrcplan.planners.retries import expected_retries
 from hrcplan.planners.solve import Result, solve
 from hrcplan.task import Task
+from hrcplan.task.regrounding import Groundings
 
 DEFAULT_TIMEOUT_S = 20.0
 _Key = tuple[object, ...]
@@ -25,7 +26,8 @@ class Replanner:
 
     ``planners`` (names or objects; the built-in ones follow) are asked in turn, each for at most
     half of the time left. What one of them says counts if it is a checked plan or a proof that
-    there is none. The task is grounded once, so ``exact`` keeps what it knows of it.
+    there is none. Groundings are kept, so ``exact`` keeps what it knows of them. Interactions are
+    priced with their retries.
     """
 
     def __init__(
@@ -36,7 +38,9 @@ class Replanner:
         self.timeout_s = timeout_s
         self.planners = list(with_successors(planners))
         self.wall_s: list[float] = []
+        self._priced = expected_retries(problem)
         self._acting = Acting(problem)
+        self._groundings = Groundings()
         self._known: dict[_Key, ev.Planned] = {}
 
     @property
@@ -100,18 +104,11 @@ class Replanner:
         """Return the problem from here on, and its grounding if bits can hold it."""
         state = self._acting.state(ask.facts, ask.numbers)
         values = {**ask.numbers, **ask.values}
-        problem = replace(self.problem.with_values(values), facts=frozenset(state.facts))
-        if self._task is None:
-            return problem, None
-        task = self._task.with_values(values).with_facts(problem.facts)
-        return task.problem, task
-
-    @cached_property
-    def _task(self) -> Task | None:
+        problem = replace(self._priced.with_values(values), facts=frozenset(state.facts))
         try:
-            return Task(self.problem)
+            return problem, self._groundings.task(problem)
         except (UnsupportedError, LimitError):
-            return None
+            return problem, None
 
 
 def with_successors(planners: Sequence[str | Planner]) -> tuple[str | Planner, ...]:

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 
 from hrcplan.agents.memory import Memory
+from hrcplan.agents.profile import Experience
 from hrcplan.execution.acting import Step, Undo
 from hrcplan.execution.order import Waits
 from hrcplan.pddl.model import FluentKey, Number
@@ -111,7 +112,7 @@ class Run:
     phase: Phase = Phase.IDLE
     t: float = 0.0
     sensed: Mapping[FluentKey, Number] = field(default_factory=dict)
-    memory: Memory = field(default_factory=Memory)
+    memory: Experience = field(default_factory=Memory)
     pursuit: Pursuit | None = None
     running: tuple[Running, ...] = ()
     n_dispatched: int = 0

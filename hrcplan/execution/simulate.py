@@ -30,6 +30,7 @@ from hrcplan.execution.worlds.simulated import (
 )
 from hrcplan.facade import load_problem
 from hrcplan.pddl.model import FluentKey, Number, Problem
+from hrcplan.planners.retries import with_success
 
 CASES = (0, 1, 2)
 LEVELS = (5, 10)
@@ -44,7 +45,8 @@ class Spec:
     the integers ``levels``. ``model``: sensed values are used. ``when`` the change happens: at the
     ``start``, or just before a ``random`` one of the human's actions. ``sensed``, ``draws`` and
     ``can_fail`` are those of ``Nature``; ``values`` are put into the initial state. ``planner`` is
-    a name, or several with commas, asked in turn.
+    a name, or several with commas, asked in turn. ``success`` is the probability with which
+    interactions succeed, instead of those that the domain notes.
     """
 
     domain: str = "transport"
@@ -61,6 +63,7 @@ class Spec:
     values: tuple[tuple[FluentKey, Number], ...] = ()
     replan_limit: int | None = None
     planner: str = "auto"
+    success: float | None = None
 
     def __post_init__(self) -> None:
         """Check what has a few choices only.
@@ -108,7 +111,7 @@ def simulate(spec: Spec) -> Row:
 def engine_for(spec: Spec) -> Engine:
     """Return the engine of a specification; those that differ only in chance share one."""
     return _engine(spec.domain, spec.problem, spec.values, spec.planner, spec.profile, spec.model,
-                   spec.replan_limit)  # fmt: skip
+                   spec.replan_limit, spec.success)  # fmt: skip
 
 
 def forget() -> None:
@@ -121,17 +124,21 @@ def forget() -> None:
 def _engine(
     domain: str, problem: str, values: tuple[tuple[FluentKey, Number], ...], planner: str,
     profile_name: str, model: bool, replan_limit: int | None,
+    success: float | None,
 ) -> Engine:  # fmt: skip
-    shared = _replanner(domain, problem, values, planner)
+    shared = _replanner(domain, problem, values, planner, success)
     chosen = profile(profile_name).limited_to(replan_limit)
     return make_engine(shared.problem, chosen, model, shared)
 
 
 @lru_cache(maxsize=16)
 def _replanner(
-    domain: str, problem: str, values: tuple[tuple[FluentKey, Number], ...], planner: str
-) -> Replanner:
+    domain: str, problem: str, values: tuple[tuple[FluentKey, Number], ...], planner: str,
+    success: float | None,
+) -> Replanner:  # fmt: skip
     loaded = load_problem(domain, problem).with_values(dict(values))
+    if success is not None:
+        loaded = with_success(loaded, success)
     return Replanner(loaded, tuple(planner.split(",")))
 
 

@@ -21,7 +21,7 @@ from hrcplan.task.actions import Change, ground_actions
 from hrcplan.task.changing import Reached, combinations, reached_values, value_fact
 from hrcplan.task.conditions import Grounder, Test, Tests, all_of, any_of, meets, positions
 from hrcplan.task.lookup import lookup
-from hrcplan.task.numbers import check_supported, divisors, exact, functions_read, numeric_effects
+from hrcplan.task.numbers import check_supported, divisors, exact, functions_read
 from hrcplan.task.reachable import Instance, reachable
 
 
@@ -30,7 +30,9 @@ class Task:
 
     ``facts`` are the fluents in bit order; facts that never change are compiled away. ``actions``
     stand in ground-action order: by schema as declared, then by objects as declared. An action
-    that would leave the state unchanged is not offered.
+    that would leave the state unchanged is not offered. ``reached`` are the values, in bit order,
+    of the functions that actions change. Tasks with the same ``structure`` differ in costs and in
+    the initial state only, so what was found out about one holds for the others.
 
     Raises:
         UnsupportedError: if an action changes a number that is neither total-cost nor agent state,
@@ -55,7 +57,9 @@ class Task:
         self.facts = (*fluents, *values)
         self.bits: Mapping[Fact, int] = {fact: i for i, fact in enumerate(self.facts)}
         grounder = Grounder(problem, self.bits, fixed)
+        self.reached: Reached = reached
         self.actions = ground_actions(grounder, found, reached)
+        self.structure: object = self.actions
         given = [value_fact(k, problem.values[k]) for k in reached if k in problem.values]
         self.initial = self.state_of([*problem.facts, *given])
         self.goal: tuple[Test, ...] = _goal(grounder, reached)
@@ -133,7 +137,7 @@ class Task:
         """
         old, problem = self.problem.values, self.problem.with_values(values)
         changed = [key for key, value in values.items() if old.get(key) != value]
-        if any(key not in old or key[0] in self._structural for key in changed):
+        if any(k not in old or k in self.reached or k[0] in self._structural for k in changed):
             return Task(problem)
         other = object.__new__(Task)
         other.__dict__.update(self.__dict__)
@@ -171,11 +175,10 @@ class Task:
 
     @cached_property
     def _structural(self) -> frozenset[str]:
-        """The functions that decide more than costs."""
+        """The functions that decide more than costs, those of ``reached`` aside."""
         found = {function.name for function in formula_functions(self.problem.goal)}
         for action in self.problem.domain.actions:
             found.update(function.name for function in functions_read(action))
-            found.update(effect.target.name for effect in numeric_effects(action))
             # A cost that divides by zero is none: the action cannot run.
             found.update(f.name for effect in action.effects for f in divisors(effect.value))
         return frozenset(found)

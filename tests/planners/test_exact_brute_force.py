@@ -148,12 +148,12 @@ def undisturbed(jobs: list[Job], facts: Facts, running: Running) -> bool:
 # others are (or are not) somewhere. With `wild`, actions also delete what they do not move.
 
 
-def random_task(seed: int, folder: Path) -> tuple[Problem, Fraction, Fraction]:
+def random_task(seed: int, folder: Path, late: bool = False) -> tuple[Problem, Fraction, Fraction]:
     """Return a random task of two agents, and the weights of its metric."""
     rng = random.Random(seed)
     n_things, n_actions = rng.randint(2, 3), rng.randint(7, 12)
     wild = rng.random() < 0.15
-    actions = [random_action(rng, i, n_things, wild) for i in range(n_actions)]
+    actions = [random_action(rng, i, n_things, wild, late) for i in range(n_actions)]
     w_cost, w_time = rng.choice([("1", "0.17"), ("2", "1"), ("0", "1"), ("1", "0"), ("0.5", "3")])
     names = " ".join(f"n{i}" for i in range(n_actions))
     able = [(a, i) for a in ("ann", "bob") for i in range(n_actions) if rng.random() < 0.9]
@@ -185,8 +185,9 @@ def places(n_things: int) -> list[str]:
     return [f"t{k}-{i}" for k in range(n_things) for i in range(3)]
 
 
-def random_action(rng: random.Random, i: int, n_things: int, wild: bool) -> str:
-    who = ["?a", "?b"] if rng.random() < 0.15 else ["?a"]
+def random_action(rng: random.Random, i: int, n_things: int, wild: bool, late: bool) -> str:
+    who = ["?a", "?b"] if rng.random() < (0.5 if late else 0.15) else ["?a"]
+    at_end = late and rng.random() < (0.6 if len(who) == 2 else 0.03)
     needs, deletes, adds = [], [], []
     moved = rng.sample(range(n_things), 2) if rng.random() < 0.3 else [i % n_things]
     for thing in moved:
@@ -205,11 +206,14 @@ def random_action(rng: random.Random, i: int, n_things: int, wild: bool) -> str:
     tokens = [f"(idle {agent})" for agent in who]
     away = [f"(not {token})" for token in tokens]
     lasts = rng.choice(["1", "2", "3", "1.5", "(/ 4 3)"])
+    at_start, ending = (
+        (away, tokens + adds + deletes) if at_end else (away + deletes, tokens + adds)
+    )
     return f"""(:durative-action do{i}
       :parameters ({" ".join(who)} - agent) :duration (= ?duration {lasts})
       :condition (and (at start (can ?a n{i})) {at("at start", tokens + needs)}
                       {at("over all", over)})
-      :effect (and {at("at start", away + deletes)} {at("at end", tokens + adds)}
+      :effect (and {at("at start", at_start)} {at("at end", ending)}
                    (at start (increase (total-cost) (effort ?a n{i})))))"""
 
 
@@ -217,9 +221,9 @@ def at(when: str, parts: list[str]) -> str:
     return " ".join(f"({when} {part})" for part in parts)
 
 
-def agrees(seed: int, folder: Path) -> bool:
+def agrees(seed: int, folder: Path, late: bool = False) -> bool:
     """Check one random task; return whether `exact` took it."""
-    problem, w_cost, w_time = random_task(seed, folder)
+    problem, w_cost, w_time = random_task(seed, folder, late)
     try:
         answer = Exact().solve(Request(problem))
     except UnsupportedError:
@@ -244,4 +248,10 @@ def compare(problem: Problem, answer: Answer, optimum: Fraction | None, w_time: 
 @pytest.mark.parametrize("block", range(4))
 def test_optima_equal_those_of_a_brute_force(block: int, tmp_path: Path) -> None:
     taken = [agrees(seed, tmp_path) for seed in range(10 * block, 10 * block + 10)]
+    assert sum(taken) >= 3
+
+
+def test_optima_with_deletes_at_the_end_do_too(tmp_path: Path) -> None:
+    """`exact` takes those that nobody can see before."""
+    taken = [agrees(seed, tmp_path, late=True) for seed in range(20)]
     assert sum(taken) >= 3

@@ -36,9 +36,9 @@ def test_equal_to_a_scan(rules: list[Rule], states: list[int]) -> None:
             for index, mask, value, adds, deletes in rules
             if state & mask == value and state & ~deletes | adds != state
         ]
-        assert tables(state) == scan
-        assert waiting(state) == scan
-        assert small(state) == scan
+        assert tables.runnable(state) == scan
+        assert waiting.runnable(state) == scan
+        assert small.runnable(state) == scan
 
 
 def test_no_facts_and_no_actions() -> None:
@@ -47,5 +47,5 @@ def test_no_facts_and_no_actions() -> None:
 
 
 def test_large_tasks_wait_at_a_fact() -> None:
-    assert isinstance(lookup(100_000, 100_000, []), Waiting)
-    assert isinstance(lookup(300, 400, []), Lookup)
+    assert lookup(100_000, 100_000, []).__qualname__ == Waiting.runnable.__qualname__
+    assert lookup(300, 400, []).__qualname__ == Lookup.runnable.__qualname__

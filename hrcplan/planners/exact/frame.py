@@ -33,6 +33,8 @@ class Frame:
     ``tests`` are conditions at start and over all, ``over`` those over all; ``ticks`` are
     durations in units of ``tick_s`` seconds. ``needs`` are facts that must hold in every
     alternative of the tests, ``shuns`` facts that must be false in some, ``avoids`` in all.
+    ``late`` are facts that are deleted at the end. ``overlap.py`` sees to it that nobody looks at
+    them before, so they are among the ``deletes`` of the start, too.
     ``dependent`` holds, as bits, the actions whose starts do not commute with this one's.
     """
 
@@ -41,6 +43,7 @@ class Frame:
     tests: tuple[tuple[Test, ...], ...]
     over: tuple[tuple[Test, ...], ...]
     deletes: tuple[int, ...]
+    late: tuple[int, ...]
     adds: tuple[int, ...]
     ticks: tuple[int, ...]
     tick_s: Fraction
@@ -66,7 +69,8 @@ def frame(task: Task) -> Frame:
         _check(task, action)
     tests = tuple(action.tests for action in task.actions)
     over = tuple(tuple(t for t in a.over if t != (0, 0)) for a in task.actions)
-    deletes = tuple(union(c.deletes for c in a.at_start) for a in task.actions)
+    late = tuple(union(c.deletes for c in a.at_end) for a in task.actions)
+    deletes = tuple(union(c.deletes for c in (*a.at_start, *a.at_end)) for a in task.actions)
     tick_s = _tick([a.duration or 1 for a in task.actions])
     return Frame(
         n_facts=len(task.facts),
@@ -74,6 +78,7 @@ def frame(task: Task) -> Frame:
         tests=tests,
         over=over,
         deletes=deletes,
+        late=late,
         adds=tuple(union(c.adds for c in a.at_end) for a in task.actions),
         ticks=tuple(int((a.duration or 1) / tick_s) for a in task.actions),
         tick_s=tick_s,
@@ -136,7 +141,8 @@ def _check(task: Task, action: GroundAction) -> None:
 def _outside(task: Task, action: GroundAction) -> str | None:
     """Return why an action is outside the class, None if it is inside."""
     adds = union(c.adds for c in action.at_start)
-    deletes = union(c.deletes for c in action.at_end)
+    late = union(c.deletes for c in action.at_end)
+    held = union(mask for mask, _ in action.over)
     if action.duration is None:
         return "has a duration that the planner may choose"
     if action.duration <= 0:
@@ -147,8 +153,8 @@ def _outside(task: Task, action: GroundAction) -> str | None:
         return "has a conditional effect"
     if adds:
         return f"adds {_first(task, adds)} at its start"
-    if deletes:
-        return f"deletes {_first(task, deletes)} at its end"
+    if late & held:
+        return f"deletes {_first(task, late & held)} at its end, which it needs until then"
     return None
 
 

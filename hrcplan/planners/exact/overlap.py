@@ -28,8 +28,8 @@ class Overlap:
         self._reached = 0
         self._seen = [0] * (2 * n_actions)
         deleters = holders(frame.over_needs, frame.n_facts)
-        self._stops = [union(deleters[p] for p in positions(d)) << self._shift
-                       for d in frame.deletes]  # fmt: skip
+        self._stops = [union(deleters[p] for p in positions(d & ~late)) << self._shift
+                       for d, late in zip(frame.deletes, frame.late, strict=True)]  # fmt: skip
 
     def admit(self, initial: int) -> None:
         """Take in an initial state and all that can follow it."""
@@ -55,7 +55,8 @@ class Overlap:
             context &= self._with[position]
         if needs & ~context:
             return False
-        context &= ~(frame.avoids[action] | frame.deletes[action] | self._stops[action])
+        gone = frame.deletes[action] & ~frame.late[action]
+        context &= ~(frame.avoids[action] | gone | self._stops[action])
         return self._happen(2 * action, context, 1 << self._shift + action)
 
     def _end(self, action: int) -> bool:
@@ -89,6 +90,7 @@ def check_overlap(task: Task, overlap: Overlap) -> None:
     adders = holders(frame.adds, frame.n_facts)
     shunners = holders(frame.over_shuns, frame.n_facts)
     lanes = lane_members(frame)
+    _check_late(task, overlap)
     for late, agent in enumerate(frame.agents):
         running = overlap.running_at_start(late)
         touched = frame.deletes[late] | frame.shuns[late]
@@ -107,6 +109,26 @@ def check_overlap(task: Task, overlap: Overlap) -> None:
                     f"{task.actions[late]} can start while {task.actions[early]} runs, but "
                     + why.format(fact=fact), hint=HINT,
                 )  # fmt: skip
+
+
+def _check_late(task: Task, overlap: Overlap) -> None:
+    """Raise unless what is deleted at an end is looked at by nobody until then."""
+    frame = overlap.frame
+    users = holders([_mentioned(frame, a) for a in range(len(frame.ticks))], frame.n_facts)
+    for action, late in enumerate(frame.late):
+        for fact in positions(late):
+            found = users[fact] & overlap.running_beside(action)
+            if found:
+                other = task.actions[next(positions(found))]
+                raise UnsupportedError(
+                    f"{task.actions[action]} deletes {fact_text(task.facts[fact])} at its end, and "
+                    f"{other}, which looks at it, can overlap it", hint=HINT,
+                )  # fmt: skip
+
+
+def _mentioned(frame: Frame, action: int) -> int:
+    tests = union(mask for mask, _ in (*frame.tests[action], *frame.over[action]))
+    return tests | frame.deletes[action] | frame.adds[action]
 
 
 def lane_members(frame: Frame) -> dict[str, int]:

@@ -18,13 +18,14 @@ from hrcplan.task import Task
 from hrcplan.task.conditions import Test, meets
 
 GREED = 3
+MAX_KEPT_STATES = 100_000  # of other structures than the one that is asked for
 
 
 class _Kept:
     """All that replans of one grounding share: masks, pairs, the graph, what actions touch."""
 
     def __init__(self, task: Task) -> None:
-        self.actions = task.actions
+        self.structure = task.structure
         self.frame: Frame = frame(task)
         self.overlap = Overlap(self.frame)
         self.held: tuple[tuple[str, ...], ...] = ()
@@ -55,7 +56,7 @@ class _Kept:
 class Exact:
     """Proves weighted metrics of cost and time in tasks where no concurrency is required.
 
-    It keeps what does not depend on costs of the last grounding it saw: hold on to one object and
+    It keeps what does not depend on costs of the last structures it saw: hold on to one object and
     give it ``task.with_values(...)`` to replan in milliseconds.
 
     >>> from hrcplan import load
@@ -78,7 +79,7 @@ class Exact:
             limits=True,
             adl=False,
         )
-        self._kept: _Kept | None = None
+        self._kept: list[_Kept] = []
 
     def missing(self) -> str | None:
         """Return None: it is part of this package."""
@@ -109,14 +110,20 @@ class Exact:
         until = time.monotonic() + 60 if deadline is None else deadline
         try:
             wanted = metric(task.problem)
-            if self._kept is None or self._kept.actions is not task.actions:
-                self._kept = None  # frees the graph of another task first
-                self._kept = _Kept(task)
-            return _answer(task, self._kept, wanted, until, any_plan)
+            return _answer(task, self._find(task), wanted, until, any_plan)
         except UnsupportedError as error:
             raise UnsupportedError(f"exact declines: {error.message}", hint=error.hint) from None
         except LimitError as error:
             return Answer(Status.UNSOLVED, note=error.message)
+
+    def _find(self, task: Task) -> _Kept:
+        """Return what is kept of the structure of a task; it stands last from now on."""
+        found = next((kept for kept in self._kept if kept.structure is task.structure), None)
+        self._kept = [kept for kept in self._kept if kept is not found]
+        while sum(len(kept.graph.states) for kept in self._kept) > MAX_KEPT_STATES:
+            del self._kept[0]  # frees the graph of another task first
+        self._kept.append(found or _Kept(task))
+        return self._kept[-1]
 
 
 def _answer(task: Task, kept: _Kept, wanted: Metric, deadline: float, any_plan: bool) -> Answer:

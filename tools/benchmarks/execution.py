@@ -1,4 +1,4 @@
-"""How long simulated runs and replans take: `PYTHONPATH=. python tools/bench/execution.py [RUNS]`.
+"""How long simulated runs and replans take: `PYTHONPATH=. python tools/benchmarks/execution.py [RUNS]`.
 
 Goals: replanning at most 20 ms in the median; 1000 runs of all cases in three minutes on two cores;
 500 MB. Prints one JSON document.

@@ -1,0 +1,147 @@
+"""The agent state inferred from outcomes alone: a Bayesian filter over causes and levels.
+
+Nothing is sensed. At some time at most one element of somebody's state may have changed to a level
+L, and an action that it touches then fails with probability L / 10: either once and for all (who
+fails at it fails every time, who does not never does), or drawn anew at every attempt. Each
+observed outcome updates what is believed of all that; besides, any action can slip.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+from hrcplan.agents.state import AgentModel
+from hrcplan.pddl.model import FluentKey, Number
+
+LEVELS = tuple(range(1, 11))
+NOTICEABLE = 0.02
+_LASTING, _ANEW = "lasting", "anew"
+Cause = tuple[FluentKey, int, str, bool]
+"""Element, level, whether it strikes lastingly or anew, and if lastingly, whether it does."""
+
+
+@dataclass(frozen=True)
+class Prior:
+    """How agent states change, as far as that is known before anything is observed.
+
+    ``changed``: that some element has changed at the start; ``hazard``: that one does so just
+    before an observed action. Then any function is as likely as any other, and so is any of its
+    elements, and any of ``levels``. ``lasting``: that an outcome holds for all attempts. ``slip``:
+    that an action fails for no such reason. ``lows`` are the elements that can change, with the
+    values up to which nothing fails.
+    """
+
+    lows: Mapping[FluentKey, Number]
+    changed: float = 0.5
+    hazard: float = 0.05
+    lasting: float = 0.8
+    slip: float = 0.001
+    levels: tuple[int, ...] = LEVELS
+
+    @classmethod
+    def of(cls, model: AgentModel) -> Prior:
+        """Return the prior for the humans of a problem: all whose actions can fail."""
+        return cls({k: low for k, low in model.low.items() if k[1] not in model.robots})
+
+    @cached_property
+    def causes(self) -> Mapping[Cause, float]:
+        """The probability of each cause, given that there is one."""
+        names = Counter(key[0] for key in self.lows)
+        found: dict[Cause, float] = {}
+        for key, low in self.lows.items():
+            levels = [level for level in self.levels if level > low]
+            for level in levels:
+                share = 1 / len(names) / names[key[0]] / len(levels)
+                p = level / 10
+                found[key, level, _LASTING, True] = share * self.lasting * p
+                found[key, level, _LASTING, False] = share * self.lasting * (1 - p)
+                found[key, level, _ANEW, True] = share * (1 - self.lasting)
+        return found
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """What is believed after some outcomes; stands in for ``Memory``.
+
+    ``weights`` are the probabilities of the causes; what is missing from 1 is "nothing changed".
+
+    >>> start = Estimate.begin(Prior({("motivation", "human"): 1, ("knowledge", "human"): 1}))
+    >>> after = start.failed([("motivation", "human")])
+    >>> start.blame()[("motivation", "human")] < 0.2 < 0.8 < after.blame()[("motivation", "human")]
+    True
+    """
+
+    prior: Prior
+    weights: Mapping[Cause, float] = field(repr=False)
+    known: frozenset[FluentKey] = frozenset()
+
+    @classmethod
+    def begin(cls, prior: Prior) -> Estimate:
+        """Return what is believed before anything is observed."""
+        return cls(prior, {cause: prior.changed * p for cause, p in prior.causes.items()})
+
+    def failed(self, touched: Iterable[FluentKey]) -> Estimate:
+        """Return what is believed after an action that ``touched`` touch has failed."""
+        return self._observed(frozenset(touched), True)
+
+    def went_well(self, touched: Iterable[FluentKey]) -> Estimate:
+        """Return what is believed after an action that ``touched`` touch has succeeded."""
+        return self._observed(frozenset(touched), False)
+
+    def sensed(self, key: FluentKey) -> Estimate:
+        """Return what is believed once an element's value is known: it needs no estimate."""
+        left = {cause: p for cause, p in self.weights.items() if cause[0] != key}
+        nothing = 1 - sum(self.weights.values())
+        total = nothing + sum(left.values())
+        weights = {cause: p / total for cause, p in left.items()} if total else left
+        return replace(self, weights=weights, known=self.known | {key})
+
+    def blame(self) -> dict[FluentKey, float]:
+        """Return how likely each element makes the next action fail that it touches.
+
+        What is too unlikely to matter is left out, so that plans do not depend on it.
+        """
+        return {key: p for key, p in self.failing().items() if p >= NOTICEABLE}
+
+    def failing(self) -> dict[FluentKey, float]:
+        """Return the same without leaving anything out."""
+        found: dict[FluentKey, float] = {}
+        for cause, p in self.weights.items():
+            found[cause[0]] = found.get(cause[0], 0.0) + p * _strikes(cause)
+        return found
+
+    def levels(self, key: FluentKey) -> dict[int, float]:
+        """Return how likely an element has changed to each level."""
+        found = dict.fromkeys(self.prior.levels, 0.0)
+        for cause, p in self.weights.items():
+            if cause[0] == key:
+                found[cause[1]] += p
+        return found
+
+    def _observed(self, touched: frozenset[FluentKey], failure: bool) -> Estimate:
+        if not touched & self.prior.lows.keys():
+            return self
+        nothing = 1 - sum(self.weights.values())
+        changes = nothing * self.prior.hazard
+        before = {
+            cause: self.weights.get(cause, 0.0) + changes * p
+            for cause, p in self.prior.causes.items()
+            if cause[0] not in self.known
+        }
+        slip = self.prior.slip
+        after: dict[Cause, float] = {}
+        for cause, p in before.items():
+            well = (1 - slip) * (1 - _strikes(cause) * (cause[0] in touched))
+            after[cause] = p * (1 - well if failure else well)
+        rest = (1 - sum(before.values())) * (slip if failure else 1 - slip)
+        total = rest + sum(after.values())
+        return replace(self, weights={cause: p / total for cause, p in after.items()})
+
+
+def _strikes(cause: Cause) -> float:
+    """Return how likely a cause makes an action fail that it touches."""
+    _, level, kind, strikes = cause
+    return float(strikes) if kind == _LASTING else level / 10

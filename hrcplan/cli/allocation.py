@@ -1,0 +1,136 @@
+"""``hrcplan allocation``: at which values of an agent state the best allocation flips."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import Any
+
+import rich_click as click
+
+from hrcplan.cli import output
+
+
+@click.command("allocation")
+@click.argument("names", nargs=-1, required=True, metavar="DOMAIN PROBLEM ELEMENT")
+@click.option(
+    "--range",
+    "limits",
+    nargs=2,
+    type=float,
+    metavar="LEAST MOST",
+    help="Values to look at; 0 10, or what the domain notes as the function's range.",
+)
+@click.option(
+    "--planner",
+    default="auto",
+    show_default=True,
+    metavar="NAME",
+    help="It has to prove that its plans are optimal.",
+)
+@click.option(
+    "--timeout",
+    type=click.FloatRange(0, min_open=True),
+    default=60.0,
+    show_default=True,
+    metavar="S",
+    help="Seconds for each plan.",
+)
+@click.option(
+    "--set",
+    "settings",
+    multiple=True,
+    metavar="'F OBJ…=N'",
+    help="Change a value of the initial state, as in 'motivation human=8'.",
+)
+@output.common_options
+def command(
+    names: tuple[str, ...],
+    limits: tuple[float, float] | None,
+    planner: str,
+    timeout: float,
+    settings: tuple[str, ...],
+) -> int:
+    """Say who does what for every value of ELEMENT, such as 'motivation human'.
+
+    The values at which the best allocation flips are computed exactly, with proven plans, and so is
+    how far the value may move from where it is before another allocation is better.
+    """
+    from hrcplan.cli.arguments import function, problem_of, split_names
+    from hrcplan.planners.allocation import LEAST, MOST, diagram
+    from hrcplan.task.numbers import exact
+
+    domain, name, (element,) = split_names(names, 1)
+    problem = problem_of(domain, name, settings)
+    key = function(element, problem)
+    least, most = problem.domain.value_range(key[0]) or (LEAST, MOST)
+    if limits is not None:
+        least, most = (exact(Fraction(str(limit))) for limit in limits)
+    found = diagram(problem, key, least, most, planner=planner, timeout_s=timeout)
+    if output.JSON:
+        output.document(as_json(found))
+    else:
+        output.result(as_text(found, f"{domain}/{name}"))
+    return 0
+
+
+def as_json(found: Any) -> dict[str, Any]:
+    """Return a diagram as a JSON object; ``metric`` is ``intercept`` + ``slope`` x value."""
+    number = output.number
+    stays = found.stays_best(found.at_now)
+    return {
+        "element": " ".join(found.key),
+        "value": number(found.value),
+        "flips": [number(flip) for flip in found.flips],
+        "radius": number(found.radius()),
+        "stays_best": None if stays is None else [number(limit) for limit in stays],
+        "pieces": [
+            {
+                "from": number(piece.least),
+                "to": number(piece.most),
+                "intercept": number(piece.line.intercept),
+                "slope": number(piece.line.slope),
+                "n_actions": dict(piece.n_actions),
+                "plan": [str(action) for action in piece.line.plan.actions],
+            }
+            for piece in found.pieces
+        ],
+    }
+
+
+def as_text(found: Any, title: str) -> str:
+    """Return a diagram as a table, and in words how far the value may move."""
+    agents = list(found.pieces[0].n_actions)
+    head = [" ".join(found.key), *(agent or "-" for agent in agents), "metric"]
+    rows = [
+        [
+            f"{_shown(piece.least)} … {_shown(piece.most)}",
+            *(str(piece.n_actions.get(agent, 0)) for agent in agents),
+            _line(piece.line),
+        ]
+        for piece in found.pieces
+    ]
+    widths = [max(len(row[i]) for row in [head, *rows]) for i in range(len(head))]
+    lines = ["  ".join(cell.ljust(w) for cell, w in zip(row, widths, strict=True)).rstrip()
+             for row in (head, ["─" * w for w in widths], *rows)]  # fmt: skip
+    return "\n".join([f"{title}: who does how much", "", *(f"  {x}" for x in lines), "",
+                      _in_words(found)])  # fmt: skip
+
+
+def _in_words(found: Any) -> str:
+    radius = found.radius()
+    if radius is None:
+        return f"now {_shown(found.value)}: one allocation is best throughout"
+    flips = ", ".join(_shown(flip) for flip in found.flips)
+    return f"flips at {flips}; now {_shown(found.value)}, so it may move by {_shown(radius)}"
+
+
+def _line(line: Any) -> str:
+    if not line.slope:
+        return _shown(line.intercept)
+    return f"{_shown(line.intercept)} + {_shown(line.slope)} v"
+
+
+def _shown(number: Any) -> str:
+    """Return a number in at most six digits; a fraction beside it where those are not exact."""
+    short = f"{float(number):.6g}"
+    return short if Fraction(short) == number else f"{short} ({number})"

@@ -1,0 +1,219 @@
+"""Who does what as one value changes: the allocation diagram, computed and not sampled.
+
+What a plan costs is a line over a function value that its actions add up, and the best plan costs
+the least of all lines: a concave function of straight pieces. Where two pieces meet the allocation
+flips. Lines that are best somewhere are found where those known cross, and a crossing at which no
+plan is better is a flip: two planner calls for each piece, and every number exact (Eisner and
+Severance 1976, on parametric search).
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from math import gcd, lcm
+
+from hrcplan.errors import PlannerError, UsageError
+from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, FluentKey, Number, Problem, fact_text
+from hrcplan.pddl.semantics import evaluate
+from hrcplan.planners import registry
+from hrcplan.planners.answer import Planner, Status
+from hrcplan.planners.solve import AUTO, DEFAULT_TIMEOUT_S, objective, solve
+from hrcplan.plans import EPSILON_S, Plan, lane
+from hrcplan.task.numbers import exact
+from hrcplan.task.regrounding import Groundings
+from hrcplan.validation import validate
+
+LEAST, MOST = 0, 10
+MAX_PIECES = 200
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """What a plan costs without gaps: ``intercept`` plus ``slope`` times the value."""
+
+    plan: Plan = field(compare=False)
+    intercept: Number
+    slope: Number
+
+    def at(self, value: Number) -> Number:
+        """Return the metric at a value."""
+        return exact(Fraction(self.intercept + self.slope * value))
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """From ``least`` to ``most`` a plan like ``line.plan`` is best; ``n_actions`` of each agent."""
+
+    least: Number
+    most: Number
+    line: Line
+    n_actions: Mapping[str, int]
+
+
+@dataclass(frozen=True, slots=True)
+class Diagram:
+    """The best allocation for every value of one function in a range; ``value`` is that of now."""
+
+    key: FluentKey
+    value: Number
+    pieces: tuple[Piece, ...]
+
+    @property
+    def flips(self) -> tuple[Number, ...]:
+        """The values at which another allocation becomes best."""
+        return tuple(piece.most for piece in self.pieces[:-1])
+
+    @property
+    def at_now(self) -> Line:
+        """The line of the plan that is best at the value of now; where two are, the second."""
+        held = [p for p in self.pieces if p.least <= self.value <= p.most]
+        outside = self.pieces[0 if self.value < self.pieces[0].least else -1]
+        return (held[-1] if held else outside).line
+
+    def stays_best(self, line: Line) -> tuple[Number, Number] | None:
+        """Return from where to where no plan beats that of ``line``; None if it is best nowhere."""
+        found = [v for v in self._corners() if line.at(v) <= self.metric(v)]
+        return (min(found), max(found)) if found else None
+
+    def metric(self, value: Number) -> Number:
+        """Return the metric of the best plan at a value in the range."""
+        return min(piece.line.at(value) for piece in self.pieces)
+
+    def radius(self, value: Number | None = None) -> Number | None:
+        """Return how far the value may move, up or down, before another allocation is better.
+
+        None if there is no flip in the range.
+        """
+        now = self.value if value is None else value
+        away = [max(flip - now, now - flip) for flip in self.flips]
+        return min(away) if away else None
+
+    def _corners(self) -> tuple[Number, ...]:
+        return (self.pieces[0].least, *self.flips, self.pieces[-1].most)
+
+
+def diagram(
+    problem: Problem,
+    key: FluentKey,
+    least: Number = LEAST,
+    most: Number = MOST,
+    *,
+    planner: str | Planner = AUTO,
+    timeout_s: float = DEFAULT_TIMEOUT_S,
+) -> Diagram:
+    """Return the best allocation for every value of a function from ``least`` to ``most``.
+
+    Raises:
+        UsageError: if the problem gives the function no value, or the range is empty.
+        PlannerError: if a plan is not proven to be optimal.
+        UnsupportedError: if no planner holds the task.
+
+    >>> from hrcplan.facade import load_problem
+    >>> found = diagram(load_problem("transport", "two-boxes"), ("motivation", "human"))
+    >>> [str(flip) for flip in found.flips], str(found.radius())
+    (['19/2'], '17/2')
+    """
+    if key not in problem.values:
+        raise UsageError(f"{fact_text(key)} has no value in the problem", code="bad-setting")
+    if not least < most:
+        raise UsageError(f"from {least} to {most} there is nothing to look at", code="bad-range")
+    best = _Best(problem, key, planner, timeout_s)
+    pieces = _pieces(best, (least, best(least)), (most, best(most)))
+    return Diagram(key, problem.values[key], tuple(pieces))
+
+
+def line_of(problem: Problem, plan: Plan, key: FluentKey) -> Line:
+    """Return what a plan costs by the value of a function.
+
+    Raises:
+        UsageError: if the plan is not valid, or its cost is no line over this function.
+    """
+    at_0, at_1, at_2 = (_metric(problem.with_values({key: v}), plan) for v in (0, 1, 2))
+    if at_2 - at_1 != at_1 - at_0:
+        raise UsageError(f"the cost is no multiple of {fact_text(key)}", code="bad-setting")
+    return Line(plan, at_0, at_1 - at_0)
+
+
+def _metric(problem: Problem, plan: Plan) -> Number:
+    """Return what planners minimize, as if actions could follow each other without gaps."""
+    report = validate(problem, plan)
+    value = objective(problem, report)
+    if not report.valid or value is None:
+        raise UsageError(f"the plan is not valid: {report.reason}", code="invalid-plan")
+    late = _gaps(plan)
+    if problem.metric is None:
+        return exact(Fraction(value - late if problem.domain.is_temporal else value))
+    known = {**problem.values, (TOTAL_COST,): 0}
+    times = (evaluate(problem.metric, {**known, (TOTAL_TIME,): t}, {}) for t in (late, 0))
+    with_gaps, without = times
+    return exact(Fraction(value - (with_gaps - without)))
+
+
+def _gaps(plan: Plan) -> Number:
+    """Return by how much gaps lengthen a plan: without them it lasts a multiple of the tick.
+
+    The tick is the largest time of which all durations are multiples; where all gaps together could
+    be as long they are left in.
+    """
+    durations = [Fraction(a.duration_s) for a in plan.actions if a.duration_s]
+    if not durations or plan.makespan_s is None:
+        return 0
+    scale = lcm(*(d.denominator for d in durations))
+    tick = Fraction(gcd(*(int(d * scale) for d in durations)), scale)
+    return plan.makespan_s % tick if tick > EPSILON_S * len(plan.actions) else 0
+
+
+class _Best:
+    """Proven plans of one problem, by the value of a function."""
+
+    def __init__(
+        self, problem: Problem, key: FluentKey, planner: str | Planner, timeout_s: float
+    ) -> None:
+        self.problem, self.key = problem, key
+        self._planner, self._timeout_s = planner, timeout_s
+        self._groundings = Groundings()
+
+    def __call__(self, value: Number) -> Line:
+        problem = self.problem.with_values({self.key: value})
+        task = self._groundings.task(problem)
+        found = solve(problem, self._planner, timeout_s=self._timeout_s, task=task)
+        if found.plan is None or found.status is not Status.OPTIMAL:
+            at = f"{fact_text(self.key)} = {value}"
+            raise PlannerError(f"no proven plan at {at}: {found.status.value}", code="not-proven")
+        if isinstance(self._planner, str):
+            self._planner = registry.make(found.planner)  # it keeps what it found out
+        return line_of(self.problem, found.plan, self.key)
+
+
+def _pieces(best: _Best, first: tuple[Number, Line], last: tuple[Number, Line]) -> Sequence[Piece]:
+    """Return the pieces between two values with their best lines."""
+    waiting, found = [(first, last)], list[Piece]()
+    while waiting:
+        (start, left), (end, right) = waiting.pop()
+        if left == right:
+            _extend(found, start, end, left, best.problem)
+            continue
+        cross = exact(Fraction(right.intercept - left.intercept) / (left.slope - right.slope))
+        middle = best(cross)
+        if middle.at(cross) == left.at(cross):
+            _extend(found, start, cross, left, best.problem)
+            _extend(found, cross, end, right, best.problem)
+        else:
+            waiting += [((cross, middle), (end, right)), ((start, left), (cross, middle))]
+        if len(found) > MAX_PIECES:
+            raise PlannerError(f"more than {MAX_PIECES} allocations", code="too-many-pieces")
+    return found
+
+
+def _extend(found: list[Piece], least: Number, most: Number, line: Line, problem: Problem) -> None:
+    """Add a piece, or make the last one longer if it is the same line; nothing if it is empty."""
+    if least == most:
+        return
+    if found and found[-1].line == line:
+        least = found.pop().least
+    counts = Counter(lane(action.args, problem) or "" for action in line.plan.actions)
+    n_actions = {agent: counts[agent] for agent in sorted({*problem.agents, *counts})}
+    found.append(Piece(least, most, line, n_actions))

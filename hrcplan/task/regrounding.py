@@ -1,0 +1,226 @@
+"""A task again, for the problem as it is now: grounded anew only where that matters.
+
+While a plan is carried out, facts and agent state change, but not what is possible. Bits, actions
+and everything that hangs on them (``Task.structure``) then stay; only the initial state and the
+costs are new. That includes the agent state that interactions change: its value facts stand for
+*roles* (the value now, the value that an interaction leaves), and a role may take another number.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from itertools import pairwise
+
+from hrcplan.pddl.model import (
+    DURATION,
+    TOTAL_COST,
+    TRUE,
+    Action,
+    Constant,
+    Expr,
+    FluentKey,
+    Function,
+    Number,
+    Problem,
+    formula_functions,
+    functions_in,
+)
+from hrcplan.pddl.semantics import Binding, evaluate, ground_key
+from hrcplan.task.actions import GroundAction
+from hrcplan.task.changing import value_fact
+from hrcplan.task.numbers import divisors, grounded, numeric_effects
+from hrcplan.task.task import Task
+
+MAX_KEPT = 32
+Roles = Mapping[FluentKey, tuple[Number, ...]]
+"""Values of each function that actions change, in the order of their bits."""
+
+
+class Grounding:
+    """One structure: a task, and what it takes to say whether another problem has it, too."""
+
+    def __init__(self, task: Task) -> None:
+        self.task = task
+        self._fixed = task.problem.facts - task.bits.keys()
+        self._left = _assignments(task)
+        actions = task.problem.domain.actions
+        self._shaping = frozenset(f.name for action in actions for f in _shaping(action))
+
+    def again(self, problem: Problem) -> Task | None:
+        """Return the task of ``problem`` with this structure; None if that does not hold it.
+
+        >>> from hrcplan import load
+        >>> task = load("transport", "two-boxes")
+        >>> moved = {("at", "human", "wp4")} | task.problem.facts - {("at", "human", "wp1")}
+        >>> now = Grounding(task).again(replace(task.problem, facts=moved))
+        >>> now.structure is task.structure, ("at", "human", "wp4") in now.facts_of(now.initial)
+        (True, True)
+        """
+        if not self._has_shape(problem):
+            return None
+        roles = self._roles(problem)
+        return None if roles is None else _with(self.task, problem, roles)
+
+    def _has_shape(self, problem: Problem) -> bool:
+        """Return whether the same facts and actions are possible, numbers that change aside.
+
+        What can follow a state that can follow the initial one was grounded with it.
+        """
+        before, reached = self.task.problem, self.task.reached
+        if (problem.domain is not before.domain or problem.objects != before.objects
+                or problem.goal != before.goal):  # fmt: skip
+            return False
+        if problem.facts - self.task.bits.keys() != self._fixed:
+            return False
+        old, new = before.values, problem.values
+        if old.keys() != new.keys():
+            return False
+        changed = [key for key in old if old[key] != new[key]]
+        return all(key in reached or key[0] not in self._shaping for key in changed)
+
+    def _roles(self, problem: Problem) -> Roles | None:
+        """Return the numbers of all roles now; None if other or more roles are needed."""
+        if self._left is None:
+            return None
+        old, new = self.task.problem.values, problem.values
+        found: dict[FluentKey, tuple[Number, ...]] = {}
+        for key, values in self.task.reached.items():
+            left = {evaluate(e, old, b): evaluate(e, new, b) for e, b in self._left.get(key, ())}
+            after = {evaluate(e, new, b) for e, b in self._left.get(key, ())}
+            numbers = _renumbered(tuple(values), left, new[key])
+            if numbers is None or after.difference(numbers):
+                return None
+            found[key] = numbers
+        return found
+
+
+class Groundings:
+    """The groundings of one running task: one for each set of agent states that can be bettered."""
+
+    def __init__(self) -> None:
+        self._kept: list[Grounding] = []
+
+    def task(self, problem: Problem) -> Task:
+        """Return the task of a problem, with the structure of an earlier one if any holds it.
+
+        Raises:
+            UnsupportedError: if bits cannot hold it.
+            LimitError: if there are too many ground actions.
+        """
+        for kept in self._kept:
+            found = kept.again(problem)
+            if found is not None:
+                return found
+        new = Grounding(Task(problem))
+        # The smallest that holds a problem is the quickest.
+        all_kept = [*self._kept[-MAX_KEPT:], new]
+        self._kept = sorted(all_kept, key=lambda grounding: len(grounding.task.actions))
+        return new.task
+
+
+def _shaping(action: Action) -> Iterator[Function]:
+    """Yield the functions on which more than costs and values of roles depends."""
+    for formula in (*(c.formula for c in action.conditions), *(e.given for e in action.effects)):
+        yield from formula_functions(formula)
+    for _, duration in action.durations:
+        yield from functions_in(duration)
+    for effect in action.effects:
+        yield from divisors(effect.value)  # a cost that divides by zero is none
+
+
+def _renumbered(
+    values: tuple[Number, ...], left: Mapping[Number, Number], now: Number
+) -> tuple[Number, ...] | None:
+    """Return the number of each role: what is left is known, the free role takes the value now."""
+    free = [v for v in values if v not in left]
+    taken = set(left.values())
+    if len(taken) < len(left):
+        return None
+    if now in taken or not free:
+        numbers = tuple(left.get(v, v) for v in values)
+    else:
+        numbers = tuple(left.get(v, now if v == free[0] else v) for v in values)
+    # In order, so that actions come in the order in which a new grounding would have them.
+    ordered = all(a < b for a, b in pairwise(numbers))
+    return numbers if ordered and now in numbers else None
+
+
+def _assignments(task: Task) -> dict[FluentKey, list[tuple[Expr, Binding]]] | None:
+    """Return what interactions leave each function at; None if actions do more with them."""
+    found: dict[FluentKey, list[tuple[Expr, Binding]]] = {}
+    schemas = {action.name: action for action in task.problem.domain.actions}
+    moving = {key[0] for key in task.reached}
+    used = {action.name for action in task.actions}
+    if any(_looks_closer(schemas[name], moving) for name in used):
+        return None
+    for name, args in dict.fromkeys((a.name, a.args) for a in task.actions):
+        action = schemas[name]
+        for effect in numeric_effects(action):
+            assert effect.value is not None
+            plain = effect.kind == "assign" and effect.given == TRUE and not effect.params
+            if not plain or any(f.name == DURATION for f in functions_in(effect.value)):
+                return None
+            binding = _binding(action, args)
+            found.setdefault(ground_key(effect.target, binding), []).append((effect.value, binding))
+    return found
+
+
+def _looks_closer(action: Action, moving: set[str]) -> bool:
+    """Return whether an action does with changing functions more than count them as a cost."""
+    found = {function.name for function in _shaping(action)}
+    if any(numeric_effects(action)):
+        found.update(f.name for effect in action.effects for f in functions_in(effect.value))
+    return not moving.isdisjoint(found)
+
+
+def _binding(action: Action, args: tuple[str, ...]) -> Binding:
+    return {param.name: arg for param, arg in zip(action.params, args, strict=True)}
+
+
+def _with(task: Task, problem: Problem, roles: Roles) -> Task:
+    """Return the task with another initial state, and other numbers in costs and roles."""
+    other = object.__new__(Task)
+    other.__dict__.update(task.__dict__)
+    other.__dict__.pop("costs", None)
+    other.problem = problem
+    if roles != task.reached:
+        _renumber(other, task, roles)
+    given = [value_fact(key, problem.values[key]) for key in roles]
+    other.initial = other.state_of([*problem.facts, *given])
+    return other
+
+
+def _renumber(other: Task, task: Task, roles: Roles) -> None:
+    new = {
+        (key, old): number
+        for key, values in task.reached.items()
+        for old, number in zip(values, roles[key], strict=True)
+    }
+    n_plain = len(task.facts) - len(new)
+    facts = [value_fact(key, number) for key, numbers in roles.items() for number in numbers]
+    other.facts = (*task.facts[:n_plain], *facts)
+    other.bits = {fact: i for i, fact in enumerate(other.facts)}
+    other.reached = roles
+    schemas = {action.name: action for action in task.problem.domain.actions}
+    other.actions = tuple(
+        _repriced(action, schemas[action.name], new) if action.values else action
+        for action in task.actions
+    )
+
+
+def _repriced(
+    action: GroundAction, schema: Action, new: Mapping[tuple[FluentKey, Number], Number]
+) -> GroundAction:
+    values = {key: new[key, old] for key, old in action.values.items()}
+    known: dict[FluentKey, Expr] = {key: Constant(value) for key, value in values.items()}
+    binding = _binding(schema, action.args)
+    fixed = [expression for op, expression in schema.durations if op == "="]
+    if len(fixed) == 1:
+        known[DURATION,] = grounded(fixed[0], binding, known)
+    costs = tuple(
+        grounded(effect.value, binding, known)
+        for effect in schema.effects
+        if effect.target.name == TOTAL_COST and effect.value is not None
+    )
+    return replace(action, values=values, costs=costs)

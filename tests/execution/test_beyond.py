@@ -1,0 +1,129 @@
+"""Beyond the paper: interactions, estimation, and failure memory, in simulated runs."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from hrcplan.agents import profile
+from hrcplan.execution import Row, Spec, engine_for, means, simulate
+from hrcplan.execution import events as ev
+from hrcplan.execution.execute import carry_out, make_setting
+from hrcplan.execution.journal import read_journal
+from hrcplan.execution.replay import replay
+from hrcplan.execution.simulate import make_engine
+from hrcplan.execution.worlds.simulated import Nature, StateChange
+from hrcplan.facade import load_problem
+from hrcplan.planners.retries import with_success
+
+MOTIVATION = ("motivation", "human")
+COACHED: Mapping[str, Any] = {"domain": "transport-coached", "profile": "hrcplan", "case": 2}
+MEMORY: Mapping[str, Any] = {"model": False, "profile": "hrcplan"}
+ESTIMATED: Mapping[str, Any] = {"model": False, "profile": "estimated"}
+
+
+def rows(n: int, **changes: Any) -> list[Row]:
+    return [simulate(Spec(seed=f"beyond-{i}", planner="exact", **changes)) for i in range(n)]
+
+
+def coached(probability: float, seed: int = 0, value: float = 8) -> tuple[Row, list[str]]:
+    """Return a run whose human is unmotivated from the start, and what was done in it."""
+    problem = with_success(load_problem("transport-coached", "two-boxes"), probability)
+    engine = make_engine(problem, profile("hrcplan"))
+    nature = Nature(seed, (StateChange(0.0, {MOTIVATION: value}),), sensed="before")
+    done: list[str] = []
+
+    def watch(run: object, event: ev.Event, commands: tuple[ev.Command, ...]) -> None:
+        done.extend(str(c) for c in commands if isinstance(c, ev.Dispatch))
+
+    return engine.row(engine.run(nature, watch=watch)), done
+
+
+def test_a_reminder_that_works_needs_no_replan() -> None:
+    row, done = coached(1)
+    assert done[0] == "(remind robot human)"
+    assert (row.success, row.replans, row.plans_confirmed, row.interactions) == (True, 0, 0, 1)
+    assert (row.executed_human, row.failed_human) == (4, 0)
+    assert row.makespan_s == pytest.approx(250, abs=1)
+
+
+def test_one_that_does_not_is_planned_again() -> None:
+    """Seeds in which the first reminder fails: the state is sensed unchanged, and it replans."""
+    found = [coached(0.5, seed) for seed in range(12)]
+    again = [row for row, done in found if done.count("(remind robot human)") == 2]
+    assert again
+    for row in again:
+        assert (row.success, row.interactions, row.replans) == (True, 2, 1)
+        assert row.makespan_s == pytest.approx(300, abs=1)
+
+
+def test_what_never_works_is_not_tried() -> None:
+    row, done = coached(0, value=10)
+    assert row.success
+    assert not any("remind" in step for step in done)
+    assert row.executed_human == 0
+
+
+def test_an_interaction_that_leaves_more_is_worth_less() -> None:
+    """What is left is a sensed value like others, and told to the planner like others."""
+    problem = load_problem("transport-coached", "two-boxes").with_values({("residual",): 5})
+    engine = make_engine(problem, profile("hrcplan"))
+    told = engine.monitor.told(engine.monitor.begin())
+    assert float(told["residual",]) == pytest.approx(1 + 6.93, abs=0.01)
+    assert told[MOTIVATION] == 1
+
+
+def test_a_journal_of_interactions_replays(tmp_path: Any) -> None:
+    problem = load_problem("transport-coached", "two-boxes")
+    path = tmp_path / "run.jsonl"
+    setting = make_setting(problem, profile="estimated", human="case2", planner="exact", seed=3)
+    setting = replace(setting, profile=profile("hrcplan"))
+    done = carry_out(setting, journal=path)
+    found = replay(read_journal(path))
+    assert found.difference is None
+    assert found.row == done.row
+
+
+def test_estimates_are_replayed_too(tmp_path: Any) -> None:
+    path = tmp_path / "run.jsonl"
+    setting = make_setting(load_problem("transport", "two-boxes"), profile="estimated", model=False,
+                           human="case1", planner="exact", seed=5)  # fmt: skip
+    done = carry_out(setting, journal=path)
+    found = replay(read_journal(path))
+    assert (found.difference, found.row) == (None, done.row)
+
+
+def test_the_same_seed_gives_the_same_rows() -> None:
+    for changes in (COACHED, {"case": 2, **ESTIMATED}):
+        first = rows(6, **changes)
+        for known in (engine_for(Spec(planner="exact", **changes)).planner,):
+            known._known.clear()
+        assert rows(6, **changes) == first
+
+
+def test_interactions_keep_the_human_at_work() -> None:
+    """Bands of the goals, wide enough for 60 runs."""
+    measures = means(rows(60, **COACHED))
+    assert measures["success_pct"][0] == 100
+    assert measures["successful_human_pct"][0] >= 40
+    assert measures["makespan_s"][0] <= 275 + 2 * measures["makespan_s"][1]
+    assert measures["replans"][0] <= 1.2 + 2 * measures["replans"][1]
+
+
+@pytest.mark.parametrize("method", [MEMORY, ESTIMATED])
+@pytest.mark.parametrize("when", ["start", "random"])
+@pytest.mark.parametrize("case", [1, 2])
+def test_without_sensing_failures_are_enough(
+    method: Mapping[str, Any], when: str, case: int
+) -> None:
+    measures = means(rows(40, case=case, when=when, **method))
+    assert measures["success_pct"][0] == 100
+    assert measures["replans"][0] <= 2
+
+
+def test_a_probability_of_ones_own() -> None:
+    sure = means(rows(25, success=1.0, **COACHED))
+    rare = means(rows(25, success=0.4, **COACHED))
+    assert sure["replans"][0] < rare["replans"][0]
+    assert sure["makespan_s"][0] < rare["makespan_s"][0]

@@ -1,0 +1,203 @@
+"""Random walks with enumeration of all applicable actions: steps per second."""
+
+from __future__ import annotations
+
+import random
+import re
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from functools import partial
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from rows import Row, interleaved
+
+from hrcplan.facade import load_problem
+from hrcplan.pddl.check import load_domain
+from hrcplan.pddl.check import load_problem as read_problem
+from hrcplan.pddl.model import TOTAL_COST, Condition, Function, Problem
+from hrcplan.pddl.write import domain_text, problem_text
+from hrcplan.task import Task
+
+EPISODE = 50  # steps until the walk starts anew
+RATE, OVER_UP, OVER_GYM = 150_000, 100, 10
+N_ROUNDS, OURS_N, THEIRS_S = 5, 10_000, 0.5
+BLOCKS = """
+(define (domain blocks) (:requirements :strips :typing) (:types block)
+  (:predicates (on ?x ?y - block) (ontable ?x - block) (clear ?x - block) (handempty)
+    (holding ?x - block))
+  (:action pick-up :parameters (?x - block) :precondition (and (clear ?x) (ontable ?x) (handempty))
+    :effect (and (not (ontable ?x)) (not (clear ?x)) (not (handempty)) (holding ?x)))
+  (:action put-down :parameters (?x - block) :precondition (holding ?x)
+    :effect (and (not (holding ?x)) (clear ?x) (handempty) (ontable ?x)))
+  (:action stack :parameters (?x ?y - block) :precondition (and (holding ?x) (clear ?y))
+    :effect (and (not (holding ?x)) (not (clear ?y)) (clear ?x) (handempty) (on ?x ?y)))
+  (:action unstack :parameters (?x ?y - block) :precondition (and (on ?x ?y) (clear ?x) (handempty))
+    :effect (and (holding ?x) (clear ?y) (not (clear ?x)) (not (handempty)) (not (on ?x ?y)))))
+"""
+TOWERS = """
+(define (problem towers) (:domain blocks) (:objects a b c d e f g h - block)
+  (:init (handempty) (ontable a) (ontable d) (on b a) (on c b) (clear c) (on e d) (clear e)
+    (ontable f) (clear f) (ontable g) (on h g) (clear h))
+  (:goal (and (on a b) (on d h))))
+"""
+
+
+def rows() -> Iterator[Row]:
+    """Yield our rate on each task, and how many times as fast as the other simulators it is."""
+    for domain, name in (
+        ("transport", "two-boxes"),
+        ("transport", "boxes-6"),
+        ("kitchen", "stew-lentil"),
+    ):
+        problem = load_problem(domain, name)
+        rate = interleaved({"ours": partial(_walk, Task(problem))}, N_ROUNDS)["ours"]
+        goal = f">= {RATE:,} steps/s"
+        yield Row(f"{domain}/{name}", f"{rate:,.0f} steps/s", "", goal, rate < RATE)
+    for title, problem in _classical():
+        yield from _compare(title, problem)
+
+
+def _classical() -> Iterator[tuple[str, Problem]]:
+    """Yield tasks that all three can hold: at one instant, without costs."""
+    yield "kitchen/stew-lentil", load_problem("kitchen", "stew-lentil")
+    yield "transport/two-boxes, at one instant", load_problem("transport", "two-boxes")
+    with TemporaryDirectory() as folder:
+        domain, problem = Path(folder, "domain.pddl"), Path(folder, "problem.pddl")
+        domain.write_text(BLOCKS)
+        problem.write_text(TOWERS)
+        yield "blocks, 8 blocks", read_problem(load_domain(domain), problem)
+
+
+def _compare(title: str, problem: Problem) -> Iterator[Row]:
+    bare = _bare(problem)
+    runs: dict[str, Callable[[], float]] = {"ours": partial(_walk, Task(bare))}
+    with TemporaryDirectory() as folder:
+        place = Path(folder)
+        (place / "problems").mkdir()
+        (place / "domain.pddl").write_text(_one_type_each(domain_text(bare.domain)))
+        (place / "problems" / "problem.pddl").write_text(problem_text(bare))
+        runs["unified-planning"] = _unified_planning(place)
+        gym = _pddlgym(place)
+        if gym is not None:
+            runs["pddlgym"] = gym
+        rates = interleaved(runs, N_ROUNDS)
+    for name, least in (("unified-planning", OVER_UP), ("pddlgym", OVER_GYM)):
+        if name in rates:
+            ratio = rates["ours"] / rates[name]
+            yield Row(
+                title,
+                f"{rates['ours']:,.0f} steps/s",
+                f"{name}: {rates[name]:,.0f} steps/s, ratio {ratio:,.0f}",
+                f">= {least} x",
+                ratio < least,
+            )
+
+
+def _bare(problem: Problem) -> Problem:
+    """Return a problem as strict STRIPS: costs and durations left out, all at one instant."""
+    actions = tuple(
+        replace(
+            action,
+            durative=False,
+            durations=(),
+            conditions=tuple(Condition("start", c.formula) for c in action.conditions),
+            effects=tuple(
+                replace(effect, when="start")
+                for effect in sorted(action.effects, key=lambda e: e.when == "end")
+                if not isinstance(effect.target, Function)
+            ),
+        )
+        for action in problem.domain.actions
+    )
+    # What is deleted at the start and added at the end is simply there: other readers differ.
+    actions = tuple(
+        replace(action, effects=tuple(e for e in action.effects if not _undone(e, action.effects)))
+        for action in actions
+    )
+    domain = replace(
+        problem.domain, actions=actions, functions={}, requirements=(":strips", ":typing")
+    )
+    assert TOTAL_COST not in domain.functions
+    return replace(problem, domain=domain, values={}, metric=None)
+
+
+def _one_type_each(domain: str) -> str:
+    """Return a domain in which every variable has its own type: pddlgym reads no other."""
+
+    def spread(match: re.Match[str]) -> str:
+        return " ".join(f"{variable} - {match[2]}" for variable in match[1].split())
+
+    return re.sub(r"((?:\?[\w-]+ )+)- ([\w-]+)", spread, domain)
+
+
+def _undone(effect: Any, effects: Any) -> bool:
+    return effect.kind == "delete" and any(
+        other.kind == "add" and other.target == effect.target for other in effects
+    )
+
+
+def _walk(task: Task) -> float:
+    chance = random.Random(1)
+    draw, applicable, successor = chance.random, task.applicable, task.successor
+    start = time.process_time()
+    for step in range(OURS_N):
+        if step % EPISODE == 0:
+            state = task.initial
+        actions = applicable(state)
+        state = successor(state, actions[int(draw() * len(actions))])
+    return OURS_N / (time.process_time() - start)
+
+
+def _unified_planning(place: Path) -> Callable[[], float]:
+    from unified_planning.engines.sequential_simulator import UPSequentialSimulator
+    from unified_planning.io import PDDLReader
+    from unified_planning.shortcuts import get_environment
+
+    get_environment().credits_stream = None
+    files = str(place / "domain.pddl"), str(place / "problems" / "problem.pddl")
+    simulator = UPSequentialSimulator(PDDLReader().parse_problem(*files))
+
+    def begin() -> Any:
+        return simulator.get_initial_state()
+
+    def move(state: Any, chance: random.Random) -> Any:
+        return simulator.apply(state, *chance.choice(list(simulator.get_applicable_actions(state))))
+
+    list(simulator.get_applicable_actions(begin()))  # grounds
+    return partial(_their_walk, begin, move)
+
+
+def _pddlgym(place: Path) -> Callable[[], float] | None:
+    try:
+        from pddlgym.core import PDDLEnv
+    except ImportError:
+        return None  # no wheels of what it needs for this Python
+    world = PDDLEnv(
+        str(place / "domain.pddl"),
+        str(place / "problems"),
+        operators_as_actions=True,
+        dynamic_action_space=True,
+    )
+
+    def begin() -> Any:
+        return world.reset()[0]
+
+    def move(state: Any, chance: random.Random) -> Any:
+        choices = sorted(world.action_space.all_ground_literals(state))
+        return world.step(chance.choice(choices))[0]
+
+    return partial(_their_walk, begin, move)
+
+
+def _their_walk(begin: Callable[[], Any], move: Callable[[Any, random.Random], Any]) -> float:
+    chance, step = random.Random(1), 0
+    start = time.process_time()
+    while time.process_time() < start + THEIRS_S:
+        if step % EPISODE == 0:
+            state = begin()
+        state = move(state, chance)
+        step += 1
+    return step / (time.process_time() - start)
