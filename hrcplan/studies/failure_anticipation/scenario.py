@@ -9,11 +9,9 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from hrcplan.agents import profile_names
 from hrcplan.errors import UsageError
 from hrcplan.execution import Spec
 from hrcplan.facade import load_problem
-from hrcplan.pddl.library import problem_names
 from hrcplan.pddl.model import FluentKey
 from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.studies.study import Cell, Options
@@ -50,31 +48,26 @@ def is_own_task(options: Options) -> bool:
 def inputs(options: Options) -> str:
     """Return domain and problems of the study, and its own files."""
     own = [path.read_text(encoding="utf-8") for path in sorted(HERE.glob("*.toml"))]
-    names = {options["problem"]}
-    names.update(m.changes.get("problem", "") for m in methods("methods", options).values())
-    problems = [load_problem(options["domain"], name) for name in sorted(names - {""})]
-    return "".join([*own, domain_text(problems[0].domain), *map(problem_text, problems)])
+    tasks = [
+        {**options, **{k: v for k, v in method.changes.items() if k in options}}
+        for method in methods("methods", options).values()
+    ]
+    names = sorted({(task["domain"], task["problem"]) for task in tasks})
+    problems = [load_problem(*name) for name in names]
+    return "".join([*own, *(domain_text(p.domain) + problem_text(p) for p in problems)])
 
 
 def methods(kind: str, options: Options) -> dict[str, Method]:
-    """Return the ``methods`` or ``variants``; on another task, those that do not name this one.
-
-    What needs a problem or a profile that is not shipped is left out.
-    """
+    """Return the ``methods`` or ``variants``; on another task, those that do not name this one."""
     found = {}
     for name, table in data()[kind].items():
         changes = {key: value for key, value in table.items() if key != "cases"}
         if not is_own_task(options):
+            if changes.keys() & options.keys():
+                continue
             changes.pop("can_fail", None)  # names of this task's actions
-        if _is_there(changes, options):
-            found[name] = Method(name, tuple(table["cases"]), changes)
+        found[name] = Method(name, tuple(table["cases"]), changes)
     return found
-
-
-def _is_there(changes: Mapping[str, Any], options: Options) -> bool:
-    own, chosen = changes.get("problem"), changes.get("profile", "paper")
-    known = own is None or (is_own_task(options) and own in problem_names(options["domain"]))
-    return known and (chosen.endswith(".toml") or chosen in profile_names())
 
 
 def sweep_cells(options: Options) -> list[Cell]:
