@@ -27,6 +27,7 @@ COMMANDS = {
     "new-problem": "hrcplan.cli.new_problem",
     "bank": "hrcplan.cli.bank",
     "infer": "hrcplan.cli.infer",
+    "study": "hrcplan.cli.study",
     "planners": "hrcplan.cli.planners",
     "doctor": "hrcplan.cli.doctor",
 }

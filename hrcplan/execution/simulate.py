@@ -112,6 +112,12 @@ def engine_for(spec: Spec) -> Engine:
                    spec.replan_limit, spec.success)  # fmt: skip
 
 
+def forget() -> None:
+    """Free what engines of earlier specifications keep: their groundings and plans."""
+    _engine.cache_clear()
+    _replanner.cache_clear()
+
+
 @lru_cache(maxsize=64)
 def _engine(
     domain: str, problem: str, values: tuple[tuple[FluentKey, Number], ...], planner: str,

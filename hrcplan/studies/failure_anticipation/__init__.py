@@ -1,0 +1,39 @@
+"""The first paper: plans that fail less because the state of the human is part of their cost.
+
+Izquierdo-Badiola, Canal, Rizzo, Alenyà: Improved Task Planning through Failure Anticipation in
+Human-Robot Collaboration. Cases 1a to 2b of its Table I, its Figure 5, and what goes beyond it;
+``docs/reproduce.md`` says how its gaps were read.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+
+from hrcplan.studies.failure_anticipation import episodes, scenario
+from hrcplan.studies.failure_anticipation.findings import findings
+from hrcplan.studies.study import Study, Table
+
+STUDY = Study(
+    name="failure-anticipation",
+    title="Failure anticipation",
+    tables=(
+        Table("rows", ("case", "method"), episodes.COLUMNS,
+              partial(scenario.cells, "methods"), partial(episodes.simulated, "methods")),
+        Table("variants", ("case", "method"), episodes.COLUMNS,
+              partial(scenario.cells, "variants"), partial(episodes.simulated, "variants"),
+              at_most=200),
+        Table("sweeps", ("parameter", "setting"), episodes.COLUMNS,
+              scenario.sweep_cells, episodes.swept, at_most=100),
+        Table("allocation", ("profile", "action", "value"), episodes.SHARES,
+              episodes.allocation_cells, episodes.allocated, at_most=1),
+        Table("example", ("variant",), episodes.TOLD,
+              episodes.example_cells, episodes.shown, at_most=1),
+    ),
+    measures=("success_pct", "replans", "failed_pct", "assigned_human_pct",
+              "successful_human_pct", "makespan_s"),
+    details=("assigned_robot_pct", "successful_robot_pct", "replans_change", "replans_failure",
+             "replans_deviation", "plans_confirmed", "interactions"),
+    options=scenario.defaults(),
+    findings=findings,
+    inputs=scenario.inputs,
+)  # fmt: skip

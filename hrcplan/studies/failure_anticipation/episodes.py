@@ -1,0 +1,186 @@
+"""The episodes of the study: one simulated run, one replanned plan, or one run shown in full."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass, field, fields
+from functools import lru_cache
+from typing import Any
+
+from hrcplan.agents.memory import Memory
+from hrcplan.execution import MEASURES, Engine, Spec, engine_for
+from hrcplan.execution import Row as Outcome
+from hrcplan.execution import events as ev
+from hrcplan.execution.run import Run
+from hrcplan.execution.simulate import forget, nature_of
+from hrcplan.execution.worlds.simulated import Nature, StateChange
+from hrcplan.pddl.model import FluentKey
+from hrcplan.pddl.semantics import State
+from hrcplan.plans import Plan, PlannedAction
+from hrcplan.studies.failure_anticipation import scenario
+from hrcplan.studies.study import Cell, Options, Row
+
+_COUNTS = tuple(field.name for field in fields(Outcome))
+_DRAWN = ("element", "value", "change_s")
+COLUMNS = (*_COUNTS, *(name for name in MEASURES if name not in _COUNTS), *_DRAWN)
+SHARES = ("n_human", "n_robot", "cost")
+TOLD = ("ending", "replans", "bars", "plans")
+
+
+def simulated(kind: str, options: Options, cell: Cell, seed: str) -> Row:
+    """Return the row of one simulated run: its counts, its measures, and what chance drew."""
+    case, name = map(str, cell)
+    spec = scenario.spec(scenario.methods(kind, options)[name], case, options, seed)
+    return row_of(spec)
+
+
+def swept(options: Options, cell: Cell, seed: str) -> Row:
+    """Return the row of one simulated run of the sweeps."""
+    _make_room_for(cell)
+    return row_of(scenario.swept(options, cell, seed))
+
+
+@lru_cache(maxsize=1)
+def _make_room_for(cell: Cell) -> None:
+    """Free what the cell before this one kept: each plans for a problem of its own."""
+    forget()
+
+
+def row_of(spec: Spec) -> Row:
+    """Return the row of one simulated run."""
+    engine = engine_for(spec)
+    nature = nature_of(spec, engine)
+    outcome = engine.row(engine.run(nature))
+    drawn: Row = dict.fromkeys(_DRAWN)
+    for change in nature.changes:
+        for key, value in change.values.items():
+            drawn = {"element": " ".join(key), "value": float(value), "change_s": change.t}
+    return {**outcome.to_json(), **outcome.measures(), **drawn}
+
+
+def allocated(options: Options, cell: Cell, seed: str) -> Row:
+    """Return who does what in the plan after a change: a point of Figure 5."""
+    profile, at, value = str(cell[0]), int(cell[1]), int(cell[2])
+    engine = engine_for(_plain(options, profile=profile))
+    monitor = engine.monitor
+    key = scenario.element("allocation", options, human_elements(engine))
+    before = drained(engine, starts_of_human(engine)[at])
+    told = monitor.profile.told(monitor.agents, {key: value}, Memory())
+    facts = monitor.acting.changing(before)
+    found = engine.planner.answer(ev.AskPlan(0.0, facts, before.values, told))
+    actions = () if found.plan is None else found.plan.actions
+    n_human = sum(is_human(engine, action) for action in actions)
+    cost = None if found.metric is None else float(found.metric)
+    return {"n_human": n_human, "n_robot": len(actions) - n_human, "cost": cost}
+
+
+def allocation_cells(options: Options) -> list[Cell]:
+    """Return profile, number of the human's action before which the change comes, and value."""
+    wanted = scenario.data()["allocation"]
+    n_actions = len(starts_of_human(engine_for(_plain(options))))
+    return [
+        (profile, at, value)
+        for profile in wanted["profiles"]
+        for at in range(n_actions)
+        for value in range(wanted["most"] + 1)
+    ]
+
+
+def example_cells(options: Options) -> list[Cell]:
+    """Return the variants of the illustrative example; none where the human does nothing."""
+    if not starts_of_human(engine_for(_plain(options))):
+        return []
+    return [(variant["name"],) for variant in scenario.data()["example"]["variants"]]
+
+
+def shown(options: Options, cell: Cell, seed: str) -> Row:
+    """Return one variant of the illustrative example: every action carried out, every plan."""
+    wanted = scenario.data()["example"]
+    chosen = next(v for v in wanted["variants"] if v["name"] == cell[0])
+    changes = {key: value for key, value in chosen.items() if key != "name"}
+    engine = engine_for(_plain(options, **changes))
+    starts = starts_of_human(engine)
+    key = scenario.element("example", options, human_elements(engine))
+    change = StateChange(starts[min(wanted["action"], len(starts)) - 1], {key: wanted["value"]})
+    film = Film(engine)
+    run = engine.run(Nature(seed, (change,)), watch=film)
+    return {
+        "ending": run.ending or "",
+        "replans": run.tally.n_replans,
+        "bars": json.dumps(film.bars),
+        "plans": json.dumps(film.plans),
+    }
+
+
+@dataclass
+class Film:
+    """Watches a run: ``bars`` are the actions carried out, ``plans`` when and why plans changed."""
+
+    engine: Engine
+    bars: list[dict[str, Any]] = field(default_factory=list)
+    plans: list[dict[str, Any]] = field(default_factory=list)
+    _open: dict[int, dict[str, Any]] = field(default_factory=dict)
+
+    def __call__(self, run: Run, event: ev.Event, commands: tuple[ev.Command, ...]) -> None:
+        """Take down one step of the monitor."""
+        if isinstance(event, ev.Ended) and event.number in self._open:
+            self._open.pop(event.number).update(end_s=event.t, outcome=event.outcome)
+        for command in commands:
+            if isinstance(command, ev.Adopt):
+                self.plans.append({"t": command.t, "why": command.why})
+            elif isinstance(command, ev.Dispatch):
+                bar = {
+                    "agent": command.agent, "action": command.action, "args": command.args[1:],
+                    "start_s": command.t, "end_s": command.t + command.duration_s, "outcome": "",
+                }  # fmt: skip
+                self._open[command.number] = bar
+                self.bars.append(bar)
+
+
+def _plain(options: Options, **changes: Any) -> Spec:
+    return Spec(domain=options["domain"], problem=options["problem"], **changes)
+
+
+def human_elements(engine: Engine) -> list[FluentKey]:
+    """Return the elements of agent state that are not a robot's."""
+    agents = engine.monitor.agents
+    return [key for key in agents.low if key[1] not in agents.robots]
+
+
+def is_human(engine: Engine, action: PlannedAction) -> bool:
+    """Whether an action is done by an agent that takes no commands."""
+    step = engine.monitor.acting.step(action)
+    return bool(step and step.agent) and step.agent not in engine.monitor.agents.robots  # type: ignore[union-attr]
+
+
+def first_plan(engine: Engine) -> Plan:
+    """Return the plan that a run begins with; an empty one if there is none."""
+    _, commands = engine.monitor.step(engine.monitor.begin(), ev.Settled(0.0))
+    ask = next(command for command in commands if isinstance(command, ev.AskPlan))
+    return engine.planner.answer(ask).plan or Plan()
+
+
+def starts_of_human(engine: Engine) -> list[float]:
+    """Return when the human's actions begin in the first plan."""
+    return list(_starts(engine))
+
+
+def _starts(engine: Engine) -> Iterator[float]:
+    for action in first_plan(engine).actions:
+        if is_human(engine, action):
+            yield float(action.start_s or 0)
+
+
+def drained(engine: Engine, t: float) -> State:
+    """Return the state of the first plan when what had begun before ``t`` has ended."""
+    acting = engine.monitor.acting
+    state = acting.initial()
+    for action in first_plan(engine).actions:
+        step = acting.step(action)
+        if step is None or float(action.start_s or 0) >= t - ev.INSTANT_S:
+            continue
+        duration = action.duration_s or 0
+        state, _ = acting.begin(state, step, duration)
+        state = acting.finish(state, step, duration)
+    return state

@@ -1,0 +1,132 @@
+"""What the study compares, read from ``scenario.toml``: tasks are never named in Python."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from hrcplan.errors import UsageError
+from hrcplan.execution import Spec
+from hrcplan.facade import load_problem
+from hrcplan.pddl.model import FluentKey
+from hrcplan.pddl.write import domain_text, problem_text
+from hrcplan.studies.study import Cell, Options
+
+HERE = Path(__file__).parent
+WITH_MODEL, WITHOUT_MODEL = "b", "a"
+
+
+@dataclass(frozen=True, slots=True)
+class Method:
+    """What a method changes in a simulated run, and the cases that it is run in."""
+
+    name: str
+    cases: tuple[str, ...]
+    changes: Mapping[str, Any]
+
+
+@cache
+def data() -> Mapping[str, Any]:
+    """Return the whole file."""
+    return tomllib.loads((HERE / "scenario.toml").read_text(encoding="utf-8"))
+
+
+def defaults() -> dict[str, str]:
+    """Return the task that the study is about."""
+    return dict(data()["task"])
+
+
+def is_own_task(options: Options) -> bool:
+    """Whether the options name the task that the file was written for."""
+    return dict(options) == defaults()
+
+
+def inputs(options: Options) -> str:
+    """Return domain and problems of the study, and its own files."""
+    own = [path.read_text(encoding="utf-8") for path in sorted(HERE.glob("*.toml"))]
+    tasks = [
+        {**options, **{k: v for k, v in method.changes.items() if k in options}}
+        for method in methods("methods", options).values()
+    ]
+    names = sorted({(task["domain"], task["problem"]) for task in tasks})
+    problems = [load_problem(*name) for name in names]
+    return "".join([*own, *(domain_text(p.domain) + problem_text(p) for p in problems)])
+
+
+def methods(kind: str, options: Options) -> dict[str, Method]:
+    """Return the ``methods`` or ``variants``; on another task, those that do not name this one."""
+    found = {}
+    for name, table in data()[kind].items():
+        changes = {key: value for key, value in table.items() if key != "cases"}
+        if not is_own_task(options):
+            if changes.keys() & options.keys():
+                continue
+            changes.pop("can_fail", None)  # names of this task's actions
+        found[name] = Method(name, tuple(table["cases"]), changes)
+    return found
+
+
+def sweep_cells(options: Options) -> list[Cell]:
+    """Return parameter and value of every cell of the sweeps; none without their method."""
+    wanted = data()["sweep"]
+    if wanted["method"] not in methods("methods", options):
+        return []
+    return [
+        (name, value)
+        for name, parameter in wanted["parameters"].items()
+        for value in parameter["values"]
+    ]
+
+
+def swept(options: Options, cell: Cell, seed: str) -> Spec:
+    """Return the simulated run of one cell of the sweeps."""
+    wanted = data()["sweep"]
+    method = methods("methods", options)[wanted["method"]]
+    plain = spec(method, wanted["case"], options, seed)
+    parameter, value = wanted["parameters"][cell[0]], cell[1]
+    if "field" in parameter:
+        return changed(plain, {parameter["field"]: value})
+    return changed(plain, {"values": (((parameter["function"],), value),)})
+
+
+def cells(kind: str, options: Options) -> list[Cell]:
+    """Return case and method of every cell: case by case, in the order of the file."""
+    chosen = methods(kind, options).values()
+    cases = sorted({case for method in chosen for case in method.cases})
+    return [(case, method.name) for case in cases for method in chosen if case in method.cases]
+
+
+def spec(method: Method, case: str, options: Options, seed: str) -> Spec:
+    """Return the simulated run of a method in a case."""
+    plain = Spec(
+        domain=options["domain"], problem=options["problem"], case=int(case[0]),
+        model=case[1] == WITH_MODEL, seed=seed,
+    )  # fmt: skip
+    return changed(plain, method.changes)
+
+
+def changed(plain: Spec, changes: Mapping[str, Any]) -> Spec:
+    """Return a run with some of its fields changed; profiles of the study are files beside it."""
+    fields: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in changes.items()}
+    if str(fields.get("profile", "")).endswith(".toml"):
+        fields["profile"] = str(HERE / fields["profile"])
+    return replace(plain, **fields)
+
+
+def element(kind: str, options: Options, elements: Sequence[FluentKey]) -> FluentKey:
+    """Return the element of a human's state that ``allocation`` or ``example`` changes.
+
+    On another task: the first that belongs to the human as a whole, else the first.
+
+    Raises:
+        UsageError: if there is none.
+    """
+    if is_own_task(options):
+        return tuple(data()[kind]["element"].split())
+    if not elements:
+        raise UsageError("nobody in this problem has a state that could change", code="no-human")
+    return next((key for key in elements if len(key) == 2), elements[0])

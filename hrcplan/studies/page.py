@@ -1,0 +1,100 @@
+"""The page of a report: one static HTML file, with its style and plots in it."""
+
+from __future__ import annotations
+
+import html as markup
+import re
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from hrcplan.studies.study import Claim, Findings, Section
+
+STYLE = Path(__file__).with_name("page.css")
+
+
+def html(title: str, about: Mapping[str, Any], n_rows: int, findings: Findings) -> str:
+    """Return the page of a study."""
+    parts = [*_claims(findings.claims), *findings.sections]
+    sections = "\n".join(
+        f'<section id="{anchor(s.title)}">\n<h2>{escape(s.title)}</h2>\n{s.html}\n</section>'
+        for s in parts
+    )
+    contents = " ".join(f'<a href="#{anchor(s.title)}">{escape(s.title)}</a>' for s in parts)
+    return f"""<!DOCTYPE html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>{escape(title)}</title>
+<style>
+{STYLE.read_text(encoding="utf-8")}</style>
+</head>
+<body>
+<header>
+<p class="kind">hrcplan study</p>
+<h1>{escape(title)}</h1>
+<p class="lead">{findings.lead}</p>
+<p class="facts">{_facts(about, n_rows)}</p>
+<nav>{contents}</nav>
+</header>
+<main>
+{sections}
+</main>
+</body>
+</html>
+"""
+
+
+def _facts(about: Mapping[str, Any], n_rows: int) -> str:
+    options = ", ".join(f"{key} {value}" for key, value in about["options"].items())
+    parts = [f"{n_rows:,} rows", f"seed {about['seed']}", options, f"hrcplan {about['version']}"]
+    return " · ".join(escape(part) for part in parts if part)
+
+
+def _claims(claims: Sequence[Claim]) -> list[Section]:
+    """Return a section per group of claims, in the order of their first ones."""
+    groups = dict.fromkeys(c.group for c in claims)
+    return [
+        Section(group, "\n".join(_claim(c) for c in claims if c.group == group)) for group in groups
+    ]
+
+
+def _claim(claim: Claim) -> str:
+    kind, verdict = ("yes", "holds") if claim.holds else ("no", "does not hold")
+    return (
+        f'<article class="claim {kind}"><p class="verdict">{verdict}</p>'
+        f"<div><h3>{escape(claim.claim)}</h3><p>{escape(claim.evidence)}</p></div></article>"
+    )
+
+
+def escape(text: object) -> str:
+    """Return text as HTML."""
+    return markup.escape(str(text), quote=True)
+
+
+def anchor(title: str) -> str:
+    """Return the name by which links find a section.
+
+    >>> anchor("Table I, beside the paper")
+    'table-i-beside-the-paper'
+    """
+    return re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-")
+
+
+def table(head: Sequence[str], rows: Sequence[Sequence[str]], kind: str = "") -> str:
+    """Return a table; its cells are HTML already, the first of each row is its heading."""
+    top = "".join(f'<th scope="col">{cell}</th>' for cell in head)
+    body = "\n".join(
+        f'<tr><th scope="row">{row[0]}</th>{"".join(f"<td>{cell}</td>" for cell in row[1:])}</tr>'
+        for row in rows
+    )
+    return (
+        f'<div class="scroll"><table class="{kind}">\n<thead><tr>{top}</tr></thead>\n'
+        f"<tbody>\n{body}\n</tbody></table></div>"
+    )
+
+
+def picture(svg: str, caption: str) -> str:
+    """Return a plot with its caption, which is HTML."""
+    return f"<figure>{svg}<figcaption>{caption}</figcaption></figure>"

@@ -1,0 +1,87 @@
+"""From rows to ``report.json`` and ``report.html``: the same rows give the same bytes."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from hrcplan.errors import InputError
+from hrcplan.studies import page
+from hrcplan.studies.estimate import Estimate, estimate
+from hrcplan.studies.store import FILE, Store
+from hrcplan.studies.study import Cell, Row, Study, find
+
+JSON_FILE, PAGE_FILE = "report.json", "report.html"
+
+
+def report_study(folder: str | Path) -> dict[str, Any]:
+    """Write the report of a folder of rows, and return what is in ``report.json``.
+
+    Raises:
+        InputError: if the folder has no rows, or they are of no known study.
+    """
+    folder = Path(folder)
+    with Store.to_read(folder) as store:
+        about = store.about()
+        study = _study(about, folder)
+        options = about["options"]
+        rows = {table.name: store.rows(table) for table in study.tables}
+    main = study.tables[0]
+    findings = study.findings(options, rows)
+    by_cell = cells_of(rows[main.name], main.keys, main.cells(options))
+    document: dict[str, Any] = {
+        "study": study.name,
+        "n_rows": len(rows[main.name]),
+        "rows": [_summary(study, cell, found) for cell, found in by_cell.items() if found],
+        "claims": [
+            {"claim": c.claim, "holds": c.holds, "evidence": c.evidence} for c in findings.claims
+        ],
+        "about": about,
+    }
+    _write(folder / JSON_FILE, json.dumps(document, indent=2, ensure_ascii=False) + "\n")
+    _write(folder / PAGE_FILE, page.html(study.title, about, document["n_rows"], findings))
+    return document
+
+
+def _study(about: dict[str, Any], folder: Path) -> Study:
+    if not {"study", "options"} <= about.keys():
+        raise InputError("not the rows of a study", code="bad-rows", path=str(folder / FILE))
+    return find(about["study"])
+
+
+def cells_of(
+    rows: Sequence[Row], keys: Sequence[str], order: Sequence[Cell]
+) -> dict[Cell, list[Row]]:
+    """Return rows by their cell: known cells in their order, then others as they come."""
+    found: dict[Cell, list[Row]] = {cell: [] for cell in order}
+    for row in rows:
+        found.setdefault(tuple(row[key] for key in keys), []).append(row)  # type: ignore[misc]
+    return found
+
+
+def estimates(rows: Sequence[Row], names: Sequence[str]) -> dict[str, Estimate]:
+    """Return the estimate of each named column over rows."""
+    return {name: estimate(float(row[name] or 0) for row in rows) for name in names}
+
+
+def _summary(study: Study, cell: Cell, rows: Sequence[Row]) -> dict[str, Any]:
+    return {
+        "cell": dict(zip(study.tables[0].keys, cell, strict=True)),
+        "n": len(rows),
+        "measures": _figures(estimates(rows, study.measures)),
+        "details": _figures(estimates(rows, study.details)),
+    }
+
+
+def _figures(found: dict[str, Estimate]) -> dict[str, dict[str, float]]:
+    return {name: {"mean": e.mean, "se": e.se} for name, e in found.items()}
+
+
+def _write(path: Path, text: str) -> None:
+    """Write a file by rename, so that it is there completely or not at all."""
+    fresh = path.with_name(f".{path.name}.new")
+    fresh.write_text(text, encoding="utf-8")
+    os.replace(fresh, path)

@@ -1,0 +1,121 @@
+"""Run a study: episodes that have no row yet, in parallel; only the parent writes."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import threading
+import time
+from collections.abc import Callable, Iterator, Mapping
+from functools import cache
+from itertools import groupby
+from pathlib import Path
+
+from hrcplan import __version__
+from hrcplan.errors import UsageError
+from hrcplan.studies.store import Store
+from hrcplan.studies.study import Episode, Options, Row, Study, episodes, find
+
+RUNS = 1000
+_CHUNK = 32  # episodes a worker does before its rows are written: what a kill can lose
+Progress = Callable[[int, int], None]
+
+
+def run_study(
+    name: str,
+    folder: str | Path,
+    *,
+    runs: int = RUNS,
+    seed: int = 0,
+    jobs: int = 1,
+    limit: int | None = None,
+    options: Mapping[str, str | None] | None = None,
+    progress: Progress | None = None,
+) -> int:
+    """Run what a study has no rows of yet, and return how many are new.
+
+    The rows depend on ``seed`` and ``options`` alone, not on ``jobs`` or on interruptions.
+
+    Args:
+        name: A study, as in ``failure-anticipation``.
+        folder: Where ``rows.sqlite`` is or will be.
+        runs: Runs per cell.
+        seed: From which everything random is derived.
+        jobs: Worker processes.
+        limit: Episodes of the study's first table, spread evenly over its cells.
+        options: The study's own options; None values stand for its defaults.
+        progress: Called with the numbers of rows done and wanted.
+
+    Raises:
+        UsageError: if the study or an option is unknown, or the folder holds other rows.
+        InputError: if a file that the study needs is missing or has faults.
+    """
+    if runs < 1 or jobs < 1 or (limit is not None and limit < 1):
+        raise UsageError("runs, jobs and limit are at least 1")
+    study = find(name)
+    chosen = study.with_defaults(options or {})
+    wanted = list(episodes(study, chosen, runs, limit))
+    digest = hashlib.sha256(study.inputs(chosen).encode()).hexdigest()
+    about = {"study": name, "version": __version__, "seed": seed, "options": chosen,
+             "inputs_sha256": digest}  # fmt: skip
+    with Store.to_write(Path(folder), about, study.tables) as store:
+        left = store.missing(study.tables, wanted)
+        done = len(wanted) - len(left)
+        for found in _results(name, chosen, seed, left, jobs):
+            for table, rows in groupby(found, lambda pair: pair[0].table):
+                store.add(study.table(table), list(rows))
+            done += len(found)
+            if progress is not None:
+                progress(done, len(wanted))
+        if left:
+            store.compact()
+    return len(left)
+
+
+def _results(
+    name: str, options: Options, seed: int, left: list[Episode], jobs: int
+) -> Iterator[list[tuple[Episode, Row]]]:
+    """Yield rows in the order of the episodes, whoever was first."""
+    chunks = [left[i : i + _CHUNK] for i in range(0, len(left), _CHUNK)]
+    if jobs == 1 or len(chunks) < 2:
+        yield from (_rows(name, options, seed, chunk) for chunk in chunks)
+        return
+    from joblib import Parallel, delayed
+
+    workers = Parallel(n_jobs=jobs, return_as="generator", batch_size=1)
+    yield from workers(delayed(_work)(os.getpid(), name, options, seed, chunk) for chunk in chunks)
+
+
+def _work(
+    parent: int, name: str, options: Options, seed: int, chunk: list[Episode]
+) -> list[tuple[Episode, Row]]:
+    _end_with(parent)
+    return _rows(name, options, seed, chunk)
+
+
+@cache
+def _end_with(parent: int) -> None:
+    """End this worker soon after its parent was killed: it would wait for work for minutes."""
+
+    def watch() -> None:
+        while os.getppid() == parent:
+            time.sleep(1)
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
+
+
+def _rows(
+    name: str, options: Options, seed: int, chunk: list[Episode]
+) -> list[tuple[Episode, Row]]:
+    study = find(name)
+    return [(episode, _row(study, options, seed, episode)) for episode in chunk]
+
+
+def _row(study: Study, options: Options, seed: int, episode: Episode) -> Row:
+    table = study.table(episode.table)
+    try:
+        return table.episode(options, episode.cell, f"{seed}/{episode.run}")
+    except Exception as error:
+        error.add_note(f"in {episode.table}, cell {episode.cell}, run {episode.run}")
+        raise

@@ -1,0 +1,159 @@
+"""What a study is: tables of episodes, and a report made of their rows alone.
+
+A study names its cells and says how one episode is run; it knows nothing of files or processes.
+"""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import islice
+
+from hrcplan.errors import UsageError
+from hrcplan.pddl.source import nearest
+
+Value = int | float | str | None
+Row = dict[str, Value]
+Cell = tuple[str | int | float, ...]
+Options = Mapping[str, str]
+
+STUDIES = {"failure-anticipation": "hrcplan.studies.failure_anticipation"}
+
+
+@dataclass(frozen=True, slots=True)
+class Table:
+    """Episodes of one kind: each is a cell and the number of a run.
+
+    ``cells`` lists the cells; ``episode`` returns the row of one episode from options, cell and
+    seed, and nothing else decides about it. The seed depends on study seed and run only, so that
+    cells are paired. ``at_most`` is the largest number of runs per cell.
+    """
+
+    name: str
+    keys: tuple[str, ...]
+    columns: tuple[str, ...]
+    cells: Callable[[Options], Sequence[Cell]]
+    episode: Callable[[Options, Cell, str], Row]
+    at_most: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Claim:
+    """Something that the rows can show to hold, or not; claims of one group stand together."""
+
+    claim: str
+    holds: bool
+    evidence: str
+    group: str = "Claims"
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """A part of the page: a title, and its content as HTML."""
+
+    title: str
+    html: str
+
+
+@dataclass(frozen=True, slots=True)
+class Findings:
+    """What a study makes of its rows; ``lead`` is a sentence for the top of the page."""
+
+    lead: str
+    claims: Sequence[Claim]
+    sections: Sequence[Section]
+
+
+Rows = Mapping[str, Sequence[Row]]
+"""The rows of every table, by its name, in the order of cells and runs."""
+
+
+@dataclass(frozen=True, slots=True)
+class Study:
+    """A study; the first table holds what is reported by cell, the others what explains it.
+
+    ``inputs`` returns the text of the files that rows depend on; where it has changed, rows made
+    before are not added to.
+    """
+
+    name: str
+    title: str
+    tables: tuple[Table, ...]
+    measures: tuple[str, ...]
+    findings: Callable[[Options, Rows], Findings]
+    inputs: Callable[[Options], str]
+    details: tuple[str, ...] = ()
+    options: Options = field(default_factory=dict)
+
+    def table(self, name: str) -> Table:
+        """Return a table by its name."""
+        return next(table for table in self.tables if table.name == name)
+
+    def with_defaults(self, given: Mapping[str, str | None]) -> dict[str, str]:
+        """Return all options, the given ones over the study's own.
+
+        Raises:
+            UsageError: if the study has no such option.
+        """
+        chosen = {key: value for key, value in given.items() if value is not None}
+        for key in chosen:
+            if key not in self.options:
+                known = ", ".join(self.options) or "none"
+                raise UsageError(f"{self.name} has no option '{key}'", hint=f"options: {known}")
+        return {**self.options, **chosen}
+
+
+@dataclass(frozen=True, slots=True)
+class Episode:
+    """One row to be: a table, one of its cells, and the number of a run from 0."""
+
+    table: str
+    cell: Cell
+    run: int
+
+
+def find(name: str) -> Study:
+    """Return a study by its name, or somebody's own as ``module:NAME``.
+
+    Raises:
+        UsageError: if there is none.
+    """
+    if name.count(":") == 1:
+        return _own(*name.split(":"))
+    if name not in STUDIES:
+        hint = nearest(name, STUDIES) or f"studies: {', '.join(STUDIES)}"
+        raise UsageError(f"there is no study '{name}'", code="unknown-study", hint=hint)
+    study: Study = importlib.import_module(STUDIES[name]).STUDY
+    return study
+
+
+def _own(module: str, name: str) -> Study:
+    try:
+        found = getattr(importlib.import_module(module), name)
+    except (ImportError, AttributeError) as error:
+        raise UsageError(f"no study {module}:{name}: {error}", code="unknown-study") from None
+    if not isinstance(found, Study):
+        raise UsageError(f"{module}:{name} is no Study", code="unknown-study")
+    return found
+
+
+def episodes(
+    study: Study, options: Options, runs: int, limit: int | None = None
+) -> Iterator[Episode]:
+    """Yield the episodes of a study in their fixed order.
+
+    Those of the first table come run by run, each over all cells, and ``limit`` cuts them after
+    that many: a larger one extends a smaller one. The other tables come cell by cell; under a limit
+    they get as many runs as the first table completes, but at least one.
+    """
+    for table in study.tables:
+        cells = table.cells(options)
+        wanted = runs if table.at_most is None else min(runs, table.at_most)
+        if table is study.tables[0]:
+            found = (Episode(table.name, cell, run) for run in range(wanted) for cell in cells)
+            yield from islice(found, limit)
+            if limit is not None and cells:
+                runs = min(runs, max(1, limit // len(cells)))
+        else:
+            yield from (Episode(table.name, cell, run) for cell in cells for run in range(wanted))

@@ -1,0 +1,235 @@
+"""Studies run, stop, go on and report; on a task that no Python names, because it is quick."""
+
+import json
+import os
+import signal
+import sqlite3
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from hrcplan.errors import InputError, UsageError
+from hrcplan.studies import report_study, run_study
+from hrcplan.studies.study import episodes, find
+
+NAME = "failure-anticipation"
+FETCH = Path(__file__).parent / "fetch"
+TASK = {"domain": str(FETCH / "domain.pddl"), "problem": str(FETCH / "four-items.pddl")}
+METHODS = ["paper", "hrcplan", "memory", "interaction", "estimated", "random-time", "all-fail"]
+MEASURES = {"success_pct", "replans", "failed_pct", "assigned_human_pct", "successful_human_pct",
+            "makespan_s"}  # fmt: skip
+TABLES = ("rows", "variants", "sweeps", "allocation", "example")
+
+
+def run(folder: Path, **options: Any) -> int:
+    return run_study(NAME, folder, **{"runs": 2, "options": TASK, **options})
+
+
+def rows(folder: Path) -> dict[str, list[tuple[Any, ...]]]:
+    with sqlite3.connect(folder / "rows.sqlite") as found:
+        return {name: found.execute(f"select * from {name}").fetchall() for name in TABLES}
+
+
+def test_same_bytes_whatever_the_jobs(tmp_path: Path) -> None:
+    for jobs in (1, 2):
+        run(tmp_path / str(jobs), jobs=jobs)
+        report_study(tmp_path / str(jobs))
+    for name in ("rows.sqlite", "report.html", "report.json"):
+        assert (tmp_path / "1" / name).read_bytes() == (tmp_path / "2" / name).read_bytes(), name
+
+
+def test_another_seed_gives_other_rows(tmp_path: Path) -> None:
+    for seed in (0, 1):
+        run(tmp_path / str(seed), seed=seed)
+    assert rows(tmp_path / "0")["rows"] != rows(tmp_path / "1")["rows"]
+
+
+def test_a_limit_is_spread_evenly_and_a_larger_one_extends_it(tmp_path: Path) -> None:
+    study = find(NAME)
+    n_cells = len(study.tables[0].cells(TASK))
+    small, large = n_cells + 5, 2 * n_cells + 1
+    run(tmp_path / "grown", limit=small)
+    before = rows(tmp_path / "grown")
+    assert len(before["rows"]) == small
+    per_cell = [
+        sum(row[:2] == cell for row in before["rows"]) for cell in study.tables[0].cells(TASK)
+    ]
+    assert max(per_cell) - min(per_cell) == 1
+    run(tmp_path / "grown", limit=large)
+    run(tmp_path / "at-once", limit=large)
+    after = rows(tmp_path / "grown")
+    assert len(after["rows"]) == large
+    assert all(set(before[name]) <= set(after[name]) for name in TABLES)
+    assert after == rows(tmp_path / "at-once")
+
+
+def test_more_runs_extend_fewer(tmp_path: Path) -> None:
+    run(tmp_path / "grown", runs=2)
+    n_new = run(tmp_path / "grown", runs=3)
+    run(tmp_path / "at-once", runs=3)
+    assert n_new > 0
+    assert run(tmp_path / "grown", runs=3) == 0
+    grown, at_once = tmp_path / "grown" / "rows.sqlite", tmp_path / "at-once" / "rows.sqlite"
+    assert grown.read_bytes() == at_once.read_bytes()
+
+
+def test_cells_are_paired() -> None:
+    """Every cell gets the same runs, so the same human."""
+    found: dict[Any, list[int]] = {}
+    for episode in episodes(find(NAME), TASK, runs=3):
+        if episode.table == "rows":
+            found.setdefault(episode.cell, []).append(episode.run)
+    assert set(map(tuple, found.values())) == {(0, 1, 2)}
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_killed_in_the_middle_it_goes_on_to_the_same_rows(tmp_path: Path, jobs: int) -> None:
+    command = [sys.executable, "-m", "hrcplan", "study", "run", NAME, "--runs", "20",
+               "--domain", TASK["domain"], "--problem", TASK["problem"], "--jobs", str(jobs),
+               "-o", str(tmp_path / "killed")]  # fmt: skip
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, start_new_session=True)
+    try:
+        n_before = _wait_for_rows(tmp_path / "killed", 33)
+    finally:
+        process.kill()
+        process.wait()
+    _wait_for_end_of_group(process.pid)
+    wanted = len(list(episodes(find(NAME), TASK, 20)))
+    assert 0 < n_before < wanted
+    assert run(tmp_path / "killed", runs=20, jobs=jobs) < wanted
+    run(tmp_path / "whole", runs=20)
+    killed, whole = tmp_path / "killed" / "rows.sqlite", tmp_path / "whole" / "rows.sqlite"
+    assert killed.read_bytes() == whole.read_bytes()
+
+
+def _wait_for_end_of_group(group: int) -> None:
+    """The workers end too, though nobody told them."""
+    deadline = time.monotonic() + 30
+    while time.monotonic() < deadline:
+        try:
+            os.killpg(group, 0)
+        except ProcessLookupError:
+            return
+        time.sleep(0.1)
+    os.killpg(group, signal.SIGKILL)
+    raise AssertionError("workers outlived the study")
+
+
+def _wait_for_rows(folder: Path, n: int) -> int:
+    deadline = time.monotonic() + 60
+    while time.monotonic() < deadline:
+        try:
+            with sqlite3.connect(f"file:{folder}/rows.sqlite?mode=ro", uri=True) as found:
+                count = int(found.execute("select count(*) from rows").fetchone()[0])
+        except sqlite3.Error:
+            count = 0
+        if count >= n:
+            return count
+        time.sleep(0.01)
+    raise AssertionError("no rows came")
+
+
+def test_the_keys_of_the_report(tmp_path: Path) -> None:
+    run(tmp_path, runs=2)
+    returned = report_study(tmp_path)
+    document = json.loads((tmp_path / "report.json").read_text())
+    assert document == returned
+    assert document["study"] == NAME
+    assert (
+        document["n_rows"] == len(rows(tmp_path)["rows"]) == sum(r["n"] for r in document["rows"])
+    )
+    for row in document["rows"]:
+        assert set(row["cell"]) == {"case", "method"}
+        assert row["cell"]["method"] in METHODS
+        assert set(row["measures"]) == MEASURES
+        assert all(set(figure) == {"mean", "se"} for figure in row["measures"].values())
+    cases = [row["cell"]["case"] for row in document["rows"]]
+    assert sorted(set(cases)) == ["1a", "1b", "2a", "2b"]
+    first = {case: document["rows"][cases.index(case)]["cell"]["method"] for case in cases}
+    assert set(first.values()) == {"paper"}
+    for claim in document["claims"]:
+        assert set(claim) == {"claim", "holds", "evidence"}
+        assert isinstance(claim["holds"], bool)
+        assert claim["evidence"]
+
+
+def test_the_page_needs_nothing_but_itself(tmp_path: Path) -> None:
+    run(tmp_path, runs=2)
+    report_study(tmp_path)
+    page = (tmp_path / "report.html").read_text()
+    assert page.count("<svg ") >= 5
+    for outside in ("<script", "src=", "@import", "<link", 'href="http'):
+        assert outside not in page, outside
+
+
+def test_names_in_the_page_are_unique(tmp_path: Path) -> None:
+    run(tmp_path, runs=2)
+    report_study(tmp_path)
+    words = (tmp_path / "report.html").read_text().split(' id="')[1:]
+    names = [word.split('"')[0] for word in words]
+    assert len(names) == len(set(names))
+
+
+def test_rows_of_something_else_are_not_added_to(tmp_path: Path) -> None:
+    run(tmp_path, runs=1)
+    with pytest.raises(UsageError, match="seed 0, not 3"):
+        run(tmp_path, runs=1, seed=3)
+
+
+def test_rows_of_a_file_that_has_changed_are_not_added_to(tmp_path: Path) -> None:
+    problem = tmp_path / "mine.pddl"
+    text = (FETCH / "four-items.pddl").read_text()
+    problem.write_text(text)
+    task = {**TASK, "problem": str(problem)}
+    run(tmp_path / "out", runs=1, options=task)
+    problem.write_text(text.replace("(tiredness worker) 1", "(tiredness worker) 2"))
+    with pytest.raises(UsageError, match="inputs_sha256"):
+        run(tmp_path / "out", runs=1, options=task)
+
+
+def test_two_processes_do_not_write_to_one_folder(tmp_path: Path) -> None:
+    from hrcplan.studies.store import Store
+
+    about = {"study": NAME}
+    with Store.to_write(tmp_path, about, ()), pytest.raises(UsageError, match="another process"):
+        Store.to_write(tmp_path, about, ())
+    Store.to_write(tmp_path, about, ()).close()
+
+
+def test_an_unknown_study_and_an_empty_folder_are_named(tmp_path: Path) -> None:
+    with pytest.raises(UsageError, match="no study 'failure-anticpation'"):
+        run_study("failure-anticpation", tmp_path)
+    with pytest.raises(UsageError, match="no study nowhere:STUDY"):
+        run_study("nowhere:STUDY", tmp_path)
+    with pytest.raises(InputError, match=r"no rows\.sqlite"):
+        report_study(tmp_path / "empty")
+    (tmp_path / "rows.sqlite").write_text("these are no rows")
+    with pytest.raises(InputError, match="not a file of rows"):
+        report_study(tmp_path)
+
+
+def test_a_failing_episode_is_named_and_the_rows_before_it_stay(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Somebody's own study joins by ``module:NAME``; this one breaks in its 40th run."""
+    (tmp_path / "breaking.py").write_text(
+        "from hrcplan.studies.study import Findings, Study, Table\n"
+        "def episode(options, cell, seed):\n"
+        "    if seed == '0/40':\n"
+        "        raise ZeroDivisionError('broken')\n"
+        "    return {'x': 1}\n"
+        "TABLE = Table('rows', ('cell',), ('x',), lambda options: [('only',)], episode)\n"
+        "STUDY = Study('breaking', 'Breaking', (TABLE,), ('x',),\n"
+        "              lambda options, rows: Findings('', (), ()), lambda options: '')\n"
+    )
+    monkeypatch.syspath_prepend(str(tmp_path))
+    with pytest.raises(ZeroDivisionError) as error:
+        run_study("breaking:STUDY", tmp_path / "out", runs=30)
+    assert "run 40" in "".join(error.value.__notes__)
+    document = report_study(tmp_path / "out")
+    assert document["n_rows"] == 32
+    assert document["rows"][0]["measures"]["x"] == {"mean": 1.0, "se": 0.0}
