@@ -115,9 +115,7 @@ class Acting:
             tuple(e for e in effects if not schema.durative or e.when == "end"),
         )
 
-    def obstacle(
-        self, state: State, step: Step, agent_state: Values | None = None
-    ) -> str | None:
+    def obstacle(self, state: State, step: Step, agent_state: Values | None = None) -> str | None:
         """Return the first condition that keeps a step from beginning, as ground PDDL, or None.
 
         ``agent_state``: what conditions on agent state are held against; else the problem's values.
