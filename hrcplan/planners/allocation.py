@@ -20,11 +20,11 @@ from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, FluentKey, Number, Proble
 from hrcplan.pddl.semantics import evaluate
 from hrcplan.planners import registry
 from hrcplan.planners.answer import Planner, Status
-from hrcplan.planners.solve import AUTO, DEFAULT_TIMEOUT_S, objective, solve
+from hrcplan.planners.solve import AUTO, DEFAULT_TIMEOUT_S, solve
 from hrcplan.plans import EPSILON_S, Plan, lane
 from hrcplan.task.numbers import exact
 from hrcplan.task.regrounding import Groundings
-from hrcplan.validation import validate
+from hrcplan.validation import objective, validate
 
 LEAST, MOST = 0, 10
 MAX_PIECES = 200

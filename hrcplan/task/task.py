@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence, Set
 from dataclasses import replace
 from functools import cached_property
+from math import inf
 
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.model import (
@@ -38,7 +39,8 @@ class Task:
     Raises:
         UnsupportedError: if an action changes a number that is neither total-cost nor agent state,
             or an agent-state function has more than 16 reachable values.
-        LimitError: if there are too many ground actions.
+        LimitError: if there are too many ground actions, or at the deadline (a time of
+            ``time.monotonic()``).
 
     >>> from hrcplan import load
     >>> task = load("transport", "two-boxes")
@@ -46,10 +48,10 @@ class Task:
     ['(move robot wp0 wp1)', '(move robot wp0 wp2)']
     """
 
-    def __init__(self, problem: Problem) -> None:
+    def __init__(self, problem: Problem, deadline: float = inf) -> None:
         check_supported(problem.domain)
         self.problem = problem
-        found, facts = reachable(problem)
+        found, facts = reachable(problem, deadline)
         fluents = _fluents(problem, found, facts)
         fixed = problem.facts.difference(fluents)
         bits = {fact: i for i, fact in enumerate(fluents)}
