@@ -10,7 +10,6 @@ from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
-from math import prod
 
 from hrcplan.errors import LimitError
 from hrcplan.pddl.model import (
@@ -178,17 +177,17 @@ def instances(params: Sequence[Param], binding: Binding, problem: Problem) -> It
     """Yield ``binding`` extended by every choice of objects for ``params``.
 
     Raises:
-        LimitError: if there are more than ``MAX_INSTANCES`` choices.
+        LimitError: after ``MAX_INSTANCES`` of them.
     """
     if not params:
         yield binding
         return
     names = [param.name for param in params]
-    choices = [problem.objects_of(param.types) for param in params]
-    if prod(map(len, choices)) > MAX_INSTANCES:
-        message = f"a quantifier over {' '.join(names)} has more than {MAX_INSTANCES:,} instances"
-        raise LimitError(message, hint="fewer variables in one forall or exists")
-    for chosen in product(*choices):
+    choices = (problem.objects_of(param.types) for param in params)
+    for count, chosen in enumerate(product(*choices)):
+        if count >= MAX_INSTANCES:
+            message = f"a quantifier over {' '.join(names)} has over {MAX_INSTANCES:,} instances"
+            raise LimitError(message, hint="fewer variables in one forall or exists")
         yield {**binding, **dict(zip(names, chosen, strict=True))}
 
 
