@@ -106,13 +106,15 @@
       (at end (idle ?from))
       (at start (increase (total-cost) (+ (+ (knowledge ?a) (motivation ?a)) (capacity ?a ?w))))))
 
-  ;; Interactions, planned where they pay: afterwards the other agent's state is what they leave. One
-  ;; that fails leaves everything as it was. Help with a place (capacity) is given at the place.
+  ;; Interactions, offered where they help and planned where they pay: afterwards the other agent's
+  ;; state is what they leave. One that fails leaves everything as it was. Help with a place (capacity)
+  ;; is given at the place.
 
   (:durative-action remind
     :parameters (?a ?other - agent)
     :duration (= ?duration 50)
     :condition (and
+      (at start (> (motivation ?other) (residual)))
       (at start (coach ?a ?other))
       (at start (idle ?a))
       (at start (idle ?other)))
@@ -128,6 +130,7 @@
     :parameters (?a ?other - agent)
     :duration (= ?duration 50)
     :condition (and
+      (at start (> (knowledge ?other) (residual)))
       (at start (coach ?a ?other))
       (at start (idle ?a))
       (at start (idle ?other)))
@@ -143,6 +146,7 @@
     :parameters (?a ?other - agent ?w - wp)
     :duration (= ?duration 50)
     :condition (and
+      (at start (> (capacity ?other ?w) (residual)))
       (at start (coach ?a ?other))
       (at start (idle ?a))
       (at start (idle ?other))
