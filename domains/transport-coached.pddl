@@ -106,16 +106,15 @@
       (at end (idle ?from))
       (at start (increase (total-cost) (+ (+ (knowledge ?a) (motivation ?a)) (capacity ?a ?w))))))
 
-  ;; Interactions, offered where they help and planned where they pay: afterwards the other agent's
-  ;; state is what they leave. One that fails leaves everything as it was. Help with a place (capacity)
-  ;; is given at the place.
+  ;; Interactions, planned where they pay: they better a state down to what they leave (residual). One
+  ;; that fails leaves everything as it was. Help with a place (capacity) is given at the place.
 
   (:durative-action remind
     :parameters (?a ?other - agent)
     :duration (= ?duration 50)
     :condition (and
-      (at start (> (motivation ?other) (residual)))
       (at start (coach ?a ?other))
+      (at start (> (motivation ?other) (residual)))
       (at start (idle ?a))
       (at start (idle ?other)))
     :effect (and
@@ -130,8 +129,8 @@
     :parameters (?a ?other - agent)
     :duration (= ?duration 50)
     :condition (and
-      (at start (> (knowledge ?other) (residual)))
       (at start (coach ?a ?other))
+      (at start (> (knowledge ?other) (residual)))
       (at start (idle ?a))
       (at start (idle ?other)))
     :effect (and
@@ -146,8 +145,8 @@
     :parameters (?a ?other - agent ?w - wp)
     :duration (= ?duration 50)
     :condition (and
-      (at start (> (capacity ?other ?w) (residual)))
       (at start (coach ?a ?other))
+      (at start (> (capacity ?other ?w) (residual)))
       (at start (idle ?a))
       (at start (idle ?other))
       (at start (at ?a ?w))

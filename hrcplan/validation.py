@@ -209,6 +209,13 @@ class _Replay:
         return replace(change, values=moved).apply(after)
 
 
+def objective(problem: Problem, report: Report) -> Number | None:
+    """Return what planners minimize: the metric, else the makespan if temporal, else the cost."""
+    if problem.metric is not None:
+        return report.metric
+    return report.makespan_s if problem.domain.is_temporal else report.cost
+
+
 def _metric(problem: Problem, end: State, makespan: Number | None) -> Number | None:
     """Return the metric; None if there is none, or one of a number that has no value."""
     if problem.metric is None:

@@ -16,7 +16,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hrcplan.facade import load_problem
-from hrcplan.pddl.check import load_domain, load_problem as read_problem
+from hrcplan.pddl.check import load_domain
+from hrcplan.pddl.check import load_problem as read_problem
 from hrcplan.pddl.library import root
 from hrcplan.pddl.model import Problem
 from hrcplan.plans import Plan, PlannedAction, format_plan, parse_plan

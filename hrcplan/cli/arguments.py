@@ -25,8 +25,9 @@ def split_names(words: Sequence[str], n_more: int) -> tuple[str, str, list[str]]
     if len(words) == n_more + 1 and words[0].count("/") == 1 and not words[0].endswith(".pddl"):
         domain, problem = words[0].split("/")
         return domain, problem, list(words[1:])
-    message = "a domain and a problem are needed, as in 'transport two-boxes'"
-    raise UsageError(message, hint="in one word: transport/two-boxes; or two paths")
+    needed = "a domain, a problem and a plan file" if n_more else "a domain and a problem"
+    message = f"{needed} are needed, as in 'transport two-boxes{' my.plan' if n_more else ''}'"
+    raise UsageError(message, hint="in one word: transport/two-boxes; or paths")
 
 
 def problem_of(domain: str, problem: str, settings: Sequence[str]) -> Problem:

@@ -82,7 +82,7 @@ def _figures(problem: Problem, found: Result) -> str:
         lines.append(f"cost      {_short(report.cost)}")
     if report.makespan_s is not None:
         unit = " s" if problem.domain.is_temporal else " steps"
-        proof = {None: "", True: "   (shortest for these steps)", False: ""}[found.shortest]
+        proof = {None: "", True: "   (shortest for this partial order)", False: ""}[found.shortest]
         lines.append(f"makespan  {_short(report.makespan_s)}{unit}{proof}")
     lines.append(f"valid     yes, replayed: {len(found.plan.actions)} actions, goal reached")
     return "\n".join(lines)

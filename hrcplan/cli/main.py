@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import importlib
+import signal
 import sys
+import threading
 import traceback
 from collections.abc import Callable
 from typing import Any, NoReturn
@@ -13,7 +15,7 @@ from click.exceptions import Abort, ClickException, Exit
 
 from hrcplan import __version__
 from hrcplan.cli import output
-from hrcplan.errors import HrcplanError, LimitError, PddlError
+from hrcplan.errors import HrcplanError, LimitError, PddlError, UsageError
 
 COMMANDS = {
     "plan": "hrcplan.cli.plan",
@@ -29,6 +31,7 @@ COMMANDS = {
 }
 INTERNAL_ERROR = 5
 INTERRUPTED = 130
+TERMINATED = 143
 
 
 class _Commands(click.RichGroup):
@@ -49,6 +52,8 @@ class _Commands(click.RichGroup):
     def main(self, *args: Any, **kwargs: Any) -> NoReturn:
         """Run a command and exit; errors become messages and exit codes."""
         run = super().main
+        if threading.current_thread() is threading.main_thread():
+            signal.signal(signal.SIGTERM, lambda *_: sys.exit(TERMINATED))
         kwargs["standalone_mode"] = False
         sys.exit(_guarded(lambda: run(*args, **kwargs)))
 
@@ -71,11 +76,14 @@ def _guarded(run: Callable[[], Any]) -> int:
         output.fail(error.code, error.message, error.path, error.line, error.hint)
         return error.exit_code
     except MemoryError:
-        output.fail("memory", "out of memory", hint="a smaller problem, or --planner kairos")
+        output.fail("memory", "out of memory", hint="try a smaller problem")
         return LimitError.exit_code
     except BrokenPipeError:
         sys.stderr.close()
         return 1
+    except OSError as error:  # files are read and written elsewhere: this is stdout
+        click.echo(f"error: cannot print the result: {error.strerror}", err=True)
+        return UsageError.exit_code
     except Exception as error:  # noqa: BLE001  a bug of ours: no traceback unless asked for
         if output.DEBUG:
             traceback.print_exc()

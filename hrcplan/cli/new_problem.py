@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import rich_click as click
@@ -40,7 +41,7 @@ def command(
     from hrcplan.pddl.generate import with_goal
     from hrcplan.pddl.write import problem_text
 
-    if not name or any(c.isspace() or c in "();" for c in name):
+    if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_-]*", name):
         raise UsageError(f"'{name}' cannot be a problem's name", hint="letters, digits, - and _")
     base = load_problem(domain, origin)
     changed = base.with_values(dict(setting(text, base) for text in settings))

@@ -115,8 +115,14 @@ class Acting:
             tuple(e for e in effects if not schema.durative or e.when == "end"),
         )
 
-    def obstacle(self, state: State, step: Step) -> str | None:
-        """Return the first condition that keeps a step from beginning, as ground PDDL, or None."""
+    def obstacle(
+        self, state: State, step: Step, agent_state: Values | None = None
+    ) -> str | None:
+        """Return the first condition that keeps a step from beginning, as ground PDDL, or None.
+
+        ``agent_state``: what conditions on agent state are held against; else the problem's values.
+        """
+        state = State(state.facts, {**state.values, **(agent_state or {})})
         full = self._full(state)
         for condition in step.schema.conditions:
             if condition.when == "start" or not step.schema.durative:

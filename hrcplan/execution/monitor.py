@@ -21,9 +21,8 @@ from hrcplan.execution.observer import Observer, Stepped
 from hrcplan.execution.order import Waits, rest_of, waits
 from hrcplan.execution.run import Phase, Pursuit, Run, Running, plus
 from hrcplan.pddl.model import Number
-from hrcplan.planners.solve import objective
 from hrcplan.plans import Plan, PlannedAction
-from hrcplan.validation import validate
+from hrcplan.validation import objective, validate
 
 MAX_ASKED_AGAIN = 3  # times that one replan may ask anew because something changed meanwhile
 _TIE = 1e-3  # relative; the gaps between printed actions differ by less between plans
@@ -191,7 +190,7 @@ class Monitor(Observer):
         step = self.acting.step(planned)
         assert step is not None
         assert run.pursuit is not None
-        obstacle = self.acting.obstacle(run.state, step)
+        obstacle = self.acting.obstacle(run.state, step, self.told(run))
         if obstacle is not None:
             return run.because(ev.DEVIATION, f"{planned} needs {obstacle}"), None
         duration = planned.duration_s if step.schema.durative else None

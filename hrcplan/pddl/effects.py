@@ -81,12 +81,17 @@ def _conditional(node: Group, scope: Scope, when: str | None) -> Iterator[Effect
     if not has_parts(node, 2, scope):
         return
     scope.source.use(":conditional-effects", node.at)
+    condition, body = node[1], node[2]
     if when is None:
-        message = "a condition of a durative effect stands inside (at start …) or (at end …)"
-        scope.source.error(node.at, "unsupported", message)
-        return
-    given = read_formula(node[1], scope)
-    for effect in read_effects(node[2], scope, when):
+        # (when (at end c) (at end e)): condition and effect say when by themselves.
+        first, second = time_of(condition), time_of(body)
+        if first is None or second is None or first[0] != second[0] or first[0] == "all":
+            message = "condition and effect need the same (at start …) or (at end …)"
+            scope.source.error(node.at, "unsupported", message)
+            return
+        when, condition, body = first[0], first[1], second[1]
+    given = read_formula(condition, scope)
+    for effect in read_effects(body, scope, when):
         both = given if effect.given == TRUE else And((given, effect.given))
         yield replace(effect, given=both)
 

@@ -77,7 +77,7 @@ def domain_file_for(name: str, problem: Path) -> Path | None:
 
 
 def _is_path(name: str) -> bool:
-    return "/" in name or name.endswith(".pddl") or Path(name).is_dir()
+    return "/" in name or name.endswith(".pddl")
 
 
 def _defines(path: Path, name: str) -> bool:

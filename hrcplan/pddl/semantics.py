@@ -10,7 +10,9 @@ from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
+from math import prod
 
+from hrcplan.errors import LimitError
 from hrcplan.pddl.model import (
     Action,
     And,
@@ -33,6 +35,8 @@ from hrcplan.pddl.model import (
     Quantified,
     functions_in,
 )
+
+MAX_INSTANCES = 1_000_000
 
 Values = Mapping[FluentKey, Number]
 Binding = Mapping[str, str]
@@ -171,12 +175,20 @@ def mentions(
 
 
 def instances(params: Sequence[Param], binding: Binding, problem: Problem) -> Iterator[Binding]:
-    """Yield ``binding`` extended by every choice of objects for ``params``."""
+    """Yield ``binding`` extended by every choice of objects for ``params``.
+
+    Raises:
+        LimitError: if there are more than ``MAX_INSTANCES`` choices.
+    """
     if not params:
         yield binding
         return
     names = [param.name for param in params]
-    for chosen in product(*(problem.objects_of(param.types) for param in params)):
+    choices = [problem.objects_of(param.types) for param in params]
+    if prod(map(len, choices)) > MAX_INSTANCES:
+        message = f"a quantifier over {' '.join(names)} has more than {MAX_INSTANCES:,} instances"
+        raise LimitError(message, hint="fewer variables in one forall or exists")
+    for chosen in product(*choices):
         yield {**binding, **dict(zip(names, chosen, strict=True))}
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from hrcplan.errors import Diagnostic, InputError
 
+MAX_BYTES = 64 << 20  # also ends the reading of what never ends
 MAX_QUOTE = 60  # characters of a file that a message repeats at a time
 MAX_MESSAGE = 160  # a message and its hint are each cut here, whatever they repeat
 MAX_FAULTS = 1000  # errors, and as many warnings: beyond that the file is something else
@@ -139,7 +140,8 @@ def read_source(path: str | Path) -> Source:
     """
     shown = str(path)
     try:
-        return decode(shown, Path(path).read_bytes())
+        with Path(path).open("rb") as file:
+            data = file.read(MAX_BYTES + 1)
     except IsADirectoryError:
         hint = "name one file inside it"
         message = f"{shown} is a folder, not a file"
@@ -148,6 +150,10 @@ def read_source(path: str | Path) -> Source:
         raise InputError(f"there is no file {shown}", code="no-file", path=shown) from None
     except (OSError, ValueError) as error:
         raise InputError(f"cannot read {shown}: {error}", path=shown) from None
+    if len(data) > MAX_BYTES:
+        message = f"{shown} holds more than {MAX_BYTES >> 20} MiB"
+        raise InputError(message, code="too-large", path=shown)
+    return decode(shown, data)
 
 
 def read_text(path: str | Path) -> str:

@@ -20,11 +20,11 @@ from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, FluentKey, Number, Proble
 from hrcplan.pddl.semantics import evaluate
 from hrcplan.planners import registry
 from hrcplan.planners.answer import Planner, Status
-from hrcplan.planners.solve import AUTO, DEFAULT_TIMEOUT_S, objective, solve
+from hrcplan.planners.solve import AUTO, DEFAULT_TIMEOUT_S, solve
 from hrcplan.plans import EPSILON_S, Plan, lane
 from hrcplan.task.numbers import exact
 from hrcplan.task.regrounding import Groundings
-from hrcplan.validation import validate
+from hrcplan.validation import objective, validate
 
 LEAST, MOST = 0, 10
 MAX_PIECES = 200
@@ -126,15 +126,19 @@ def diagram(
 
 
 def line_of(problem: Problem, plan: Plan, key: FluentKey) -> Line:
-    """Return what a plan costs by the value of a function.
+    """Return what a plan costs by the value of a function, from that of the problem on.
 
     Raises:
         UsageError: if the plan is not valid, or its cost is no line over this function.
     """
-    at_0, at_1, at_2 = (_metric(problem.with_values({key: v}), plan) for v in (0, 1, 2))
-    if at_2 - at_1 != at_1 - at_0:
+    now = problem.values[key]
+    first, second, third = (
+        _metric(problem.with_values({key: now + more}), plan) for more in (0, 1, 2)
+    )
+    slope = second - first
+    if third - second != slope:
         raise UsageError(f"the cost is no multiple of {fact_text(key)}", code="bad-setting")
-    return Line(plan, at_0, at_1 - at_0)
+    return Line(plan, exact(Fraction(first - slope * now)), slope)
 
 
 def _metric(problem: Problem, plan: Plan) -> Number:
@@ -185,7 +189,7 @@ class _Best:
             raise PlannerError(f"no proven plan at {at}: {found.status.value}", code="not-proven")
         if isinstance(self._planner, str):
             self._planner = registry.make(found.planner)  # it keeps what it found out
-        return line_of(self.problem, found.plan, self.key)
+        return line_of(problem, found.plan, self.key)
 
 
 def _pieces(best: _Best, first: tuple[Number, Line], last: tuple[Number, Line]) -> Sequence[Piece]:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import enum
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Protocol
 
+from hrcplan.errors import HrcplanError, LimitError, UnsupportedError
 from hrcplan.pddl.model import TOTAL_TIME, Number, Problem, functions_in
 from hrcplan.plans import Plan
 from hrcplan.task import Task
@@ -40,7 +41,6 @@ class Card:
     metric: str = "cost"
     proves: bool = False
     limits: bool = False
-    adl: bool = True
     needs: str = "nothing"
     licence: str = "Apache-2.0"
 
@@ -61,12 +61,29 @@ class Request:
 
     @cached_property
     def task(self) -> Task:
-        """The grounded task, made when it is first needed.
+        """The grounded task, made when it is first needed, in at most half of the time left.
 
         Raises:
             UnsupportedError: if bits cannot hold it.
+            LimitError: if there are too many ground actions, or too little time.
         """
-        return Task(self.problem)
+        failure = self.__dict__.get("failure")
+        if isinstance(failure, HrcplanError):
+            raise failure  # what failed once is not tried again for the next planner
+        try:
+            return Task(self.problem, time.monotonic() + self.time_left_s / 2)
+        except (UnsupportedError, LimitError) as error:
+            self.__dict__["failure"] = error
+            raise
+
+    def until(self, deadline: float) -> Request:
+        """Return the same request until another time; what was grounded already is kept."""
+        other = replace(self, deadline=deadline)
+        kept: dict[str, object] = {
+            key: value for key, value in self.__dict__.items() if key in ("task", "failure")
+        }
+        other.__dict__.update(kept)
+        return other
 
     @cached_property
     def weighs_time(self) -> bool:

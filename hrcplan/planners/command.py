@@ -19,7 +19,7 @@ from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.planners.answer import Answer, Card, Request, Status
 from hrcplan.planners.process import Ended, Finished, Limits, run
 from hrcplan.plans import Plan, PlannedAction, parse_plan
-from hrcplan.validation import validate
+from hrcplan.validation import objective, validate
 
 # Also as LPG prints it: "0.0003: (MOVE …) [D:50.00; C:0.10]", "0.0003: (MOVE …) [50.0000])".
 _LINE = re.compile(
@@ -114,8 +114,7 @@ def best_of(problem: Problem, plans: Iterable[Plan]) -> Plan:
         report = validate(problem, last)
         if not report.valid:
             continue
-        values = (report.metric, report.cost, report.makespan_s)
-        value = next((v for v in values if v is not None), 0)
+        value = objective(problem, report) or 0
         value = -value if problem.maximize else value
         # Of equally good plans the last: anytime planners improve something they know.
         if best is None or value <= best[0]:

@@ -19,7 +19,7 @@ from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.planners.answer import Answer, Card, Request, Status
 from hrcplan.planners.lowering import Lowered, lower
 from hrcplan.plans import Plan, parse_plan
-from hrcplan.validation import Report, validate
+from hrcplan.validation import Report, objective, validate
 
 if TYPE_CHECKING:
     import kairos
@@ -138,8 +138,7 @@ class _Portfolio:
         if not report.valid:
             self.invalid = report
             return
-        values = (report.metric, report.cost, report.makespan_s)
-        ours = next((value for value in values if value is not None), 0)
+        ours = objective(self.request.problem, report) or 0
         if self.request.problem.maximize:
             ours = -ours
         if self.best is None or ours < self.best[0]:

@@ -31,7 +31,7 @@ class _Job:
 
 
 def schedule(problem: Problem, plan: Plan) -> tuple[Plan, bool]:
-    """Return a valid plan laid out in lanes, and whether no shorter one exists for its steps.
+    """Return a valid plan laid out in lanes, and whether it is the shortest for its partial order.
 
     Steps of a classical problem last one unit and follow each other without gaps; those of a
     temporal one keep their durations, with gaps of ``EPSILON_S`` where they follow each other.

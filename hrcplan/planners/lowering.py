@@ -219,7 +219,7 @@ class _Text:
         yield f"  (:requirements {' '.join(dict.fromkeys(flags))})"
         yield "  (:predicates"
         yield from (f"    ({name})" for name in self.facts)
-        if not task.goal:
+        if not task.goal or not self.facts:
             yield "    (never)"
         yield "  )"
         yield _FUNCTIONS.rstrip()

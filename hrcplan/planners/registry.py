@@ -59,8 +59,12 @@ def _installed() -> Iterator[EntryPoint]:
 def _load(name: str, place: str, *args: str) -> Planner:
     module, _, attribute = place.partition(":")
     try:
-        planner: Planner = getattr(import_module(module), attribute)(*args)
+        kind = getattr(import_module(module), attribute)
     except (ImportError, AttributeError) as error:
         message = f"planner '{name}' cannot be loaded from {place}: {error}"
         raise MissingPlannerError(message, hint="is its package installed?") from error
+    if not all(hasattr(kind, part) for part in ("missing", "solve")):
+        hint = "it needs card, missing() and solve(request): see hrcplan/planners/answer.py"
+        raise UsageError(f"{place} is no planner", code="not-a-planner", hint=hint)
+    planner: Planner = kind(*args)
     return planner

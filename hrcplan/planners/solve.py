@@ -12,6 +12,7 @@ from hrcplan.errors import (
     MissingPlannerError,
     PlannerError,
     UnsupportedError,
+    UsageError,
 )
 from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, Number, Problem, number_text
 from hrcplan.pddl.semantics import evaluate
@@ -20,7 +21,7 @@ from hrcplan.planners.answer import Answer, Card, Planner, Request, Status
 from hrcplan.planners.lanes import schedule
 from hrcplan.plans import EPSILON_S, Plan
 from hrcplan.task import Task
-from hrcplan.validation import Report, validate
+from hrcplan.validation import Report, objective, validate
 
 AUTO = "auto"
 DEFAULT_TIMEOUT_S = 60.0
@@ -43,7 +44,8 @@ class Result:
 
     ``status`` and ``planner`` are those of the answer that was kept; ``why`` says why that planner
     was asked; ``attempts`` tells of every planner that was, in order. ``shortest`` says of a
-    sequential plan laid into lanes whether its makespan is proven minimal for its steps.
+    sequential plan laid into lanes whether its makespan is proven minimal for its partial order
+    (steps that interfere stay in the plan's order).
     ``objective`` is what planners minimize here (metric, else makespan or cost), ``gaps`` how much
     of it may be due to the gaps between actions.
     """
@@ -58,13 +60,6 @@ class Result:
     shortest: bool | None = None
     objective: Number | None = None
     gaps: Number = 0
-
-
-def objective(problem: Problem, report: Report) -> Number | None:
-    """Return what planners minimize: the metric, else the makespan if temporal, else the cost."""
-    if problem.metric is not None:
-        return report.metric
-    return report.makespan_s if problem.domain.is_temporal else report.cost
 
 
 def _gaps(problem: Problem, plan: Plan) -> Number:
@@ -127,7 +122,7 @@ def _portfolio(request: Request, lanes: bool) -> Result:
         share = request.time_left_s if last else request.time_left_s / 2
         begun = time.monotonic()
         try:
-            result = _attempt(planner, replace_deadline(request, begun + share), lanes, why)
+            result = _attempt(planner, request.until(begun + share), lanes, why)
         except (PlannerError, UnsupportedError, LimitError) as error:
             failure = error
             attempts.append(_turn(planner, error.message, begun))
@@ -141,14 +136,6 @@ def _portfolio(request: Request, lanes: bool) -> Result:
                   tuple(attempts))  # fmt: skip
 
 
-def replace_deadline(request: Request, deadline: float) -> Request:
-    """Return the same request until another time; what was grounded already is kept."""
-    other = replace(request, deadline=deadline)
-    if "task" in request.__dict__:
-        other.__dict__["task"] = request.__dict__["task"]
-    return other
-
-
 def _turn(planner: Planner, outcome: str, begun: float, inner: Sequence[Attempt] = ()) -> Attempt:
     note = "".join(f": {a.outcome}" for a in inner if a.outcome != outcome)
     return Attempt(planner.card.name, outcome + note, time.monotonic() - begun)
@@ -156,7 +143,7 @@ def _turn(planner: Planner, outcome: str, begun: float, inner: Sequence[Attempt]
 
 def _candidates(request: Request) -> Iterator[tuple[Planner, str]]:
     """Yield the installed planners that can hold the request, those that prove it first."""
-    planners = [registry.make(name) for name in registry.BUILT_IN]
+    planners = [planner for name in registry.names() for planner in _loaded(name)]
     able = [p for p in planners if _unable(p.card, request) is None]
     if not able:
         raise UnsupportedError("no planner here can hold this task")
@@ -164,6 +151,14 @@ def _candidates(request: Request) -> Iterator[tuple[Planner, str]]:
     for planner in able:
         reason = _merit(planner.card, request)
         yield planner, f"first choice: {reason}" if planner is able[0] else f"next: {reason}"
+
+
+def _loaded(name: str) -> Iterator[Planner]:
+    """Yield the planner of a name, unless its package is broken: ``auto`` goes on without it."""
+    try:
+        yield registry.make(name)
+    except (MissingPlannerError, UsageError):
+        return
 
 
 def _unable(card: Card, request: Request) -> str | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from itertools import product
 
 from hrcplan.errors import UnsupportedError
@@ -15,6 +16,7 @@ from hrcplan.pddl.model import (
     Formula,
     Number,
     functions_in,
+    number_text,
 )
 from hrcplan.pddl.semantics import (
     Binding,
@@ -37,7 +39,8 @@ Reached = Mapping[FluentKey, Collection[Number]]
 
 def value_fact(key: FluentKey, value: Number) -> Fact:
     """Return the fact that says that a changing function has a value."""
-    return ("=", *key, str(value))
+    short = number_text(value)
+    return ("=", *key, short if Fraction(short) == value else str(value))
 
 
 @dataclass(frozen=True, slots=True)

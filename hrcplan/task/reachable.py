@@ -6,8 +6,10 @@ hold; all others (negations, alternatives, numbers that change) are taken to be 
 
 from __future__ import annotations
 
+import time
 from collections import defaultdict, deque
 from collections.abc import Iterator
+from math import inf
 from typing import NamedTuple
 
 from hrcplan.errors import LimitError
@@ -16,6 +18,7 @@ from hrcplan.pddl.model import DURATION, Action, Atom, Domain, Fact, Formula, Pr
 from hrcplan.pddl.semantics import State, Undefined, ground_key, holds, instances
 
 MAX_GROUND_ACTIONS = 200_000
+_CHECK = 256  # ground actions between two looks at the clock
 
 
 class Instance(NamedTuple):
@@ -26,15 +29,15 @@ class Instance(NamedTuple):
     binding: Binding
 
 
-def reachable(problem: Problem) -> tuple[list[Instance], set[Fact]]:
+def reachable(problem: Problem, deadline: float = inf) -> tuple[list[Instance], set[Fact]]:
     """Return the reachable instances, by schema and then by objects, and the reachable facts.
 
     Every fact is taken in once and joined with those before it (semi-naive evaluation).
 
     Raises:
-        LimitError: if there are more than ``MAX_GROUND_ACTIONS`` instances.
+        LimitError: if there are more than ``MAX_GROUND_ACTIONS`` instances, or at the deadline.
     """
-    search = _Search(problem)
+    search = _Search(problem, deadline)
     search.run()
     order = {action.name: i for i, action in enumerate(problem.domain.actions)}
     rank = {name: i for i, name in enumerate(problem.all_objects)}
@@ -46,8 +49,9 @@ def reachable(problem: Problem) -> tuple[list[Instance], set[Fact]]:
 class _Search:
     """The facts and instances found so far, and the facts that wait to be joined."""
 
-    def __init__(self, problem: Problem) -> None:
+    def __init__(self, problem: Problem, deadline: float) -> None:
         self.problem = problem
+        self.deadline = deadline
         self.index = FactIndex()
         self.found: dict[tuple[str, tuple[str, ...]], Instance] = {}
         self._start = State(problem.facts, problem.values)
@@ -75,13 +79,18 @@ class _Search:
             if key in self.found or not self._can_hold(rule.fixed, binding):
                 continue
             self.found[key] = Instance(rule.action, args, binding)
-            if len(self.found) > MAX_GROUND_ACTIONS:
-                message = f"the task has more than {MAX_GROUND_ACTIONS} ground actions"
-                hint = "use a planner that does not need them: enhsp, kairos"
-                raise LimitError(message, hint=hint)
+            self._check()
             for params, atom in rule.adds:
                 for inner in instances(params, binding, self.problem):
                     self._waiting.append(ground_key(atom, inner))
+
+    def _check(self) -> None:
+        n_found, hint = len(self.found), "use a planner that does not need them: enhsp, kairos"
+        if n_found > MAX_GROUND_ACTIONS:
+            message = f"the task has more than {MAX_GROUND_ACTIONS} ground actions"
+            raise LimitError(message, hint=hint)
+        if n_found % _CHECK == 0 and time.monotonic() > self.deadline:
+            raise LimitError(f"no time for more than {n_found} ground actions", hint=hint)
 
     def _can_hold(self, fixed: tuple[Formula, ...], binding: Binding) -> bool:
         try:

@@ -10,25 +10,28 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from itertools import pairwise
+from itertools import pairwise, product
 
+from hrcplan.pddl.joins import conjuncts
 from hrcplan.pddl.model import (
     DURATION,
     TOTAL_COST,
     TRUE,
     Action,
+    Compare,
     Constant,
     Expr,
     FluentKey,
+    Formula,
     Function,
     Number,
     Problem,
     formula_functions,
     functions_in,
 )
-from hrcplan.pddl.semantics import Binding, evaluate, ground_key
+from hrcplan.pddl.semantics import Binding, State, Undefined, Values, evaluate, ground_key, holds
 from hrcplan.task.actions import GroundAction
-from hrcplan.task.changing import value_fact
+from hrcplan.task.changing import Reached, value_fact
 from hrcplan.task.numbers import divisors, grounded, numeric_effects
 from hrcplan.task.task import Task
 
@@ -46,6 +49,7 @@ class Grounding:
         self._left = _assignments(task)
         actions = task.problem.domain.actions
         self._shaping = frozenset(f.name for action in actions for f in _shaping(action))
+        self._truths = self._possible(task.problem.values, task.reached)
 
     def again(self, problem: Problem) -> Task | None:
         """Return the task of ``problem`` with this structure; None if that does not hold it.
@@ -92,7 +96,16 @@ class Grounding:
             if numbers is None or after.difference(numbers):
                 return None
             found[key] = numbers
-        return found
+        return found if self._possible(new, found) == self._truths else None
+
+    def _possible(self, values: Values, roles: Reached) -> list[bool]:
+        """Return what the comparisons of each interaction say, for each choice of roles."""
+        return [
+            _is_true(comparison, {**values, **chosen}, mover.binding, self.task.problem)
+            for mover in self.task.movers
+            for comparison in _comparisons(mover.action)
+            for chosen in _choices(comparison, mover.binding, roles)
+        ]
 
 
 class Groundings:
@@ -120,13 +133,47 @@ class Groundings:
 
 
 def _shaping(action: Action) -> Iterator[Function]:
-    """Yield the functions on which more than costs and values of roles depends."""
-    for formula in (*(c.formula for c in action.conditions), *(e.given for e in action.effects)):
-        yield from formula_functions(formula)
+    """Yield the functions on which more depends than costs, roles, and ``_comparisons``."""
+    simple = {id(comparison) for comparison in _comparisons(action)}
+    for formula in (*_parts(action), *(e.given for e in action.effects)):
+        if id(formula) not in simple:
+            yield from formula_functions(formula)
     for _, duration in action.durations:
         yield from functions_in(duration)
     for effect in action.effects:
         yield from divisors(effect.value)  # a cost that divides by zero is none
+
+
+def _comparisons(action: Action) -> list[Formula]:
+    """Return the plain comparisons among the conditions of an interaction at its start.
+
+    Whether they hold may depend on the role of a value but not on its number.
+    """
+    starts = (c.formula for c in action.conditions if c.when == "start")
+    parts = (part for formula in starts for part in conjuncts(formula))
+    return [part for part in parts if isinstance(part, Compare)] if any(
+        numeric_effects(action)) else []  # fmt: skip
+
+
+def _parts(action: Action) -> Iterator[Formula]:
+    for condition in action.conditions:
+        yield from conjuncts(condition.formula)
+
+
+def _is_true(comparison: Formula, values: Values, binding: Binding, problem: Problem) -> bool:
+    try:
+        return holds(comparison, State(frozenset(), values), binding, problem)
+    except Undefined:
+        return False
+
+
+def _choices(
+    comparison: Formula, binding: Binding, roles: Reached
+) -> Iterator[dict[FluentKey, Number]]:
+    """Yield every choice of the numbers, in the order of their roles, that a comparison reads."""
+    read = sorted({ground_key(f, binding) for f in formula_functions(comparison)} & roles.keys())
+    for chosen in product(*(roles[key] for key in read)):
+        yield dict(zip(read, chosen, strict=True))
 
 
 def _renumbered(

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence, Set
 from dataclasses import replace
 from functools import cached_property
+from math import inf
 
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.model import (
@@ -21,7 +22,7 @@ from hrcplan.task.actions import Change, ground_actions
 from hrcplan.task.changing import Reached, combinations, reached_values, value_fact
 from hrcplan.task.conditions import Grounder, Test, Tests, all_of, any_of, meets, positions
 from hrcplan.task.lookup import lookup
-from hrcplan.task.numbers import check_supported, divisors, exact, functions_read
+from hrcplan.task.numbers import check_supported, divisors, exact, functions_read, numeric_effects
 from hrcplan.task.reachable import Instance, reachable
 
 
@@ -31,13 +32,15 @@ class Task:
     ``facts`` are the fluents in bit order; facts that never change are compiled away. ``actions``
     stand in ground-action order: by schema as declared, then by objects as declared. An action
     that would leave the state unchanged is not offered. ``reached`` are the values, in bit order,
-    of the functions that actions change. Tasks with the same ``structure`` differ in costs and in
-    the initial state only, so what was found out about one holds for the others.
+    of the functions that actions change, and ``movers`` the instances that could change them. Tasks
+    with the same ``structure`` differ in costs and in the initial state only, so what was found out
+    about one holds for the others.
 
     Raises:
         UnsupportedError: if an action changes a number that is neither total-cost nor agent state,
             or an agent-state function has more than 16 reachable values.
-        LimitError: if there are too many ground actions.
+        LimitError: if there are too many ground actions, or at the deadline (a time of
+            ``time.monotonic()``).
 
     >>> from hrcplan import load
     >>> task = load("transport", "two-boxes")
@@ -45,10 +48,10 @@ class Task:
     ['(move robot wp0 wp1)', '(move robot wp0 wp2)']
     """
 
-    def __init__(self, problem: Problem) -> None:
+    def __init__(self, problem: Problem, deadline: float = inf) -> None:
         check_supported(problem.domain)
         self.problem = problem
-        found, facts = reachable(problem)
+        found, facts = reachable(problem, deadline)
         fluents = _fluents(problem, found, facts)
         fixed = problem.facts.difference(fluents)
         bits = {fact: i for i, fact in enumerate(fluents)}
@@ -58,6 +61,7 @@ class Task:
         self.bits: Mapping[Fact, int] = {fact: i for i, fact in enumerate(self.facts)}
         grounder = Grounder(problem, self.bits, fixed)
         self.reached: Reached = reached
+        self.movers = tuple(i for i in found if any(numeric_effects(i.action)))
         self.actions = ground_actions(grounder, found, reached)
         self.structure: object = self.actions
         given = [value_fact(k, problem.values[k]) for k in reached if k in problem.values]

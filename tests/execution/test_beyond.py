@@ -74,6 +74,16 @@ def test_an_interaction_that_leaves_more_is_worth_less() -> None:
     assert told[MOTIVATION] == 1
 
 
+def test_what_could_only_get_worse_is_no_state_of_the_task() -> None:
+    """Every element is below what is left, so no interaction is offered but for the raised one."""
+    residual = ((("residual",), 3),)
+    engine = engine_for(Spec(planner="exact", values=residual, **COACHED))
+    assert means(rows(20, values=residual, **COACHED))["success_pct"][0] == 100
+    kept = engine.planner._groundings._kept
+    assert max(len(values) for k in kept for values in k.task.reached.values()) == 2
+    assert all(sum(len(v) > 1 for v in k.task.reached.values()) <= 1 for k in kept)
+
+
 def test_a_journal_of_interactions_replays(tmp_path: Any) -> None:
     problem = load_problem("transport-coached", "two-boxes")
     path = tmp_path / "run.jsonl"

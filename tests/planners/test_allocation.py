@@ -45,7 +45,7 @@ def test_it_equals_a_fine_sweep(domain: str, key: FluentKey, most: int, uneven: 
         now = problem.with_values({key: value})
         plan = planner.replan(groundings.task(now)).plan
         assert plan is not None
-        assert line_of(problem, plan, key).at(value) == found.metric(value), value
+        assert line_of(now, plan, key).at(value) == found.metric(value), value
     assert_concave(found)
 
 

@@ -199,3 +199,32 @@ def test_it_gives_up_at_its_limits(
     answer = Exact().replan(two_boxes)
     assert answer.status is Status.UNSOLVED
     assert note in answer.note
+
+
+SLOW_AND_QUICK = """
+(define (domain dom)
+  (:requirements :strips :typing :durative-actions)
+  (:types agent)
+  (:predicates (idle ?a - agent) (p) (q) (r))
+  (:durative-action slow :parameters (?a - agent) :duration (= ?duration 100)
+    :condition (at start (idle ?a))
+    :effect (and (at start (not (idle ?a))) (at end (idle ?a)) (at end (p)) (at end (q))))
+  (:durative-action quick :parameters (?a - agent) :duration (= ?duration 1)
+    :condition (at start (idle ?a))
+    :effect (and (at start (not (idle ?a))) (at end (idle ?a)) (at end (p))))
+  (:durative-action use :parameters (?a - agent) :duration (= ?duration 90)
+    :condition (and (at start (idle ?a)) (at start (p)))
+    :effect (and (at start (not (idle ?a))) (at end (idle ?a)) (at end (r)))))
+"""
+
+
+def test_a_fact_that_comes_anyway_may_be_worth_having_earlier(tmp_path: Path) -> None:
+    """While `slow` runs, `quick` adds nothing to what will hold; it only adds it 99 s earlier."""
+    (tmp_path / "d.pddl").write_text(SLOW_AND_QUICK)
+    (tmp_path / "p.pddl").write_text(
+        "(define (problem p) (:domain dom) (:objects ann bob - agent)"
+        "(:init (idle ann) (idle bob)) (:goal (and (q) (r))) (:metric minimize (total-time)))"
+    )
+    task = Task(load_problem(str(tmp_path / "d.pddl"), str(tmp_path / "p.pddl")))
+    # Waiting is free here, so bob may be quick more than once: gaps are all that is added.
+    assert proven(task).makespan_s == pytest.approx(100, abs=0.05)

@@ -161,7 +161,7 @@ def ground(problem: Problem) -> Task | None:
         return None
 
 
-@settings(max_examples=40, suppress_health_check=list(HealthCheck))
+@settings(max_examples=30, suppress_health_check=list(HealthCheck))
 @given(problem=problems())
 def test_every_reachable_state(problem: Problem, oracle: Any) -> None:
     """No ground action is missing, none is too many, and each does and costs what it should."""
@@ -181,7 +181,7 @@ def test_every_reachable_state(problem: Problem, oracle: Any) -> None:
                 waiting.append(after.state)
 
 
-@settings(max_examples=40, suppress_health_check=list(HealthCheck))
+@settings(max_examples=25, suppress_health_check=list(HealthCheck))
 @given(problem=problems(), data=st.data())
 def test_changed_values_equal_a_fresh_task(problem: Problem, data: st.DataObject) -> None:
     """Whether the values only price actions or also shape them."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import argparse
 import importlib
+import os
 import platform
 import sys
 import warnings
@@ -56,12 +57,14 @@ def _options() -> argparse.Namespace:
 
 
 def _machine() -> str:
-    """Return what ran the benchmarks: processor, cores, Python; no names or paths."""
+    """Return what ran the benchmarks, and how busy it was; no names or paths."""
     info = Path("/proc/cpuinfo")
     lines = info.read_text().splitlines() if info.exists() else []
     models = [line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")]
     model = models[0] if models else platform.machine()
-    return f"{model}, {len(models)} cores; {platform.system()}; Python {platform.python_version()}"
+    facts = [f"{model}, {len(models)} cores", platform.system()]
+    facts.append(f"Python {platform.python_version()}")
+    return "; ".join([*facts, f"load average {os.getloadavg()[1]:.1f} while measuring"])
 
 
 main()

@@ -12,7 +12,8 @@ from collections.abc import Sequence
 from heapq import heappop, heappush
 
 from hrcplan.errors import LimitError
-from hrcplan.task import Task
+from hrcplan.task import GroundAction, Task
+from hrcplan.task.conditions import meets
 
 MAX_STATES = 1_000_000
 MAX_EDGES = 15_000_000
@@ -34,6 +35,7 @@ class Graph:
         self._edges = array("i")
         self._before: list[list[int]] = []
         self._after: dict[int, tuple[Edge, ...]] = {}
+        self._idle: list[int] | None = None
 
     def grow(self, task: Task, deadline: float) -> None:
         """Add the initial state of ``task`` and all that can follow it.
@@ -42,6 +44,8 @@ class Graph:
             LimitError: at the deadline, or if there are too many states; what is there by then
                 stays, and the next call goes on from it.
         """
+        if self._idle is None:
+            self._idle = [a.index for a in task.actions if may_change_nothing(a)]
         if task.initial not in self.index:
             self._new(task.initial)
         while len(self._first) <= len(self.states):
@@ -58,7 +62,7 @@ class Graph:
 
     def _expand(self, task: Task, source: int) -> None:
         state, index, before = self.states[source], self.index, self._before
-        for action in task.applicable(state):
+        for action in self._actions(task, state):
             after = task.successor(state, action)
             target = index.get(after)
             if target is None:
@@ -67,6 +71,18 @@ class Graph:
             self._edges.append(target)
             before[target] += (action, source)
         self._first.append(len(self._edges))
+
+    def _actions(self, task: Task, state: int) -> list[int]:
+        """Return the actions that can run, in order; also those that change nothing in sequence.
+
+        Such an action can be worth its time while another one that adds the same facts still runs.
+        """
+        found = task.applicable(state)
+        silent = [
+            i for i in self._idle or ()
+            if meets(state, task.actions[i].tests) and task.successor(state, i) == state
+        ]  # fmt: skip
+        return sorted(found + silent) if silent else found
 
     def _check(self, deadline: float) -> None:
         if len(self.states) > MAX_STATES or len(self._edges) > 2 * MAX_EDGES:
@@ -114,3 +130,9 @@ class Graph:
                         else:
                             bucket.append(source)
         return found
+
+
+def may_change_nothing(action: GroundAction) -> bool:
+    """Return whether there may be a state in which an action can run and leaves it as it is."""
+    touched = action.adds | action.deletes
+    return any(value & touched == action.adds & mask for mask, value in action.tests)

@@ -77,7 +77,6 @@ class Exact:
             metric="cost+time",
             proves=True,
             limits=True,
-            adl=False,
         )
         self._kept: list[_Kept] = []
 
