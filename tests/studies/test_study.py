@@ -52,15 +52,15 @@ def test_a_limit_is_spread_evenly_and_a_larger_one_extends_it(tmp_path: Path) ->
     study = find(NAME)
     n_cells = len(study.tables[0].cells(TASK))
     small, large = n_cells + 5, 2 * n_cells + 1
-    run(tmp_path / "grown", limit=small)
+    run(tmp_path / "grown", runs=9, limit=small)
     before = rows(tmp_path / "grown")
     assert len(before["rows"]) == small
     per_cell = [
         sum(row[:2] == cell for row in before["rows"]) for cell in study.tables[0].cells(TASK)
     ]
     assert max(per_cell) - min(per_cell) == 1
-    run(tmp_path / "grown", limit=large)
-    run(tmp_path / "at-once", limit=large)
+    run(tmp_path / "grown", runs=9, limit=large)
+    run(tmp_path / "at-once", runs=9, limit=large)
     after = rows(tmp_path / "grown")
     assert len(after["rows"]) == large
     assert all(set(before[name]) <= set(after[name]) for name in TABLES)
@@ -75,6 +75,13 @@ def test_more_runs_extend_fewer(tmp_path: Path) -> None:
     assert run(tmp_path / "grown", runs=3) == 0
     grown, at_once = tmp_path / "grown" / "rows.sqlite", tmp_path / "at-once" / "rows.sqlite"
     assert grown.read_bytes() == at_once.read_bytes()
+
+
+def test_every_promised_method_is_there_on_the_papers_task() -> None:
+    study = find(NAME)
+    cells = study.tables[0].cells(study.options)
+    assert {method for _, method in cells} == set(METHODS)
+    assert [method for case, method in cells if case == "2a"] == ["paper", "memory"]
 
 
 def test_cells_are_paired() -> None:
@@ -228,7 +235,7 @@ def test_a_failing_episode_is_named_and_the_rows_before_it_stay(
     )
     monkeypatch.syspath_prepend(str(tmp_path))
     with pytest.raises(ZeroDivisionError) as error:
-        run_study("breaking:STUDY", tmp_path / "out", runs=30)
+        run_study("breaking:STUDY", tmp_path / "out", runs=50)
     assert "run 40" in "".join(error.value.__notes__)
     document = report_study(tmp_path / "out")
     assert document["n_rows"] == 32

@@ -191,6 +191,7 @@ def lanes(rows: Sequence[Row]) -> str:
         axes.set_xlim(0, end_s)
         plots.bare(axes)
     grid[-1][0].set_xlabel("time (s)")
+    figure.get_layout_engine().set(hspace=0.12)
     return plots.svg(figure, "lanes", "The illustrative example, as carried out")
 
 
