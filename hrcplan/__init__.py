@@ -21,9 +21,20 @@ if TYPE_CHECKING:
     from hrcplan.facade import load, plan, validate
     from hrcplan.inference import infer
     from hrcplan.planners.lowering import lower
+    from hrcplan.studies import run_study
     from hrcplan.task import Task
 
-__all__ = ["Task", "build_bank", "execute", "infer", "load", "lower", "plan", "validate"]
+__all__ = [
+    "Task",
+    "build_bank",
+    "execute",
+    "infer",
+    "load",
+    "lower",
+    "plan",
+    "run_study",
+    "validate",
+]
 _HOMES = {
     "Task": "hrcplan.task",
     "build_bank": "hrcplan.bank",
@@ -32,6 +43,7 @@ _HOMES = {
     "load": "hrcplan.facade",
     "lower": "hrcplan.planners.lowering",
     "plan": "hrcplan.facade",
+    "run_study": "hrcplan.studies",
     "validate": "hrcplan.facade",
 }
 
