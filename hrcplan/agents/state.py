@@ -13,7 +13,7 @@ from fractions import Fraction
 from functools import cached_property
 
 from hrcplan.errors import UsageError
-from hrcplan.pddl.conventions import CONTROLLABLE, ROBOT
+from hrcplan.pddl.conventions import robots
 from hrcplan.pddl.model import (
     TOTAL_COST,
     Action,
@@ -28,12 +28,6 @@ from hrcplan.task.numbers import agent_state_functions
 
 LEAST, MOST = 0, 10
 _PLACES = 6  # decimals of a sensed value that are kept, so that journals hold it exactly
-
-
-def robots(problem: Problem) -> frozenset[str]:
-    """Return the agents that take commands: the controllable ones, else the one called robot."""
-    marked = frozenset(a for a in problem.agents if (CONTROLLABLE, a) in problem.facts)
-    return marked or frozenset({ROBOT}.intersection(problem.agents))
 
 
 def sensed_value(value: float | Number) -> Number:

@@ -19,6 +19,7 @@ from hrcplan.bank.search import MAX_MIB, Limits
 from hrcplan.bank.sources import read_goals
 from hrcplan.bank.steps import STEPS, Op, StepTable
 from hrcplan.errors import UsageError
+from hrcplan.pddl.conventions import robots
 from hrcplan.plans import Plan, PlannedAction
 
 OPTIMAL = Fraction(1)
@@ -204,18 +205,20 @@ class Bank:
     def as_plan(self, steps: Sequence[int]) -> Plan:
         """Return a plan with ground actions, where agents are dropped those of the cheapest agent.
 
-        Among equals it is the first in ground-action order.
+        Among equals it is a human, for the sake of ``infer``: the robot's own steps
+        are no evidence. Then ground-action order decides.
 
         Raises:
             UsageError: if the steps cannot be done one after the other.
         """
         task, state = self.goals.task, self.initial
+        taken = robots(task.problem)
         found: list[PlannedAction] = []
         for step in steps:
             can = [i for i in self.table[step].actions if task.is_applicable(state, i)]
             if not can:
                 raise UsageError(f"{self.table[step]} cannot be done here")
-            action = min(can, key=lambda i: (task.costs[i], i))
+            action = min(can, key=lambda i: (task.costs[i], task.actions[i].agent in taken, i))
             found.append(PlannedAction(task.actions[action].name, task.actions[action].args))
             state = task.successor(state, action)
         return Plan(tuple(found))

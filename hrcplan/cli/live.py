@@ -6,12 +6,12 @@ import shutil
 import time
 from dataclasses import dataclass, field
 
-from hrcplan.agents.state import robots
 from hrcplan.cli import output
 from hrcplan.execution import events as ev
 from hrcplan.execution.events import Command, Event
 from hrcplan.execution.row import Row
 from hrcplan.execution.run import Run, Running
+from hrcplan.pddl.conventions import robots
 from hrcplan.pddl.model import Problem, fact_text, number_text
 from hrcplan.pddl.source import plural
 from hrcplan.plans import lane

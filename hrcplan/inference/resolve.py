@@ -5,8 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from hrcplan.bank import Goals, StepTable
-from hrcplan.pddl.conventions import CONTROLLABLE, ROBOT
-from hrcplan.pddl.model import Problem
+from hrcplan.pddl.conventions import robots
 from hrcplan.pddl.source import nearest
 
 
@@ -16,12 +15,6 @@ class Resolved:
 
     step: int
     robot: bool
-
-
-def robots(problem: Problem) -> frozenset[str]:
-    """Return the agents that are the robot: those marked controllable, else the one called so."""
-    marked = frozenset(agent for agent in problem.agents if (CONTROLLABLE, agent) in problem.facts)
-    return marked or frozenset(agent for agent in problem.agents if agent == ROBOT)
 
 
 class Resolver:

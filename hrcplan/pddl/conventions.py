@@ -27,6 +27,12 @@ CONTROLLABLE = "controllable"
 _INTERACTIONS = frozenset(["decrease", "assign"])
 
 
+def robots(problem: Problem) -> frozenset[str]:
+    """Return the agents that take commands: the controllable ones, else the one called robot."""
+    marked = frozenset(a for a in problem.agents if (CONTROLLABLE, a) in problem.facts)
+    return marked or frozenset({ROBOT}.intersection(problem.agents))
+
+
 def check_domain(domain: Domain, actions: Sequence[tuple[Group, Action]], source: Source) -> None:
     """Warn about actions without an agent, and about changes that no interaction makes."""
     if AGENT not in domain.types:
@@ -46,7 +52,7 @@ def check_domain(domain: Domain, actions: Sequence[tuple[Group, Action]], source
 
 def check_problem(problem: Problem, at: int, source: Source) -> None:
     """Warn, at the offset of ``:init``, if agents are there and none of them is the robot."""
-    if problem.agents and not _has_robot(problem):
+    if problem.agents and not robots(problem):
         message = f"no agent is marked ({CONTROLLABLE} …) and none is called '{ROBOT}'"
         source.warn(at, "no-robot", message)
 
@@ -97,8 +103,3 @@ def _groups(node: Node) -> Iterator[Group]:
         yield node
         for part in node:
             yield from _groups(part)
-
-
-def _has_robot(problem: Problem) -> bool:
-    agents = problem.agents
-    return ROBOT in agents or any((CONTROLLABLE, agent) in problem.facts for agent in agents)
