@@ -25,6 +25,8 @@ PARTS = {
     "exact": "proofs of boxes-3 and boxes-4",
     "execution": "simulated runs of failure anticipation and their replans",
     "growth": "grounding, walking and validating as tasks grow",
+    "bank": "building, sampling, and listing plans beside top-k planners",
+    "beliefs": "updates of 30 and of 10,000 goals",
 }
 
 
