@@ -94,8 +94,8 @@ def markdown(sections: Mapping[str, Sequence[Row]], titles: Mapping[str, str], m
         "Written by `tools/bench --markdown`; one part alone: `tools/bench simulator`. What is",
         "compared was measured in turn in the same rounds. Only the commands under *startup* are",
         "measured by the clock; all else is processor time, that of planner programs included.",
-        "Figures are medians; planners, lists of plans, beliefs, and rates not compared show the best",
-        "of the rounds.",
+        "Figures are medians; planners, lists of plans, beliefs, and rates not compared show the",
+        "best of the rounds.",
         "Ratios travel, times are of this machine:",
         f"{machine}.",
     ]
