@@ -28,7 +28,7 @@ TICK_S = 0.02
 IDLE_TICK_S = 0.1
 DUTY = 20  # a look at /proc may take one part in so many of the time
 
-HUP, INT, KILL, PIPE, TERM, CHLD, XFSZ = 1, 2, 9, 13, 15, 17, 25
+HUP, INT, QUIT, KILL, PIPE, TERM, CHLD, XFSZ = 1, 2, 3, 9, 13, 15, 17, 25
 DEFAULT, IGNORE = ctypes.c_void_p(0), ctypes.c_void_p(1)
 PR_SET_PDEATHSIG, PR_SET_CHILD_SUBREAPER = 1, 36
 PAGE = os.sysconf("SC_PAGE_SIZE")
@@ -88,7 +88,7 @@ def become(argv: list[bytes], env: dict[bytes, bytes], fault_write: int) -> None
         os.setsid()
         # If somebody kills the guard, the planner must not outlive it.
         LIBC.prctl(PR_SET_PDEATHSIG, KILL, 0, 0, 0)
-        for number in (HUP, INT, PIPE, TERM, XFSZ):
+        for number in (HUP, INT, QUIT, PIPE, TERM, XFSZ):
             LIBC.signal(number, DEFAULT)
         os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
         os.execvpe(argv[0], argv, env)
