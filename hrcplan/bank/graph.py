@@ -190,6 +190,16 @@ class PlanGraph:
         return tuple(dict.fromkeys(self.layers[layer][0] for layer in self.final_layers))
 
     @cached_property
+    def left(self) -> NDArray[np.float64]:
+        """The cost from each node to the nearest goal node."""
+        spent = np.array([float(cost) for cost, _ in self.layers])[self.layer_of]
+        ends = np.where(self.is_goal, spent, np.inf)
+        for edges, sources in reversed(list(self.edges_by_layer())):
+            np.minimum.at(ends, sources, ends[self.targets[edges]])
+        found: NDArray[np.float64] = ends - spent
+        return found
+
+    @cached_property
     def n_steps(self) -> int:
         """Steps of the shortest among the cheapest plans; 0 if there is no plan."""
         if not self.n_nodes:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -132,6 +132,19 @@ class StepTable:
         for action in self._steps[step].actions:
             if any(state & mask == value for mask, value in self.task.actions[action].tests):
                 return self.task.successor(state, action)
+        return None
+
+    def doer(self, state: int, step: int, agents: Set[str]) -> int | None:
+        """Return a ground action by which one of ``agents`` can do a step in ``state``.
+
+        It is the first that changes the state; None if there is none. What names no agent, anybody
+        can do.
+        """
+        task = self.task
+        for index in self._steps[step].actions:
+            agent = task.actions[index].agent
+            if (agent is None or agent in agents) and task.is_applicable(state, index):
+                return index
         return None
 
     @cached_property

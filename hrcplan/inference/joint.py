@@ -34,6 +34,8 @@ class Joint:
         label: The label of each step.
         roots: The first node of each goal.
         n_next: How many labels can follow each node.
+        step_of: The step of each edge.
+        first: Where the edges of each node begin; those of ``off`` are none.
         off: The node of goals that have left their graph.
     """
 
@@ -61,6 +63,8 @@ class Joint:
         steps = _joined(g.steps.astype(np.int64) for g in graphs)
         self.targets = _joined(g.targets + o for g, o in zip(graphs, starts, strict=False))
         self._moves = _closed(sources * self.n_steps + steps)
+        self.step_of = steps.astype(np.int32)
+        self.first = np.searchsorted(sources, np.arange(self.off + 2))
         shares = np.concatenate([np.zeros(0), *map(_shares, graphs)])
         label = np.array(self.label, dtype=np.int64)
         pairs = sources * self.n_labels + (label[steps] if len(steps) else steps)

@@ -12,8 +12,7 @@ from hrcplan.bank import Bank, Goals, StepTable, build
 from hrcplan.bank.ramirez_geffner import OBSERVATIONS, is_folder, read_actions, read_instance
 from hrcplan.errors import InputError, LimitError
 from hrcplan.inference.changes import Change
-from hrcplan.inference.methods import BANK_METHOD, GOALS_METHOD, takes_goals
-from hrcplan.inference.methods import find as find_method
+from hrcplan.inference.methods import BANK_METHOD, GOALS_METHOD, METHODS, takes_goals
 from hrcplan.inference.resolve import Resolver
 from hrcplan.pddl.source import read_text
 
@@ -91,7 +90,7 @@ def infer(
     loaded, beside = _load(source)
     observed = _observed(actions, beside)
     name = method or (BANK_METHOD if isinstance(loaded, Bank) else GOALS_METHOD)
-    kind = find_method(name)
+    kind = METHODS.find(name)
     belief = kind(_as_needed(kind, loaded), **options)
     goals = loaded.goals if isinstance(loaded, Bank) else loaded
     return run(belief, Resolver(belief_table(belief, goals), goals), observed, name)

@@ -92,7 +92,7 @@ class Tracker:
         What it says, it says about the moment before.
         """
         joint = self.joint
-        before, world = track.world, self._successor(track.world, step)
+        before, world = track.world, self.successor(track.world, step)
         if world is None:
             return None
         goals = joint.concerned(step, before ^ world)
@@ -117,7 +117,7 @@ class Tracker:
         doable = self._doable.after(track.doable, before, world)
         return Track(world, nodes, doable, off), seen
 
-    def _successor(self, world: int, step: int) -> int | None:
+    def successor(self, world: int, step: int) -> int | None:
         """Return the state after a step; None if nobody can do it."""
         quick = self._quick[step]
         if quick is None:

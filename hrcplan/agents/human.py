@@ -1,0 +1,141 @@
+"""Simulated humans who cook along: they have goals, change them, err, wait, and never explain.
+
+What chance decides about a human is drawn before the first step and kept in a `Course`. So every
+robot meets the same human, and differences between robots are paired.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Protocol
+
+from hrcplan.bank import Bank, PlanGraph
+from hrcplan.parts import Parts
+from hrcplan.pddl.conventions import robots
+
+N_DRAWS = 8  # random numbers of one turn: whether to wait or err, and what to choose
+
+
+@dataclass(frozen=True, slots=True)
+class Course:
+    """What a human will want, and by which chances it acts.
+
+    Attributes:
+        goals: The goals, in the order in which they are wanted.
+        turns: The human's turn (from 0) at which each goal but the first begins to be wanted.
+        mistake_rate: The probability that an action is one that the goal does not need.
+        wait_rate: The probability of doing nothing in a turn.
+        seed: From which the chances of every turn are derived.
+    """
+
+    goals: tuple[int, ...]
+    turns: tuple[int, ...] = ()
+    mistake_rate: float = 0.0
+    wait_rate: float = 0.0
+    seed: str = ""
+
+    def goal(self, turn: int) -> int:
+        """Return the goal that is wanted in a turn."""
+        return self.goals[sum(turn >= change for change in self.turns)]
+
+
+@dataclass(frozen=True, slots=True)
+class Move:
+    """What a human does in a turn: a step, or None to wait; and whether it is a mistake."""
+
+    step: int | None
+    is_mistake: bool = False
+
+
+class Human(Protocol):
+    """A human who takes turns with a robot; made from a bank and a course."""
+
+    def move(self, turn: int, world: int, last: int | None) -> Move:
+        """Return what the human does in a turn, in a state, after its own last step."""
+        ...
+
+
+class Chooser(Protocol):
+    """Which of the steps that could come next a human takes."""
+
+    def __call__(
+        self, graph: PlanGraph, node: int, steps: Sequence[int], last: int | None, draw: Draw
+    ) -> int:
+        """Return one of ``steps``, which follow ``node`` in the plans of a goal."""
+        ...
+
+
+Draw = Callable[[], float]
+"""The next random number of a turn, in [0, 1)."""
+
+
+def uniform(graph: PlanGraph, node: int, steps: Sequence[int], last: int | None, draw: Draw) -> int:
+    """Return any of the steps, all alike."""
+    return steps[int(draw() * len(steps))]
+
+
+def by_plans(
+    graph: PlanGraph, node: int, steps: Sequence[int], last: int | None, draw: Draw
+) -> int:
+    """Return a step in proportion to the plans that go on with it: all plans are alike."""
+    counts = [graph.plans_from(graph.next(node)[step]) for step in steps]
+    left = draw() * sum(counts)
+    for step, count in zip(steps, counts, strict=True):
+        left -= count
+        if left < 0:
+            return step
+    return steps[-1]
+
+
+class Simulated:
+    """A human who wants the goals of a course, and takes a step that some valid plan has next."""
+
+    def __init__(self, bank: Bank, course: Course, choose: Chooser = uniform) -> None:
+        self.bank, self.course, self._choose = bank, course, choose
+        self._doers = humans(bank)
+
+    def move(self, turn: int, world: int, last: int | None) -> Move:
+        """Return what the human does in a turn, in a state, after its own last step."""
+        course, draws = self.course, iter(_draws(self.course.seed, turn))
+        if next(draws) < course.wait_rate:
+            return Move(None)
+        goal, errs = course.goal(turn), next(draws) < course.mistake_rate
+        graph, node = self.bank.locate(goal, world)
+        if errs and (wrong := self._not_needed(graph, world)):
+            return Move(wrong[int(next(draws) * len(wrong))], is_mistake=True)
+        steps = [] if node is None else list(self._able(world, graph.next(node)))
+        if node is None or not steps:
+            return Move(None)
+        return Move(self._choose(graph, node, steps, last, draws.__next__))
+
+    def _able(self, world: int, steps: Sequence[int] | dict[int, int]) -> list[int]:
+        doer, doers = self.bank.table.doer, self._doers
+        return [step for step in steps if doer(world, step, doers) is not None]
+
+    def _not_needed(self, graph: PlanGraph, world: int) -> list[int]:
+        needed = graph.used_steps
+        can = self.bank.table.applicable(world)
+        return self._able(world, [step for step in can if step not in needed])
+
+
+@lru_cache(maxsize=64)
+def _draws(seed: str, turn: int) -> tuple[float, ...]:
+    stream = random.Random(f"{seed}/{turn}")
+    return tuple(stream.random() for _ in range(N_DRAWS))
+
+
+def humans(bank: Bank) -> frozenset[str]:
+    """Return the agents that take no commands."""
+    problem = bank.goals.problem
+    return frozenset(problem.agents) - robots(problem)
+
+
+HUMANS = Parts(
+    "human",
+    {"frontier": "hrcplan.agents.human:Simulated", "cc-htn": "hrcplan.agents.human:CliqueChain",
+     "plans": "hrcplan.agents.human:ByPlans"},
+    "hrcplan.humans",
+)  # fmt: skip

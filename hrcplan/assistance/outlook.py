@@ -1,0 +1,124 @@
+"""What could usefully be done next: which goals want each step, and how much it brings them on."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence, Set
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hrcplan.bank import PlanGraph
+from hrcplan.inference.track import Off, Track, Tracker
+from hrcplan.pddl.conventions import robots
+
+Ids = NDArray[np.int64]
+Floats = NDArray[np.float64]
+
+DEAD_END = 100.0  # steps lost where a goal can no longer be reached
+
+
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """Which goals want which steps: pairs of a step and a goal, one for each edge that follows."""
+
+    steps: Ids
+    goals: Ids
+
+
+class Outlook:
+    """Looks from where all goals stand to what would help them.
+
+    Args:
+        tracker: Follows the goals.
+        agents: Who is to act; by default the robots of the problem.
+    """
+
+    def __init__(self, tracker: Tracker, agents: Set[str] | None = None) -> None:
+        self.tracker, self.bank = tracker, tracker.bank
+        self.agents = robots(self.bank.goals.problem) if agents is None else agents
+        self._all_goals = np.arange(len(self.bank.names))
+        self._after: dict[tuple[int, int, int], float] = {}
+
+    def wanted(self, track: Track) -> Wanted:
+        """Return the steps that could come next in the plans of each goal, whoever does them."""
+        joint = self.tracker.joint
+        begins = joint.first.take(track.nodes)
+        lengths = joint.first.take(track.nodes + 1) - begins
+        goals = self._all_goals.repeat(lengths)
+        ends = lengths.cumsum()
+        places = np.arange(len(goals)) + (begins - ends + lengths).take(goals)
+        steps = joint.step_of.take(places)
+        for goal, place in track.off.items():
+            graph, node = self.tracker.resolve(goal, place)
+            more = list(graph.next(node)) if graph.n_nodes else []
+            steps, goals = np.append(steps, more), np.append(goals, [goal] * len(more))
+        return Wanted(steps.astype(np.int64), goals.astype(np.int64))
+
+    def candidates(self, track: Track, wanted: Wanted) -> list[int]:
+        """Return the wanted steps that one of the agents can do, in order."""
+        steps = np.flatnonzero(np.bincount(wanted.steps, minlength=self.tracker.joint.n_steps))
+        doer, agents = self.bank.table.doer, self.agents
+        return [s for s in steps.tolist() if doer(track.world, s, agents) is not None]
+
+    def help(
+        self, track: Track, wanted: Wanted, steps: Sequence[int], weights: Floats
+    ) -> tuple[Floats, Floats]:
+        """Return what steps bring: expected steps saved, and the weight of goals that want them.
+
+        A step that a goal has next saves it one step, an idle one none; a step that leads a goal
+        away costs it as many as its cheapest plan grows by.
+
+        Args:
+            track: Where the goals stand.
+            wanted: What ``wanted`` returns for it.
+            steps: Steps that can be done.
+            weights: A weight for each goal, such as its probability.
+        """
+        n_steps = self.tracker.joint.n_steps
+        weighted = np.bincount(wanted.steps, weights.take(wanted.goals), n_steps)
+        shares: Floats = weighted.astype(np.float64).take(steps)
+        n_goals = np.bincount(wanted.steps, minlength=n_steps).take(steps)
+        saved = shares.copy()
+        for place, (step, n) in enumerate(zip(steps, n_goals.tolist(), strict=True)):
+            touched = self._touched(track, step)
+            if len(touched) > n:
+                wants = wanted.goals[wanted.steps == step]
+                for goal in np.setdiff1d(touched, wants).tolist():
+                    if weights[goal] > 0:
+                        saved[place] += weights[goal] * self._change(track, goal, step)
+        return saved, shares
+
+    def _touched(self, track: Track, step: int) -> Ids:
+        """Return the goals that a step may move."""
+        world = self.tracker.successor(track.world, step)
+        return self.tracker.joint.concerned(step, track.world ^ (world or 0))
+
+    def _change(self, track: Track, goal: int, step: int) -> float:
+        """Return by how many steps a step that is not next in any plan brings a goal nearer."""
+        world = self.tracker.successor(track.world, step)
+        node = int(track.nodes[goal])
+        if world is None or not (track.world ^ world) & self.bank.graphs[goal].relevant:
+            return 0.0
+        key = (goal, node if node != self.tracker.joint.off else -1 - track.world, step)
+        known = self._after.get(key)
+        if known is None:
+            before, after = self.to_go(goal, track), self._to_go_from(goal, world)
+            known = self._after[key] = max(-DEAD_END, before - after)
+        return known
+
+    def to_go(self, goal: int, track: Track) -> float:
+        """Return the bank cost of what is left of a goal's cheapest plan."""
+        joint, node = self.tracker.joint, int(track.nodes[goal])
+        if node != joint.off:
+            return _left(self.bank.graphs[goal], node - int(joint.offsets[goal]))
+        return _left(*self.tracker.resolve(goal, track.off.get(goal) or Off(track.world)))
+
+    def _to_go_from(self, goal: int, world: int) -> float:
+        graph, node = self.bank.locate(goal, world)
+        return DEAD_END if node is None else _left(graph, node)
+
+
+def _left(graph: PlanGraph, node: int) -> float:
+    """Return the cost from a node to the nearest goal node."""
+    return float(graph.left[node]) if graph.n_nodes else DEAD_END

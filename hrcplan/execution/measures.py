@@ -1,0 +1,122 @@
+"""The measures of an episode in turns, as the second paper's section IV-E reads; see DESIGN."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from hrcplan.execution.turns import Record, Turn
+
+TOP = 3  # goals that count as a right guess in ``top3_pct``
+
+
+@dataclass(frozen=True, slots=True)
+class Guesses:
+    """How well the goal was guessed: one guess after each action of the human.
+
+    Attributes:
+        first_correct: Timesteps from the first human action after a change to the first right
+            guess, the mean over changes; of a human who never changes, from its first action.
+        last_incorrect_step: The timestep after the last wrong guess; 0 without one.
+        last_incorrect_pct: The same as a percentage of all timesteps.
+        correct_pct: The share of guesses that are right.
+        top3_pct: The share of guesses with the right goal among the first three.
+    """
+
+    first_correct: float
+    last_incorrect_step: int
+    last_incorrect_pct: float
+    correct_pct: float
+    top3_pct: float
+
+
+@dataclass(frozen=True, slots=True)
+class Changes:
+    """Declared changes of goal beside the true ones.
+
+    Attributes:
+        detection_delay: Timesteps from the first human action after a change to the declaration,
+            the mean over changes that were declared; None if none was.
+        n_detected: Changes that were declared before the next one, or the end.
+        false_changes: Declarations with no true change before them that was still undeclared.
+        false_before: Those of them before the first true change.
+    """
+
+    detection_delay: float | None
+    n_detected: int
+    false_changes: int
+    false_before: int
+
+
+def guesses(record: Record) -> Guesses:
+    """Return how well the goal was guessed."""
+    made = [turn for turn in record.turns if turn.guess is not None]
+    wrong = [turn.t for turn in made if turn.guess != turn.goal]
+    last = max(wrong, default=-1) + 1
+    spans = _spans(record)
+    firsts = [_first_right(span, record.n_turns) for span in spans]
+    return Guesses(
+        sum(firsts) / len(firsts) if firsts else 0.0,
+        last,
+        100 * last / max(1, record.n_turns),
+        100 * (len(made) - len(wrong)) / max(1, len(made)),
+        100 * sum((turn.rank or 0) < TOP for turn in made) / max(1, len(made)),
+    )
+
+
+def _spans(record: Record) -> list[list[Turn]]:
+    """Return the guesses made under each goal that was changed to; of the only goal if none was."""
+    found: list[list[Turn]] = [[] for _ in record.course.goals]
+    human = 0
+    for turn in record.turns:
+        if turn.is_human:
+            if turn.guess is not None:
+                found[sum(human >= change for change in record.course.turns)].append(turn)
+            human += 1
+    return [span for span in found[1:] or found if span]
+
+
+def _first_right(span: Sequence[Turn], n_turns: int) -> int:
+    right = next((turn.t for turn in span if turn.guess == turn.goal), n_turns)
+    return right - span[0].t
+
+
+def changes(record: Record) -> Changes:
+    """Return declared changes beside the true ones."""
+    delays: list[int] = []
+    n_false = n_before = human = 0
+    open_since: int | None = None  # the timestep of the true change that awaits declaration
+    known = 0
+    for turn in record.turns:
+        if not turn.is_human:
+            continue
+        if human in record.course.turns:
+            open_since = turn.t
+        human += 1
+        for _ in range(turn.n_declared - known):
+            if open_since is None:
+                n_false += 1
+                n_before += not record.course.turns or human <= min(record.course.turns)
+            else:
+                delays.append(turn.t - open_since)
+                open_since = None
+        known = max(known, turn.n_declared)
+    delay = sum(delays) / len(delays) if delays else None
+    return Changes(delay, len(delays), n_false, n_before)
+
+
+def wasted(record: Record) -> int:
+    """Return how many robot actions the human's goal did not need when they were done."""
+    return sum(
+        not turn.is_human and turn.step is not None and not turn.is_needed for turn in record.turns
+    )
+
+
+def mistakes(record: Record) -> int:
+    """Return how many actions of the human were mistakes."""
+    return sum(turn.is_mistake for turn in record.turns)
+
+
+def waits(record: Record) -> int:
+    """Return how often the robot waited."""
+    return sum(not turn.is_human and turn.step is None for turn in record.turns)

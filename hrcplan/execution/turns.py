@@ -1,0 +1,198 @@
+"""A human and a robot take turns: the human acts first, nobody speaks, and all is written down.
+
+Time is counted in turns: every action of either agent takes one timestep, and so does waiting.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from hrcplan.agents.human import Course, Human
+from hrcplan.bank import Bank, StepTable
+from hrcplan.pddl.conventions import robots
+
+PATIENCE = 4  # an episode ends after that many times the steps that its goals need
+
+REACHED, STUCK, UNFINISHED = "reached", "stuck", "unfinished"
+
+
+class World(Protocol):
+    """Where steps happen; its state is held as bits of the task."""
+
+    def begin(self) -> int:
+        """Return the initial state, and forget what was done."""
+        ...
+
+    def do(self, state: int, action: int) -> int:
+        """Return the state after a ground action of the task, given by its index."""
+        ...
+
+
+class Simulated:
+    """The world as the PDDL says."""
+
+    def __init__(self, bank: Bank) -> None:
+        self._task = bank.goals.task
+
+    def begin(self) -> int:
+        """Return the initial state."""
+        return self._task.initial
+
+    def do(self, state: int, action: int) -> int:
+        """Return the state after a ground action."""
+        return self._task.successor(state, action)
+
+
+@dataclass(frozen=True, slots=True)
+class Turn:
+    """One timestep: who did what, for which goal of the human, and whether that goal wanted it.
+
+    ``step`` is None for a wait. After an action of the human, ``guess`` is the goal that the robot
+    thinks likeliest, ``rank`` how many it thinks likelier than the right one, and ``n_declared``
+    how many changes it has declared so far. ``is_needed`` says whether the step is next in a valid
+    plan of the goal.
+    """
+
+    t: int
+    is_human: bool
+    step: int | None
+    goal: int
+    is_needed: bool
+    is_mistake: bool = False
+    guess: int | None = None
+    rank: int | None = None
+    n_declared: int = 0
+
+
+@dataclass(frozen=True)
+class Record:
+    """An episode: what happened, how it ended, and how long the robot thought, in ms."""
+
+    course: Course
+    turns: tuple[Turn, ...]
+    ending: str
+    decisions_ms: tuple[float, ...] = ()
+
+    @property
+    def n_turns(self) -> int:
+        """Timesteps until the last goal was reached, or until the end."""
+        return len(self.turns)
+
+
+Watch = Callable[[Turn, Any], None]
+"""Is called with every turn and the robot's state after it."""
+
+
+def play(
+    bank: Bank, human: Human, robot: Any, course: Course, world: World | None = None,
+    watch: Watch | None = None,
+) -> Record:  # fmt: skip
+    """Return the record of one episode: turns until the human's last goal is reached.
+
+    Args:
+        bank: The plans; they decide what is needed.
+        human: Who acts first.
+        robot: An assistant (see assistance/assistant.py); one with a method ``told`` is told the
+            human's goal after each of its actions.
+        course: What the human wants and when; the human was made from the same one.
+        world: Where it happens; by default as the PDDL says.
+        watch: Is told about every turn.
+    """
+    return _Play(bank, human, robot, course, world or Simulated(bank), watch).run()
+
+
+class _Play:
+    def __init__(
+        self, bank: Bank, human: Human, robot: Any, course: Course, world: World,
+        watch: Watch | None,
+    ) -> None:  # fmt: skip
+        self.bank, self.human, self.robot = bank, human, robot
+        self.course, self.world, self.watch = course, world, watch
+        self.robots = robots(bank.goals.problem)
+        self.people = frozenset(bank.goals.problem.agents) - self.robots
+        self.state, self.belief = world.begin(), robot.start()
+        self.turns: list[Turn] = []
+        self.decisions_ms: list[float] = []
+        self.last: int | None = None
+        self.n_waits = 0
+
+    def run(self) -> Record:
+        """Return the record."""
+        lengths = [self.bank.graphs[goal].n_steps for goal in self.course.goals]
+        most = PATIENCE * sum(lengths) + len(lengths)
+        turn, ending = 0, UNFINISHED
+        while len(self.turns) < most:
+            if self._is_done(turn):
+                ending = REACHED
+                break
+            if self.n_waits > 1 and turn > max(self.course.turns, default=0):
+                ending = STUCK
+                break
+            self._human(turn)
+            if self._is_done(turn):
+                ending = REACHED
+                break
+            self._robot(self.course.goal(turn))
+            turn += 1
+        return Record(self.course, tuple(self.turns), ending, tuple(self.decisions_ms))
+
+    def _is_done(self, turn: int) -> bool:
+        wanted = self.course.goal(turn)
+        is_last = turn >= max(self.course.turns, default=0)
+        return is_last and self.bank.goals.is_reached(wanted, self.state)
+
+    def _human(self, turn: int) -> None:
+        goal = self.course.goal(turn)
+        move = self.human.move(turn, self.state, self.last)
+        needed = self._do(move.step, goal, self.people)
+        if move.step is None:
+            self._note(Turn(len(self.turns), True, None, goal, False))
+            return
+        self.last = move.step
+        self.belief = self.robot.observe(self.belief, move.step)
+        if hasattr(self.robot, "told"):
+            self.belief = self.robot.told(self.belief, goal)
+        posterior = self.robot.posterior(self.belief)
+        likelier = posterior > posterior[goal]
+        rank = int(likelier.sum() + (posterior[:goal] == posterior[goal]).sum())
+        self._note(
+            Turn(
+                len(self.turns), True, move.step, goal, needed, move.is_mistake,
+                int(posterior.argmax()), rank, int(getattr(self.belief, "n_declared", 0)),
+            )
+        )  # fmt: skip
+
+    def _robot(self, goal: int) -> None:
+        began = time.perf_counter()
+        step = self.robot.choose(self.belief)
+        self.decisions_ms.append((time.perf_counter() - began) * 1e3)
+        needed = self._do(step, goal, self.robots)
+        if step is not None:
+            self.belief = self.robot.observe(self.belief, step, robot=True)
+        self._note(Turn(len(self.turns), False, step, goal, needed))
+
+    def _do(self, step: int | None, goal: int, agents: frozenset[str]) -> bool:
+        """Do a step in the world; return whether it is next in a valid plan of a goal."""
+        self.n_waits = self.n_waits + 1 if step is None else 0
+        if step is None:
+            return False
+        action = _action(self.bank.table, self.state, step, agents)
+        graph, node = self.bank.locate(goal, self.state)
+        self.state = self.world.do(self.state, action)
+        return node is not None and step in graph.next(node)
+
+    def _note(self, turn: Turn) -> None:
+        self.turns.append(turn)
+        if self.watch is not None:
+            self.watch(turn, self.belief)
+
+
+def _action(table: StepTable, state: int, step: int, agents: frozenset[str]) -> int:
+    action = table.doer(state, step, agents)
+    if action is None:
+        who = " or ".join(sorted(agents)) or "anybody"
+        raise ValueError(f"{table[step]} cannot be done by {who} here")
+    return action
