@@ -58,43 +58,20 @@ class Human(Protocol):
         ...
 
 
-class Chooser(Protocol):
-    """Which of the steps that could come next a human takes."""
-
-    def __call__(
-        self, graph: PlanGraph, node: int, steps: Sequence[int], last: int | None, draw: Draw
-    ) -> int:
-        """Return one of ``steps``, which follow ``node`` in the plans of a goal."""
-        ...
-
-
 Draw = Callable[[], float]
 """The next random number of a turn, in [0, 1)."""
 
 
-def uniform(graph: PlanGraph, node: int, steps: Sequence[int], last: int | None, draw: Draw) -> int:
-    """Return any of the steps, all alike."""
-    return steps[int(draw() * len(steps))]
+class Frontier:
+    """A human who takes any step that a valid plan of its goal has next, all alike.
 
+    Args:
+        bank: The plans.
+        course: What is wanted and when.
+    """
 
-def by_plans(
-    graph: PlanGraph, node: int, steps: Sequence[int], last: int | None, draw: Draw
-) -> int:
-    """Return a step in proportion to the plans that go on with it: all plans are alike."""
-    counts = [graph.plans_from(graph.next(node)[step]) for step in steps]
-    left = draw() * sum(counts)
-    for step, count in zip(steps, counts, strict=True):
-        left -= count
-        if left < 0:
-            return step
-    return steps[-1]
-
-
-class Simulated:
-    """A human who wants the goals of a course, and takes a step that some valid plan has next."""
-
-    def __init__(self, bank: Bank, course: Course, choose: Chooser = uniform) -> None:
-        self.bank, self.course, self._choose = bank, course, choose
+    def __init__(self, bank: Bank, course: Course) -> None:
+        self.bank, self.course = bank, course
         self._doers = humans(bank)
 
     def move(self, turn: int, world: int, last: int | None) -> Move:
@@ -109,7 +86,21 @@ class Simulated:
         steps = [] if node is None else list(self._able(world, graph.next(node)))
         if node is None or not steps:
             return Move(None)
-        return Move(self._choose(graph, node, steps, last, draws.__next__))
+        return Move(self.choose(graph, node, steps, last, draws.__next__))
+
+    def choose(
+        self, graph: PlanGraph, node: int, steps: Sequence[int], last: int | None, draw: Draw
+    ) -> int:
+        """Return one of ``steps``, which follow ``node`` in the plans of a goal.
+
+        Args:
+            graph: The plans of the goal.
+            node: Where they stand.
+            steps: Those of the next steps that the human can do, in order.
+            last: The human's last step.
+            draw: Gives random numbers.
+        """
+        return steps[int(draw() * len(steps))]
 
     def _able(self, world: int, steps: Sequence[int] | dict[int, int]) -> list[int]:
         doer, doers = self.bank.table.doer, self._doers
@@ -119,6 +110,22 @@ class Simulated:
         needed = graph.used_steps
         can = self.bank.table.applicable(world)
         return self._able(world, [step for step in can if step not in needed])
+
+
+class ByPlans(Frontier):
+    """A human who follows any valid plan, all plans alike: steps with more plans are likelier."""
+
+    def choose(
+        self, graph: PlanGraph, node: int, steps: Sequence[int], last: int | None, draw: Draw
+    ) -> int:
+        """Return a step in proportion to the plans that go on with it."""
+        counts = [graph.plans_from(graph.next(node)[step]) for step in steps]
+        left = draw() * sum(counts)
+        for step, count in zip(steps, counts, strict=True):
+            left -= count
+            if left < 0:
+                return step
+        return steps[-1]
 
 
 @lru_cache(maxsize=64)
@@ -135,7 +142,7 @@ def humans(bank: Bank) -> frozenset[str]:
 
 HUMANS = Parts(
     "human",
-    {"frontier": "hrcplan.agents.human:Simulated", "cc-htn": "hrcplan.agents.human:CliqueChain",
+    {"frontier": "hrcplan.agents.human:Frontier", "cc-htn": "hrcplan.agents.human:Frontier",
      "plans": "hrcplan.agents.human:ByPlans"},
     "hrcplan.humans",
 )  # fmt: skip

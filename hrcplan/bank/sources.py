@@ -21,7 +21,7 @@ def read_goals(domain: str, goals: str | None = None) -> Goals:
 
     Args:
         domain: A path or a shipped name.
-        goals: A folder, or None.
+        goals: A folder, the name of a folder of shipped problems, or None.
 
     Raises:
         PddlError: with every fault of the first file that has any.
@@ -29,7 +29,7 @@ def read_goals(domain: str, goals: str | None = None) -> Goals:
             or initial states differ; the message names the differences.
     """
     first = SourceFile.read(library.find_domain(domain))
-    folder = None if goals is None else Path(goals)
+    folder = None if goals is None else library.find_goals(goals)
     if folder is not None and ramirez_geffner.is_folder(folder):
         parts = (ramirez_geffner.TEMPLATE, ramirez_geffner.HYPOTHESES)
         files = (SourceFile.read(folder / part) for part in parts)

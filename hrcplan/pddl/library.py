@@ -69,6 +69,15 @@ def find_problem(domain: str, name: str) -> Path:
     raise InputError(message, code="no-file", path=name, hint=hint)
 
 
+def find_goals(name: str) -> Path:
+    """Return a folder of goals given by path or by the name of a folder of shipped problems.
+
+    A path that exists wins.
+    """
+    shipped = root() / "problems" / name
+    return shipped if shipped.is_dir() and not Path(name).exists() else Path(name)
+
+
 def domain_file_for(name: str, problem: Path) -> Path | None:
     """Return the file of domain ``name``: beside a problem file, else shipped, else None."""
     beside = [p for p in sorted(problem.parent.glob("*.pddl")) if p != problem]

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+
+import numpy as np
 
 CONFIDENT = 1.96
 """Standard errors on either side of a mean that hold it with 95 % confidence."""
@@ -55,3 +57,55 @@ def difference(ours: Mapping[int, float], theirs: Mapping[int, float]) -> Estima
     Estimate(mean=1.0, se=0.0, n=2)
     """
     return estimate(ours[run] - theirs[run] for run in sorted(ours.keys() & theirs.keys()))
+
+
+def estimate_by(values: Iterable[tuple[Hashable, float]]) -> Estimate:
+    """Return the mean over units of their mean values: values of one unit do not count twice.
+
+    >>> estimate_by([("a", 1), ("a", 3), ("b", 4)])
+    Estimate(mean=3.0, se=1.0, n=2)
+    """
+    found: dict[Hashable, list[float]] = {}
+    for unit, value in values:
+        found.setdefault(unit, []).append(value)
+    return estimate(math.fsum(of_unit) / len(of_unit) for of_unit in found.values())
+
+
+@dataclass(frozen=True, slots=True)
+class Interval:
+    """A mean and the ends of its 95 % interval, over ``n`` values."""
+
+    mean: float
+    low: float
+    high: float
+    n: int
+
+
+N_RESAMPLED = 2000
+
+
+def two_way_bootstrap(values: Sequence[tuple[Hashable, Hashable, float]]) -> Interval:
+    """Return the mean of values that each belong to a row and a column, with a 95 % interval.
+
+    Rows and columns are drawn anew with replacement, each independently (the two-way cluster
+    bootstrap; Cameron, Gelbach and Miller, 2011, name the problem): values of one row or one
+    column are not independent. The draws are always the same.
+    """
+    if not values:
+        return Interval(0.0, 0.0, 0.0, 0)
+    row_of, column_of = ({key: i for i, key in enumerate(dict.fromkeys(keys))}
+                         for keys in ([v[0] for v in values], [v[1] for v in values]))  # fmt: skip
+    sums, counts = (np.zeros((len(row_of), len(column_of))) for _ in range(2))
+    for row, column, value in values:
+        sums[row_of[row], column_of[column]] += value
+        counts[row_of[row], column_of[column]] += 1
+    rng = np.random.default_rng(0)
+    by_row, by_column = (
+        rng.multinomial(n, np.full(n, 1 / n), N_RESAMPLED).astype(np.float64) for n in sums.shape
+    )
+    total = ((by_row @ sums) * by_column).sum(axis=1)
+    n_drawn = ((by_row @ counts) * by_column).sum(axis=1)
+    means = total[n_drawn > 0] / n_drawn[n_drawn > 0]
+    low, high = np.quantile(means, [0.025, 0.975])
+    mean = math.fsum(value for _, _, value in values) / len(values)
+    return Interval(mean, float(low), float(high), len(values))

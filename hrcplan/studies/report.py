@@ -10,7 +10,7 @@ from typing import Any
 
 from hrcplan.errors import InputError
 from hrcplan.studies import page
-from hrcplan.studies.estimate import Estimate, estimate
+from hrcplan.studies.estimate import Estimate, estimate, estimate_by
 from hrcplan.studies.store import FILE, Store
 from hrcplan.studies.study import Cell, Row, Study, find
 
@@ -62,17 +62,28 @@ def cells_of(
     return found
 
 
-def estimates(rows: Sequence[Row], names: Sequence[str]) -> dict[str, Estimate]:
-    """Return the estimate of each named column over rows."""
-    return {name: estimate(float(row[name] or 0) for row in rows) for name in names}
+def estimates(
+    rows: Sequence[Row], names: Sequence[str], unit: Sequence[str] = ()
+) -> dict[str, Estimate]:
+    """Return the estimate of each named column over rows, or over units of them.
+
+    Rows without a value are left out.
+    """
+    found: dict[str, Estimate] = {}
+    for name in names:
+        had = [row for row in rows if row.get(name) is not None]
+        values = [float(row[name] or 0) for row in had]
+        units = [tuple(row[key] for key in unit) for row in had]
+        found[name] = estimate_by(zip(units, values, strict=True)) if unit else estimate(values)
+    return found
 
 
 def _summary(study: Study, cell: Cell, rows: Sequence[Row]) -> dict[str, Any]:
     return {
         "cell": dict(zip(study.tables[0].keys, cell, strict=True)),
         "n": len(rows),
-        "measures": _figures(estimates(rows, study.measures)),
-        "details": _figures(estimates(rows, study.details)),
+        "measures": _figures(estimates(rows, study.measures, study.unit)),
+        "details": _figures(estimates(rows, study.details, study.unit)),
     }
 
 

@@ -14,9 +14,8 @@ from pathlib import Path
 from hrcplan import __version__
 from hrcplan.errors import UsageError
 from hrcplan.studies.store import Store
-from hrcplan.studies.study import Episode, Options, Row, Study, episodes, find
+from hrcplan.studies.study import Episode, Options, Row, Seed, Study, episodes, find
 
-RUNS = 1000
 _CHUNK = 32  # episodes a worker does before its rows are written: what a kill can lose
 Progress = Callable[[int, int], None]
 
@@ -25,7 +24,7 @@ def run_study(
     name: str,
     folder: str | Path,
     *,
-    runs: int = RUNS,
+    runs: int | None = None,
     seed: int = 0,
     jobs: int = 1,
     limit: int | None = None,
@@ -39,7 +38,7 @@ def run_study(
     Args:
         name: A study, as in ``failure-anticipation``.
         folder: Where ``rows.sqlite`` is or will be.
-        runs: Runs per cell.
+        runs: Runs per cell; by default as many as the study says.
         seed: From which everything random is derived.
         jobs: Worker processes.
         limit: Episodes of the study's first table, spread evenly over its cells.
@@ -50,11 +49,11 @@ def run_study(
         UsageError: if the study or an option is unknown, or the folder holds other rows.
         InputError: if a file that the study needs is missing or has faults.
     """
-    if runs < 1 or jobs < 1 or (limit is not None and limit < 1):
+    if any(n is not None and n < 1 for n in (runs, jobs, limit)):
         raise UsageError("runs, jobs and limit are at least 1")
     study = find(name)
     chosen = study.with_defaults(options or {})
-    wanted = list(episodes(study, chosen, runs, limit))
+    wanted = list(episodes(study, chosen, runs or study.runs(chosen), limit))
     digest = hashlib.sha256(study.inputs(chosen).encode()).hexdigest()
     about = {"study": name, "version": __version__, "seed": seed, "options": chosen,
              "inputs_sha256": digest}  # fmt: skip
@@ -115,7 +114,7 @@ def _rows(
 def _row(study: Study, options: Options, seed: int, episode: Episode) -> Row:
     table = study.table(episode.table)
     try:
-        return table.episode(options, episode.cell, f"{seed}/{episode.run}")
+        return table.episode(options, episode.cell, Seed(seed, episode.run))
     except Exception as error:
         error.add_note(f"in {episode.table}, cell {episode.cell}, run {episode.run}")
         raise

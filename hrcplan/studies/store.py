@@ -1,7 +1,8 @@
 """Rows on disk: one SQLite file, one row per episode, keyed by its cell.
 
 Rows are only ever added, and an episode that is there already stays as it is. So a study that was
-killed at any moment goes on where it stopped.
+killed at any moment goes on where it stopped. What a clock has measured is no part of that: it has
+a file of its own, so that equal runs give equal bytes.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from typing import Any
 from hrcplan.errors import InputError, UsageError
 from hrcplan.studies.study import Episode, Row, Table
 
-FILE = "rows.sqlite"
+FILE, CLOCK = "rows.sqlite", "clock.sqlite"
 _ABOUT = "about"
 
 
@@ -29,6 +30,7 @@ class Store:
         self.folder = folder
         self._connection = connection
         self._lock: int | None = None
+        self._has_clock = False
 
     @classmethod
     def to_write(cls, folder: Path, about: dict[str, Any], tables: Iterable[Table]) -> Store:
@@ -65,7 +67,10 @@ class Store:
         if not path.is_file():
             hint = "hrcplan study run NAME -o DIR makes one"
             raise InputError(f"no {FILE} in {folder}", code="no-file", path=str(path), hint=hint)
-        return cls(folder, sqlite3.connect(path))
+        store = cls(folder, sqlite3.connect(path))
+        if (folder / CLOCK).is_file():
+            store._open_clock()
+        return store
 
     def __enter__(self) -> Store:
         """Return the store itself."""
@@ -89,16 +94,25 @@ class Store:
         with self._connection as connection:
             columns = "(key text primary key, value) without rowid"
             connection.execute(f"create table if not exists {_ABOUT} {columns}")
+            tables = list(tables)
             for table in tables:
                 connection.execute(_create(table))
             found = self.about()
             if not found:
                 pairs = [(key, json.dumps(value)) for key, value in about.items()]
                 connection.executemany(f"insert into {_ABOUT} values (?, ?)", pairs)
+        if any(table.clocked for table in tables):
+            self._open_clock()
+            for table in (table for table in tables if table.clocked):
+                self._connection.execute(_create(table, "clock."))
         for key, value in about.items():
             if found and found.get(key) != value:
                 message = f"{self.folder} holds rows of {key} {found.get(key)}, not {value}"
                 raise UsageError(message, code="other-rows", hint="take a new folder")
+
+    def _open_clock(self) -> None:
+        self._connection.execute("attach ? as clock", [str(self.folder / CLOCK)])
+        self._has_clock = True
 
     def about(self) -> dict[str, Any]:
         """Return what the rows depend on.
@@ -126,15 +140,20 @@ class Store:
 
     def add(self, table: Table, rows: Sequence[tuple[Episode, Row]]) -> None:
         """Add rows in one transaction; those that are there already stay."""
-        marks = ", ".join("?" * (len(table.keys) + 1 + len(table.columns)))
-        values = [(*e.cell, e.run, *(row[name] for name in table.columns)) for e, row in rows]
         with self._connection as connection:
-            connection.executemany(f"insert or ignore into {table.name} values ({marks})", values)
+            if table.clocked:
+                into = f"insert or replace into clock.{table.name}"
+                connection.executemany(*_insert(into, rows, table.clocked))
+            into = f"insert or ignore into main.{table.name}"
+            connection.executemany(*_insert(into, rows, table.columns))
 
     def rows(self, table: Table) -> list[Row]:
         """Return all rows of a table, keys and run included, in the order of cells and runs."""
+        more = ""
+        if table.clocked and self._has_clock:
+            more = f" left join clock.{table.name} using ({_names((*table.keys, 'run'))})"
         try:
-            cursor = self._connection.execute(f"select * from {table.name}")
+            cursor = self._connection.execute(f"select * from main.{table.name}{more}")
         except sqlite3.DatabaseError:
             return []  # written before the study had this table
         names = [column[0] for column in cursor.description]
@@ -156,14 +175,26 @@ class Store:
         made.close()
         fresh.replace(path)
         self._connection = sqlite3.connect(path)
+        if self._has_clock:
+            self._open_clock()
 
 
-def _create(table: Table) -> str:
+def _insert(
+    into: str, rows: Sequence[tuple[Episode, Row]], columns: Sequence[str]
+) -> tuple[str, list[tuple[Any, ...]]]:
+    """Return a statement that adds the named columns of rows, and its values."""
+    values = [(*e.cell, e.run, *(row[name] for name in columns)) for e, row in rows]
+    width = len(values[0]) if values else 0
+    return f"{into} values ({', '.join('?' * width)})", values
+
+
+def _create(table: Table, file: str = "") -> str:
     """Return the statement that makes a table; without rowid, so it is sorted by its key."""
     keys = (*table.keys, "run")
-    columns = ", ".join(_quoted(name) for name in (*keys, *table.columns))
+    named = table.clocked if file else table.columns
+    columns = ", ".join(_quoted(name) for name in (*keys, *named))
     return (
-        f"create table if not exists {table.name} "
+        f"create table if not exists {file}{table.name} "
         f"({columns}, primary key ({_names(keys)})) without rowid"
     )
 

@@ -18,7 +18,28 @@ Row = dict[str, Value]
 Cell = tuple[str | int | float, ...]
 Options = Mapping[str, str]
 
-STUDIES = {"failure-anticipation": "hrcplan.studies.failure_anticipation"}
+STUDIES = {
+    "failure-anticipation": "hrcplan.studies.failure_anticipation",
+    "changed-mind": "hrcplan.studies.changed_mind",
+}
+
+
+class Seed(str):
+    """What everything random in a run is derived from: text that names study seed and run."""
+
+    study: int
+    run: int
+    __slots__ = ("run", "study")
+
+    def __new__(cls, study: int, run: int) -> Seed:
+        """Return the seed of a run.
+
+        >>> Seed(0, 17), Seed(0, 17).run
+        ('0/17', 17)
+        """
+        made = super().__new__(cls, f"{study}/{run}")
+        made.study, made.run = study, run
+        return made
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +47,8 @@ class Table:
     """Episodes of one kind: each is a cell and the number of a run.
 
     ``cells`` lists the cells; ``episode`` returns the row of one episode from options, cell and
-    seed, and nothing else decides about it. The seed depends on study seed and run only, so that
+    seed, and nothing else decides about it, but for the ``clocked`` columns: they are measured by
+    the clock and kept in a file of their own. The seed depends on study seed and run only, so that
     cells are paired. ``at_most`` is the largest number of runs per cell.
     """
 
@@ -34,8 +56,9 @@ class Table:
     keys: tuple[str, ...]
     columns: tuple[str, ...]
     cells: Callable[[Options], Sequence[Cell]]
-    episode: Callable[[Options, Cell, str], Row]
+    episode: Callable[[Options, Cell, Seed], Row]
     at_most: int | None = None
+    clocked: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +97,9 @@ class Study:
     """A study; the first table holds what is reported by cell, the others what explains it.
 
     ``inputs`` returns the text of the files that rows depend on; where it has changed, rows made
-    before are not added to.
+    before are not added to. ``runs`` is how many runs a cell has by default. ``unit`` names the
+    columns of which each value counts once in a standard error: means over its rows are taken
+    first; without it every row counts.
     """
 
     name: str
@@ -85,6 +110,8 @@ class Study:
     inputs: Callable[[Options], str]
     details: tuple[str, ...] = ()
     options: Options = field(default_factory=dict)
+    runs: Callable[[Options], int] = lambda options: 1000
+    unit: tuple[str, ...] = ()
 
     def table(self, name: str) -> Table:
         """Return a table by its name."""

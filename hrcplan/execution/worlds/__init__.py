@@ -5,6 +5,14 @@ from __future__ import annotations
 from typing import Protocol
 
 from hrcplan.execution.events import Command, Event
+from hrcplan.parts import Parts
+
+WORLDS = Parts(
+    "world",
+    {"simulated": "hrcplan.execution.turns:Simulated",
+     "pddlgym": "hrcplan.execution.worlds.gym:Gym"},
+    "hrcplan.worlds",
+)  # fmt: skip
 
 
 class World(Protocol):

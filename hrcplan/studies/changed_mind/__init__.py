@@ -1,0 +1,31 @@
+"""The second paper: a robot that helps a human whose goal it has to infer, while it may change.
+
+Ghose, Gitelson, Jin, Abawe, Vázquez, Scassellati: I've Changed My Mind: Robots Adapting to Changing
+Human Goals during Collaboration. The four measures of its Figure 3, its robot study (Figure 4), and
+what goes beyond it; ``docs/reproduce.md`` says how its gaps were read.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+
+from hrcplan.studies.changed_mind import episodes, scenario
+from hrcplan.studies.changed_mind.findings import findings
+from hrcplan.studies.study import Study, Table
+
+STUDY = Study(
+    name="changed-mind",
+    title="Changed mind",
+    tables=tuple(
+        Table(name, ("human", "method"), episodes.COLUMNS, partial(scenario.cells, name),
+              episodes.simulated, at_most=table.get("at_most"), clocked=episodes.CLOCKED)
+        for name, table in scenario.data()["tables"].items()
+    ),
+    measures=episodes.MEASURES,
+    details=episodes.DETAILS,
+    options=scenario.defaults(),
+    findings=findings,
+    inputs=scenario.inputs,
+    runs=scenario.runs,
+    unit=("first", "second"),
+)  # fmt: skip

@@ -1,0 +1,205 @@
+"""What the study compares, read from ``scenario.toml``: tasks are never named in Python."""
+
+from __future__ import annotations
+
+import random
+import tomllib
+from collections.abc import Mapping
+from functools import cache, lru_cache
+from itertools import permutations
+from pathlib import Path
+from typing import Any
+
+from hrcplan.agents.human import HUMANS, Course, Human
+from hrcplan.assistance import ASSISTANTS
+from hrcplan.bank import Bank, Goals, build, read_goals
+from hrcplan.errors import UsageError
+from hrcplan.execution.turns import World
+from hrcplan.execution.worlds import WORLDS
+from hrcplan.inference.methods import METHODS
+from hrcplan.pddl.write import domain_text, problem_text
+from hrcplan.studies.study import Cell, Options, Seed
+
+HERE = Path(__file__).parent
+MAIN = "rows"
+SPREAD = 4  # further changes come within the time that a fraction of the goal's steps takes
+
+ADDED = ("methods", "humans")
+"""Options that name more than one part, with commas between."""
+
+
+@cache
+def data() -> Mapping[str, Any]:
+    """Return the whole file."""
+    return tomllib.loads((HERE / "scenario.toml").read_text(encoding="utf-8"))
+
+
+def defaults() -> dict[str, str]:
+    """Return the task that the study is about; methods and humans are all of the study's own."""
+    return {**data()["task"], **dict.fromkeys(ADDED, "")}
+
+
+def is_own_task(options: Options) -> bool:
+    """Whether the options name the task that the file was written for."""
+    return all(options[key] == value for key, value in data()["task"].items())
+
+
+# Cells.
+
+
+def cells(table: str, options: Options) -> list[Cell]:
+    """Return human and method of every cell of a table, human by human."""
+    methods = chosen(options["methods"], data()["tables"][table]["methods"])
+    return [(human, method) for human in humans(table, options) for method in methods]
+
+
+def humans(table: str, options: Options) -> list[str]:
+    """Return the humans of a table; on another task, those that need no goals of their own."""
+    names = data()["tables"][table]["humans"]
+    if not is_own_task(options):
+        names = [name for name in names if "goals" not in data()["humans"][name]]
+    return chosen(options["humans"], names) if table == MAIN else names
+
+
+def chosen(wanted: str, own: list[str]) -> list[str]:
+    """Return which parts are compared: of our own those that are named, or all; and strangers'.
+
+    >>> chosen("paper,mine:Robot", ["paper", "cdp"]), chosen("mine:Robot", ["paper", "cdp"])
+    (['paper', 'mine:Robot'], ['paper', 'cdp', 'mine:Robot'])
+    """
+    named = [name for name in wanted.split(",") if name]
+    return ([n for n in own if n in named] or own) + [n for n in named if n not in own]
+
+
+def check(options: Options) -> None:
+    """Check that every part that options name can be found.
+
+    Raises:
+        UsageError: if one cannot.
+    """
+    for name in filter(None, options["methods"].split(",")):
+        if name not in data()["methods"]:
+            ASSISTANTS.find(name)
+    for name in filter(None, options["humans"].split(",")):
+        if name not in data()["humans"]:
+            HUMANS.find(name)
+    HUMANS.find(options["chooser"])
+    WORLDS.find(options["world"])
+
+
+# Parts.
+
+
+@lru_cache(maxsize=4)
+def goals_of(domain: str, goals: str) -> Goals:
+    """Return the goals of a domain, from a folder or as shipped."""
+    return read_goals(domain, goals or None)
+
+
+@lru_cache(maxsize=4)
+def bank_of(domain: str, goals: str) -> Bank:
+    """Return the bank of all optimal plans.
+
+    Raises:
+        UsageError: if there are fewer than two goals, or one has no plan.
+    """
+    bank = build(goals_of(domain, goals))
+    if len(bank.names) < 2:
+        raise UsageError("a goal can only change where there are two", code="too-few-goals")
+    for graph in bank.graphs:
+        if not graph.n_steps:
+            message = f"goal '{graph.goal}' has no plan, or holds from the start"
+            raise UsageError(message, code="no-plan")
+    return bank
+
+
+def task_of(options: Options, human: str) -> tuple[str, str]:
+    """Return domain and goals that a human is studied with."""
+    return options["domain"], human_data(human).get("goals", options["goals"])
+
+
+def human_data(name: str) -> Mapping[str, Any]:
+    """Return what is said of a human; somebody's own is one whose goal changes once."""
+    found: Mapping[str, Any] = data()["humans"].get(name, {"changes": 1, "chooser": name})
+    return found
+
+
+def human(name: str, bank: Bank, course: Course, options: Options) -> Human:
+    """Return a human who follows a course."""
+    made: Human = HUMANS.find(human_data(name).get("chooser", options["chooser"]))(bank, course)
+    return made
+
+
+@lru_cache(maxsize=32)
+def robot(name: str, domain: str, goals: str) -> Any:
+    """Return an assistant: one of the study's methods, or a part of that name."""
+    changes = dict(data()["methods"].get(name, {}))
+    bank = bank_of(domain, goals)
+    kind = ASSISTANTS.find(changes.pop("part", name))
+    belief = str(changes.get("belief"))
+    if belief in METHODS.own:
+        changes["belief"] = METHODS.find(belief)(bank)
+    elif belief in ASSISTANTS.own:
+        changes["belief"] = robot(belief, domain, goals)
+    return kind(bank, **changes)
+
+
+def world(options: Options, bank: Bank) -> World:
+    """Return where episodes happen."""
+    made: World = WORLDS.find(options["world"])(bank)
+    return made
+
+
+def inputs(options: Options) -> str:
+    """Return domain and problems of the study, and its own files."""
+    check(options)
+    own = [path.read_text(encoding="utf-8") for path in sorted(HERE.glob("*.toml"))]
+    found = dict.fromkeys(
+        task_of(options, name) for table in data()["tables"] for name in humans(table, options)
+    )
+    texts = []
+    for task in found:
+        goals = goals_of(*task)
+        texts += [domain_text(goals.problem.domain), problem_text(goals.problem)]
+        texts += [*goals.names, *map(str, goals.formulas)]
+    return "".join([*own, *texts])
+
+
+# Courses.
+
+
+def runs(options: Options) -> int:
+    """Return how many runs a cell has: all ordered pairs of goals, as often as there are trials."""
+    n = len(goals_of(options["domain"], options["goals"]))
+    return n * (n - 1) * int(data()["study"]["trials"])
+
+
+def course(name: str, bank: Bank, seed: Seed) -> Course:
+    """Return what a human wants and when, which depends on the run alone.
+
+    The first change comes before a turn of the human that is uniform among those before the first
+    goal could be finished; each further one after up to a quarter of the turns that its goal takes.
+    """
+    said, chance = human_data(name), random.Random(f"{seed}/course")
+    n = len(bank.names)
+    pairs = _pairs(seed.study, seed.run // (n * (n - 1)), n)
+    first, second = pairs[seed.run % len(pairs)]
+    wanted, turns = [first], []
+    for number in range(said["changes"]):
+        length = bank.graphs[wanted[-1]].n_steps
+        if number == 0:
+            wanted.append(second)
+            turns.append(chance.randint(1, max(1, (length - 1) // 2)))
+        else:
+            wanted.append(chance.choice([g for g in range(n) if g != wanted[-1]]))
+            turns.append(turns[-1] + chance.randint(1, max(1, length // SPREAD)))
+    rates = said.get("mistake_rate", 0.0), said.get("wait_rate", 0.0)
+    return Course(tuple(wanted), tuple(turns), *rates, seed=str(seed))
+
+
+@lru_cache(maxsize=8)
+def _pairs(study_seed: int, trial: int, n: int) -> list[tuple[int, int]]:
+    """Return all ordered pairs of goals in the order in which a trial goes through them."""
+    found = list(permutations(range(n), 2))
+    random.Random(f"{study_seed}/{trial}/pairs").shuffle(found)
+    return found
