@@ -211,7 +211,8 @@ def _one_multiset(graph: PlanGraph) -> frozenset[Multiset] | None:
             return None
     sources = np.repeat(np.arange(graph.n_nodes), np.diff(graph.first))
     gained = times[graph.targets].astype(np.int16) - times[sources]
-    if (gained.sum(axis=1) != 1).any():
+    gained[np.arange(len(sources)), column[graph.steps]] -= 1
+    if gained.any():  # ways from different layers meet in one node
         return None
     ends = np.unique(times[graph.is_goal], axis=0)
     return frozenset(

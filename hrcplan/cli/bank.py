@@ -131,13 +131,34 @@ def _say(graph: PlanGraph) -> None:
 
 @command.command("show")
 @click.argument("bank", metavar="BANK")
+@click.option(
+    "--htn", "goal", metavar="GOAL", help="The plans of this goal as a tree of chains and cliques."
+)
 @output.common_options
-def show(bank: str) -> int:
+def show(bank: str, goal: str | None) -> int:
     """Show the goals of a BANK: steps, cost, exact number of plans, size of the graph."""
     from hrcplan.bank import load
 
-    _print(load(bank))
+    loaded = load(bank)
+    if goal is None:
+        _print(loaded)
+    else:
+        _print_htn(loaded, goal)
     return 0
+
+
+def _print_htn(bank: Bank, goal: str) -> None:
+    from hrcplan.bank.htn import decompose
+    from hrcplan.cli import htn as view
+
+    graph = bank.graphs[bank.goal_index(goal)]
+    htn = decompose(graph)
+    if not htn.kinds:
+        output.warn(f"goal '{goal}' has no plan")
+    if output.JSON:
+        output.document(view.as_json(graph, htn, bank.table))
+    else:
+        output.result(view.as_text(graph, htn, bank.table))
 
 
 @command.command("sample")
