@@ -7,16 +7,18 @@ robot meets the same human, and differences between robots are paired.
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Protocol
 
 from hrcplan.bank import Bank, PlanGraph
+from hrcplan.bank.htn import Htn, decompose
 from hrcplan.parts import Parts
 from hrcplan.pddl.conventions import robots
 
-N_DRAWS = 8  # random numbers of one turn: whether to wait or err, and what to choose
+MAX_NETWORKS = 256  # that are remembered
+N_DRAWS = 64  # random numbers of one turn: whether to wait or err, and what to choose
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,6 +130,36 @@ class ByPlans(Frontier):
         return steps[-1]
 
 
+class CliqueChain(Frontier):
+    """A human who works through a network of chains and cliques, and finishes what it has begun.
+
+    The paper models its humans so (IV-B). The network is derived from the plans of the goal, and
+    orders some steps that plans leave open; what the robot does out of this order is simply done.
+    """
+
+    def choose(
+        self, graph: PlanGraph, node: int, steps: Sequence[int], last: int | None, draw: Draw
+    ) -> int:
+        """Return the step that the network allows next; any other if the human cannot do that."""
+        left = [step for step, _ in _cheapest(graph, node)]
+        found = _network(graph).choose(left, last, lambda n: int(draw() * n))
+        if found is None or found not in steps:
+            return super().choose(graph, node, steps, last, draw)
+        return found
+
+
+@lru_cache(maxsize=MAX_NETWORKS)
+def _network(graph: PlanGraph) -> Htn:
+    return decompose(graph)
+
+
+def _cheapest(graph: PlanGraph, node: int) -> Iterator[tuple[int, int]]:
+    """Yield steps and nodes of the first of the cheapest plans that are left."""
+    while not graph.is_goal[node]:
+        step, node = min(graph.next(node).items(), key=lambda edge: graph.left[edge[1]])
+        yield step, node
+
+
 @lru_cache(maxsize=64)
 def _draws(seed: str, turn: int) -> tuple[float, ...]:
     stream = random.Random(f"{seed}/{turn}")
@@ -142,7 +174,7 @@ def humans(bank: Bank) -> frozenset[str]:
 
 HUMANS = Parts(
     "human",
-    {"frontier": "hrcplan.agents.human:Frontier", "cc-htn": "hrcplan.agents.human:Frontier",
+    {"frontier": "hrcplan.agents.human:Frontier", "cc-htn": "hrcplan.agents.human:CliqueChain",
      "plans": "hrcplan.agents.human:ByPlans"},
     "hrcplan.humans",
 )  # fmt: skip
