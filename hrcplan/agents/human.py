@@ -148,6 +148,27 @@ class CliqueChain(Frontier):
         return found
 
 
+class Scripted(Frontier):
+    """A human who does given steps first, in order, and then goes on with any valid plan.
+
+    A step that is done already is left out; one that cannot be done yet lets the next ones pass.
+
+    Args:
+        bank: The plans.
+        course: What is wanted and when.
+        steps: The steps, as ids of the bank's table.
+    """
+
+    def __init__(self, bank: Bank, course: Course, steps: Sequence[int]) -> None:
+        super().__init__(bank, course)
+        self.steps = tuple(steps)
+
+    def move(self, turn: int, world: int, last: int | None) -> Move:
+        """Return the next step of the script that can be done, else what follows in a plan."""
+        able = self._able(world, self.steps)
+        return Move(able[0]) if able else super().move(turn, world, last)
+
+
 @lru_cache(maxsize=MAX_NETWORKS)
 def _network(graph: PlanGraph) -> Htn:
     return decompose(graph)

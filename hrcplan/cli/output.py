@@ -12,6 +12,8 @@ from hrcplan.errors import PddlError
 from hrcplan.files import write_atomically as write_atomically
 from hrcplan.pddl.model import Number
 
+FILE_WIDTH = 160  # characters of a table that goes to a file or a program
+
 DEBUG = False
 JSON = False
 VERBOSE = False
@@ -44,6 +46,18 @@ def document(value: Mapping[str, Any]) -> None:
 def result(text: str) -> None:
     """Print a result in words on stdout."""
     click.echo(text)
+
+
+def table(made: Any) -> None:
+    """Print a table of rich on stdout; in colour only where that is shown."""
+    from rich.console import Console
+
+    console = Console(highlight=False)
+    if not console.is_terminal:
+        console.width = FILE_WIDTH
+    with console.capture() as text:
+        console.print(made)
+    click.echo("\n".join(line.rstrip() for line in text.get().splitlines()))
 
 
 def say(text: str) -> None:

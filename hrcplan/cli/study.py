@@ -10,7 +10,7 @@ from typing import Any
 
 import rich_click as click
 
-from hrcplan.cli import output
+from hrcplan.cli import output, play
 
 
 @click.group("study", context_settings={"help_option_names": ["-h", "--help"]})
@@ -18,33 +18,45 @@ def command() -> None:
     """Run a study of one of the papers, and report on it."""
 
 
+command.add_command(play.command)
+
+
 @command.command("run")
 @click.argument("name", metavar="NAME")
-@click.option("--runs", type=click.IntRange(1), default=1000, show_default=True, metavar="N",
-              help="Runs per case and method.")  # fmt: skip
+@click.option("--runs", type=click.IntRange(1), metavar="N",
+              help="Runs per cell; by default 1000, or all pairs of goals thrice.")  # fmt: skip
 @click.option("--seed", type=int, default=0, show_default=True, metavar="N",
               help="From which everything random is derived.")  # fmt: skip
 @click.option("--jobs", type=click.IntRange(1), default=lambda: len(os.sched_getaffinity(0)),
               show_default="all processors", metavar="N", help="Worker processes.")  # fmt: skip
 @click.option("--limit", type=click.IntRange(1), metavar="N",
-              help="Only N episodes, spread evenly over cases and methods.")  # fmt: skip
+              help="Only N episodes, spread evenly over cells.")  # fmt: skip
 @click.option("--domain", metavar="DOMAIN", help="Another domain than the paper's.")
-@click.option("--problem", metavar="PROBLEM", help="Another problem than the paper's.")
+@click.option("--problem", metavar="PROBLEM",
+              help="Another problem than the paper's (failure-anticipation).")  # fmt: skip
+@click.option("--goals", metavar="GOALS", help="A folder of goals (changed-mind).")
+@click.option("--method", "methods", multiple=True, metavar="NAME",
+              help="Only this method, or also yours as module:Class (changed-mind).")  # fmt: skip
+@click.option("--human", "humans", multiple=True, metavar="NAME",
+              help="Only this human, or also yours as module:Class (changed-mind).")  # fmt: skip
+@click.option("--chooser", metavar="NAME",
+              help="How humans choose: frontier, cc-htn, plans (changed-mind).")  # fmt: skip
+@click.option("--world", metavar="NAME", help="simulated or pddlgym (changed-mind).")
 @click.option("-o", "--output", "folder", required=True, metavar="DIR",
               type=click.Path(file_okay=False, path_type=Path),
               help="Folder of the rows; what it has already is not run again.")  # fmt: skip
 @output.common_options
 def run(
-    name: str, runs: int, seed: int, jobs: int, limit: int | None, domain: str | None,
-    problem: str | None, folder: Path,
+    name: str, runs: int | None, seed: int, jobs: int, limit: int | None, folder: Path,
+    methods: tuple[str, ...], humans: tuple[str, ...], **options: str | None,
 ) -> int:  # fmt: skip
-    """Run the study NAME (failure-anticipation): one row per episode into DIR/rows.sqlite.
+    """Run the study NAME (failure-anticipation, changed-mind): one row per episode into DIR.
 
     A run that was stopped or killed goes on when it is called again; more runs extend it.
     """
     from hrcplan.studies import run_study
 
-    options = {"domain": domain, "problem": problem}
+    options |= {"methods": ",".join(methods) or None, "humans": ",".join(humans) or None}
     with _bar() as progress:
         n_new = run_study(
             name, folder, runs=runs, seed=seed, jobs=jobs, limit=limit, options=options,

@@ -1,0 +1,91 @@
+"""``hrcplan study play``: a scripted episode with several methods side by side."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import rich_click as click
+
+from hrcplan.cli import output
+
+if TYPE_CHECKING:
+    from hrcplan.studies.changed_mind.script import Episode, Told
+
+
+@click.command("play")
+@click.argument("script", metavar="SCRIPT")
+@click.option("--method", "methods", multiple=True, metavar="NAME",
+              help="A method, or module:Class; repeatable. By default the script's.")  # fmt: skip
+@click.option("--why", "show_why", is_flag=True, help="Also say what the robot weighed.")
+@output.common_options
+def command(script: str, methods: tuple[str, ...], show_why: bool) -> int:
+    """Play the scripted episode SCRIPT (golden, or a TOML file), with each method in turn.
+
+    The human does the same steps; beside each step of the robot stand the goals that it thinks
+    likeliest after it.
+    """
+    from hrcplan.studies.changed_mind import script as scripts
+
+    found = scripts.read(script)
+    played = scripts.episodes(found, methods)
+    if output.JSON:
+        output.document(scripts.as_json(found, played))
+        return 0
+    output.result(str(found.get("title", script)))
+    output.table(_side_by_side(played))
+    if show_why:
+        for episode in played:
+            output.result("\n".join(_reasons(episode)))
+    return 0
+
+
+def _side_by_side(played: Sequence[Episode]) -> Any:
+    """Return a table with a row per turn and a column per method."""
+    from rich.table import Table
+
+    made = Table(box=None, padding=(0, 2, 0, 0), header_style="bold")
+    made.add_column("t", justify="right")
+    made.add_column("goal", no_wrap=True)
+    for episode in played:
+        made.add_column(episode.method, no_wrap=True)
+    for t in range(max(len(episode.turns) for episode in played)):
+        turns = [e.turns[t] if t < len(e.turns) else None for e in played]
+        goal = next(turn.goal for turn in turns if turn is not None)
+        last = next((e.turns[t - 1].goal for e in played if 0 < t <= len(e.turns)), None)
+        made.add_row(str(t), "" if goal == last else goal, *map(_cell, turns))
+    return made
+
+
+def _cell(turn: Told | None) -> str:
+    if turn is None:
+        return ""
+    action = (turn.action or "waits").strip("()")
+    if turn.agent == "human":
+        return f"[dim]human[/] {action}"
+    mark = "" if turn.is_needed or turn.action is None else " [red]not needed[/]"
+    goals = "\n".join(_believed(goal, p, goal == turn.goal) for goal, p in turn.top)
+    return f"[bold]robot {action}[/]{mark}\n{goals}"
+
+
+def _believed(goal: str, probability: float, is_right: bool) -> str:
+    line = f"{probability:4.0%} {goal}"
+    return f"      [green]{line} ✓[/]" if is_right else f"      {line}"
+
+
+def _reasons(episode: Episode) -> list[str]:
+    """Return what a method weighed before each step of the robot."""
+    lines = ["", f"{episode.method}: what the robot weighed"]
+    for turn in episode.turns:
+        if turn.why is None:
+            continue
+        believed = ", ".join(f"{goal} {p:.0%}" for goal, p in turn.why.goals)
+        lines.append(f"  {turn.t:3d}  believes {believed}")
+        for c in turn.why.candidates:
+            mark = "->" if c.action == turn.action else "  "
+            helps = ", ".join(goal for goal, _ in c.helps)
+            lines.append(
+                f"       {mark} {c.action:28} value {c.value:6.2f}, saves {c.saves:5.2f} steps, "
+                f"for {helps}"
+            )
+    return lines

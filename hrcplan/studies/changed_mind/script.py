@@ -1,0 +1,163 @@
+"""Scripted episodes: the same human before several robots, told turn by turn.
+
+A script is a TOML file; ``golden.toml`` beside this file is one, with comments.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from hrcplan.agents.human import Course, Scripted
+from hrcplan.assistance import Why, why
+from hrcplan.bank import Bank
+from hrcplan.errors import InputError
+from hrcplan.execution.turns import Turn, play
+from hrcplan.studies.changed_mind import scenario
+
+SHIPPED = ("golden",)
+TOP = 3
+_NEEDED = ("domain", "wanted", "change_turns", "human", "methods")
+
+
+@dataclass(frozen=True, slots=True)
+class Told:
+    """One turn of a scripted episode: what was done, and what the robot thinks after it.
+
+    ``top`` are the likeliest goals with their probabilities; ``why`` says what the robot weighed
+    before its own step, where its method can say that.
+    """
+
+    t: int
+    agent: str
+    action: str | None
+    goal: str
+    is_needed: bool
+    top: tuple[tuple[str, float], ...]
+    n_declared: int
+    why: Why | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Episode:
+    """A scripted episode with one method, from its first turn to its last."""
+
+    method: str
+    turns: tuple[Told, ...]
+    ending: str
+
+
+def read(name: str) -> Mapping[str, Any]:
+    """Return a script: a shipped one by its name, or a file.
+
+    Raises:
+        InputError: if it is missing or is not a script.
+    """
+    path = scenario.HERE / f"{name}.toml" if name in SHIPPED else Path(name)
+    try:
+        found = tomllib.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        message, hint = f"cannot read '{name}': {error.strerror}", f"shipped: {', '.join(SHIPPED)}"
+        raise InputError(message, code="no-file", path=name, hint=hint) from None
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputError(f"not TOML: {error}", code="bad-script", path=name) from None
+    if missing := [key for key in _NEEDED if key not in found]:
+        raise InputError(f"the script lacks '{missing[0]}'", code="bad-script", path=name)
+    if len(found["wanted"]) != len(found["change_turns"]) + 1:
+        message = "change_turns has one number less than wanted has goals"
+        raise InputError(message, code="bad-script", path=name)
+    return found
+
+
+def episodes(script: Mapping[str, Any], methods: Sequence[str] = ()) -> list[Episode]:
+    """Return the episodes of a script, one for each method.
+
+    Args:
+        script: What ``read`` returns.
+        methods: Names of methods, if not those that the script names.
+
+    Raises:
+        UsageError: if there is no such method or goal.
+        InputError: if the script names a step that there is not.
+    """
+    task = str(script["domain"]), str(script.get("goals", ""))
+    bank = scenario.bank_of(*task)
+    wanted = tuple(bank.goal_index(goal) for goal in script["wanted"])
+    course = Course(wanted, tuple(script["change_turns"]), seed=str(script.get("seed", "")))
+    steps = [_step(bank, text) for text in script["human"]]
+    chosen = methods or script["methods"]
+    robots = {method: scenario.robot(method, *task) for method in chosen}
+    return [_played(name, robot, bank, course, steps) for name, robot in robots.items()]
+
+
+def _step(bank: Bank, text: str) -> int:
+    found = bank.table.find(text.strip().strip("()").lower().split())
+    if found is None:
+        raise InputError(f"there is no step '{text}'", code="unknown-step")
+    return found
+
+
+def _played(name: str, robot: Any, bank: Bank, course: Course, steps: Sequence[int]) -> Episode:
+    told: list[Told] = []
+    state = robot.start()
+
+    def watch(turn: Turn, after: Any) -> None:
+        nonlocal state
+        # A robot that is told the goal has no reasons of its own.
+        can_say = not turn.is_human and hasattr(robot, "options")
+        told.append(_told(turn, robot, bank, after, why(robot, state) if can_say else None))
+        state = after
+
+    record = play(bank, Scripted(bank, course, steps), robot, course, watch=watch)
+    return Episode(name, tuple(told), record.ending)
+
+
+def _told(turn: Turn, robot: Any, bank: Bank, state: Any, reasons: Why | None) -> Told:
+    posterior = robot.posterior(state)
+    order = sorted(range(len(posterior)), key=lambda goal: -posterior[goal])[:TOP]
+    return Told(
+        turn.t,
+        "human" if turn.is_human else "robot",
+        None if turn.step is None else str(bank.table[turn.step]),
+        bank.names[turn.goal],
+        turn.is_needed,
+        tuple((bank.names[goal], float(posterior[goal])) for goal in order),
+        int(getattr(state, "n_declared", 0)),
+        reasons,
+    )
+
+
+def as_json(script: Mapping[str, Any], found: Sequence[Episode]) -> dict[str, Any]:
+    """Return the document of ``study play``."""
+    return {
+        "title": script.get("title", ""),
+        "wanted": list(script["wanted"]),
+        "episodes": [
+            {"method": e.method, "ending": e.ending, "turns": list(_turns(e))} for e in found
+        ],
+    }
+
+
+def _turns(episode: Episode) -> Iterator[dict[str, Any]]:
+    for turn in episode.turns:
+        reasons = turn.why
+        yield {
+            "t": turn.t,
+            "agent": turn.agent,
+            "action": turn.action,
+            "goal": turn.goal,
+            "needed": turn.is_needed,
+            "top": [{"goal": goal, "probability": p} for goal, p in turn.top],
+            "declared": turn.n_declared,
+            "why": None if reasons is None else {
+                "goals": [{"goal": goal, "probability": p} for goal, p in reasons.goals],
+                "candidates": [
+                    {"action": c.action, "value": c.value, "saves": c.saves,
+                     "helps": [goal for goal, _ in c.helps]}
+                    for c in reasons.candidates
+                ],
+            },
+        }  # fmt: skip
