@@ -124,15 +124,20 @@ class Bank:
         Raises:
             LimitError: if time or memory runs out.
         """
+        node = self.node(goal, state)
+        if node is not None:
+            return self.graphs[goal], node
+        other = self.reroot(goal, state, limits)
+        return other, 0 if other.n_nodes else None
+
+    def node(self, goal: int, state: int) -> int | None:
+        """Return the node of a goal's own graph that a state is at; None if it is off the graph."""
         graph = self.graphs[goal]
         node = graph.node_of(state)
         if node is None and self._fleeting[goal] and not self.goals.is_reached(goal, state):
             found = map(graph.node_of, _variants(state, self._fleeting[goal]))
             node = next((n for n in found if n is not None and not graph.is_goal[n]), None)
-        if node is not None:
-            return graph, node
-        other = self.reroot(goal, state, limits)
-        return other, 0 if other.n_nodes else None
+        return node
 
     @cached_property
     def _relevant(self) -> list[tuple[tuple[Op, ...], int]]:

@@ -189,7 +189,7 @@ class Tracker:
         return found
 
     def _find(self, goal: int, world: int) -> int:
-        node = self.bank.graphs[goal].node_of(world)
+        node = self.bank.node(goal, world)
         return self.joint.off if node is None else int(self.joint.offsets[goal]) + node
 
     def _follow_off(self, goal: int, place: Off, step: int, world: int) -> Off:
