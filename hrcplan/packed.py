@@ -116,9 +116,7 @@ class Format:
         if view[: len(self.magic)] != self.magic:
             raise self._refusal(shown, f"not-a-{self.noun}", f"is no {self.title}")
         if len(view) < begin:
-            raise self._refusal(
-                shown, f"{self.noun}-truncated", f"is cut short: {len(view)} bytes"
-            )
+            raise self._refusal(shown, f"{self.noun}-truncated", f"is cut short: {len(view)} bytes")
         _, version, _, n_head, n_body = _PREFIX.unpack_from(view)
         if version != self.version:
             message = f"is a {self.noun} of format {version}; this hrcplan reads {self.version}"

@@ -1,8 +1,9 @@
 """Banks in one file, of the format in ``hrcplan.packed``.
 
-The header holds the sources with their hashes, the PDDL itself, the recipe and the goals. The PDDL travels
-along, so that a bank can be used where its sources are not. Where they are, they must be as they
-were: a bank of a domain that has changed would answer wrongly.
+The header holds the sources with their hashes, the PDDL itself, the recipe and the goals.
+
+The PDDL travels along, so that a bank can be used where its sources are not. Where they are, they
+must be as they were: a bank of a domain that has changed would answer wrongly.
 """
 
 from __future__ import annotations
@@ -193,9 +194,7 @@ def _graph_entry(graph: PlanGraph, arrays: Arrays) -> dict[str, Any]:
 
 
 def _graph(entry: Mapping[str, Any], body: memoryview) -> PlanGraph:
-    arrays = {
-        name: array(body, entry["arrays"][name], kind) for name, kind in _ARRAYS.items()
-    }
+    arrays = {name: array(body, entry["arrays"][name], kind) for name, kind in _ARRAYS.items()}
     return PlanGraph(
         goal=entry["name"], packing=Packing(tuple(entry["positions"])),
         layers=tuple((_number(cost), first) for cost, first in entry["layers"]),
