@@ -66,6 +66,8 @@ def array(body: memoryview, entry: Mapping[str, Any], kind: str) -> NDArray[Any]
 def mapped(path: Path) -> memoryview:
     """Return the bytes of a file, in memory that all processes share.
 
+    The file may be removed or replaced by rename in the meantime, but not cut.
+
     Raises:
         OSError: if there is no such file, or it may not be read.
     """

@@ -90,7 +90,9 @@ def _cache() -> dict[str, Any]:
     from hrcplan.files import cache_folder
 
     folder = cache_folder()
-    n_bytes = 0
-    if folder is not None and folder.is_dir():
-        n_bytes = sum(file.stat().st_size for file in folder.rglob("*") if file.is_file())
+    try:
+        files = [] if folder is None else [f for f in folder.rglob("*") if f.is_file()]
+        n_bytes = sum(file.stat().st_size for file in files)
+    except OSError:
+        n_bytes = 0
     return {"folder": None if folder is None else str(folder), "bytes": n_bytes}

@@ -21,7 +21,14 @@ from hrcplan.inference.exact import IMPOSSIBLE
 from hrcplan.inference.flat import Rows
 from hrcplan.inference.kept import kept, key_of
 from hrcplan.inference.training import (
-    N_SAMPLES, N_TREES, Classifier, Trained, Training, columns, forest, train,
+    N_SAMPLES,
+    N_TREES,
+    Classifier,
+    Trained,
+    Training,
+    columns,
+    forest,
+    train,
 )  # fmt: skip
 
 MAX_KNOWN = 4096  # rows whose posterior is remembered: someone who looks ahead asks again
