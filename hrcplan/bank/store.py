@@ -16,6 +16,8 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from hrcplan.bank.audit import fault
 from hrcplan.bank.bank import Bank, Recipe
 from hrcplan.bank.goals import SourceFile
@@ -63,12 +65,17 @@ def digest(bank: Bank) -> str:
 
     Where the bank came from and how long it took makes no difference.
     """
-    arrays = Arrays()
-    graphs = [_graph_entry(graph, arrays) for graph in bank.graphs]
     steps = [[bank.table[i].words, bank.table[i].name] for i in range(len(bank.table))]
-    found = hashlib.sha256(json.dumps([bank.agents, bank.names, steps, graphs]).encode())
-    for part in arrays.parts:
-        found.update(part)
+    found = hashlib.sha256(json.dumps([bank.agents, bank.names, steps]).encode())
+    for graph in bank.graphs:
+        arrays = [
+            np.ascontiguousarray(getattr(graph, name), kind) for name, kind in _ARRAYS.items()
+        ]
+        layers = [[str(cost), first] for cost, first in graph.layers]
+        shapes = [one.shape for one in arrays]
+        found.update(json.dumps([graph.packing.positions, layers, shapes]).encode())
+        for one in arrays:
+            found.update(one.data)
     return found.hexdigest()
 
 

@@ -39,7 +39,8 @@ Key = Mapping[str, Any]
 def key_of(bank: Bank, seed: int, n_samples: int, n_trees: int) -> Key:
     """Return everything that a forest depends on."""
     return {
-        "bank": digest(bank), "seed": int(seed), "n_samples": n_samples, "n_trees": n_trees,
+        "bank": digest(bank), "seed": int(seed),
+        "n_samples": int(n_samples), "n_trees": int(n_trees),
         "held_out": HELD_OUT, "min_leaf": MIN_LEAF, "min_split": MIN_SPLIT,
         **{name: metadata.version(name) for name in _PACKAGES},
     }  # fmt: skip

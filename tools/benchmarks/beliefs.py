@@ -165,7 +165,5 @@ def _ahead(
     assert state is not None
     options = rng.permutation(bank.table.applicable(state))[: widths[0]].tolist()
     return [
-        (step, *more)
-        for step in options
-        for more in _ahead(bank, (*done, step), widths[1:], rng)
-    ]  # fmt: skip
+        (step, *more) for step in options for more in _ahead(bank, (*done, step), widths[1:], rng)
+    ]
