@@ -1,4 +1,4 @@
-"""Files that are there completely or not at all."""
+"""Files that are there completely or not at all, and where those go that can be made again."""
 
 from __future__ import annotations
 
@@ -37,3 +37,20 @@ def write_atomically(path: Path, data: str | bytes) -> None:
     except OSError as error:
         reason = error.strerror or str(error)
         raise UsageError(f"cannot write {path}: {reason}", path=str(path)) from None
+
+
+def cache_folder() -> Path | None:
+    """Return the folder for what can be made again; it need not exist.
+
+    That is ``$HRCPLAN_CACHE``, else ``$XDG_CACHE_HOME/hrcplan``, else ``~/.cache/hrcplan``; None if
+    the user has no home.
+    """
+    own, shared = os.environ.get("HRCPLAN_CACHE"), os.environ.get("XDG_CACHE_HOME", "")
+    if own:
+        return Path(own)
+    if os.path.isabs(shared):  # the standard has others ignored
+        return Path(shared) / "hrcplan"
+    try:
+        return Path.home() / ".cache" / "hrcplan"
+    except RuntimeError:
+        return None

@@ -1,15 +1,6 @@
-"""Banks in one file: a short prefix, a JSON header, arrays, and a hash over all of it.
+"""Banks in one file, of the format in ``hrcplan.packed``.
 
-::
-
-    8 bytes  HRCPBANK
-    4 bytes  version of the format
-    4 bytes  zero
-    8 bytes  length of the header
-    8 bytes  length of the arrays
-    32 bytes SHA-256 of the 32 bytes above, the header and the arrays
-    header   JSON: sources with their hashes, the PDDL itself, recipe, goals, where arrays begin
-    arrays   little-endian, each beginning at a multiple of 8
+The header holds the sources with their hashes, the PDDL itself, the recipe and the goals.
 
 The PDDL travels along, so that a bank can be used where its sources are not. Where they are, they
 must be as they were: a bank of a domain that has changed would answer wrongly.
@@ -20,14 +11,12 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-import struct
 from collections.abc import Mapping
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hrcplan.bank.audit import fault
 from hrcplan.bank.bank import Bank, Recipe
@@ -38,14 +27,13 @@ from hrcplan.bank.sources import goals_in
 from hrcplan.bank.steps import StepTable
 from hrcplan.errors import InputError, UsageError
 from hrcplan.files import write_atomically
+from hrcplan.packed import Arrays, Format, array
 from hrcplan.pddl import library
 from hrcplan.pddl.model import Number
 
 MAGIC = b"HRCPBANK"
 VERSION = 1
-_PREFIX = struct.Struct("<8sIIQQ")
-_HASH = hashlib.sha256().digest_size
-_ALIGN = 8
+_FORMAT = Format(MAGIC, VERSION, "bank", "policy bank", "make it with: hrcplan bank build")
 _ARRAYS = {"rows": "<u8", "first": "<i8", "steps": "<i4", "targets": "<i4", "is_goal": "|b1"}
 
 
@@ -56,7 +44,7 @@ def dumps(bank: Bank, folder: Path = Path()) -> bytes:
         bank: The bank.
         folder: Where the file will be: sources are named relative to it.
     """
-    arrays = _Arrays()
+    arrays = Arrays()
     graphs = [_graph_entry(graph, arrays) for graph in bank.graphs]
     header = {
         "domain": bank.goals.problem.domain.name,
@@ -69,11 +57,26 @@ def dumps(bank: Bank, folder: Path = Path()) -> bytes:
         "goals": graphs,
         "names": list(bank.names),
     }
-    head = json.dumps(header, ensure_ascii=False, separators=(",", ":")).encode()
-    head += b" " * (-len(head) % _ALIGN)
-    body = b"".join(arrays.parts)
-    prefix = _PREFIX.pack(MAGIC, VERSION, 0, len(head), len(body))
-    return prefix + hashlib.sha256(prefix + head + body).digest() + head + body
+    return _FORMAT.packed(header, arrays)
+
+
+def digest(bank: Bank) -> str:
+    """Return a hash, in hex, of what a bank holds: its goals, steps and plans.
+
+    Where the bank came from and how long it took makes no difference.
+    """
+    steps = [[bank.table[i].words, bank.table[i].name] for i in range(len(bank.table))]
+    found = hashlib.sha256(json.dumps([bank.agents, bank.names, steps]).encode())
+    for graph in bank.graphs:
+        arrays = [
+            np.ascontiguousarray(getattr(graph, name), kind) for name, kind in _ARRAYS.items()
+        ]
+        layers = [[str(cost), first] for cost, first in graph.layers]
+        shapes = [one.shape for one in arrays]
+        found.update(json.dumps([graph.packing.positions, layers, shapes]).encode())
+        for one in arrays:
+            found.update(one.data)
+    return found.hexdigest()
 
 
 def save(bank: Bank, path: str | Path) -> None:
@@ -94,7 +97,7 @@ def load(path: str | Path) -> Bank:
             PDDL it was made from has changed.
     """
     shown = str(path)
-    header, body = _open(_read(path), shown)
+    header, body = _FORMAT.unpacked(_read(path), shown)
     try:
         folder = Path(path).resolve().parent
         files = tuple(_source(entry, folder, shown) for entry in header["sources"])
@@ -135,34 +138,6 @@ def _read(path: str | Path) -> bytes:
     except OSError as error:
         message = f"cannot read '{shown}': {error.strerror or error}"
         raise InputError(message, code="no-file", path=shown) from None
-
-
-def _open(data: bytes, shown: str) -> tuple[dict[str, Any], memoryview]:
-    """Return header and arrays, once everything that can be checked without PDDL is."""
-
-    def refuse(code: str, message: str) -> InputError:
-        hint = "make it with: hrcplan bank build"
-        return InputError(f"'{shown}' {message}", code=code, path=shown, hint=hint)
-
-    if not data.startswith(MAGIC):
-        raise refuse("not-a-bank", "is no policy bank")
-    begin = _PREFIX.size + _HASH
-    if len(data) < begin:
-        raise refuse("bank-truncated", f"is cut short: {len(data)} bytes")
-    _, version, _, n_head, n_body = _PREFIX.unpack_from(data)
-    if version != VERSION:
-        raise refuse("bank-version", f"is a bank of format {version}; this hrcplan reads {VERSION}")
-    if len(data) != begin + n_head + n_body:
-        raise refuse(
-            "bank-truncated", f"has {len(data)} bytes instead of {begin + n_head + n_body}"
-        )
-    view = memoryview(data)
-    digest = hashlib.sha256(view[: _PREFIX.size])
-    digest.update(view[begin:])
-    if digest.digest() != data[_PREFIX.size : begin]:
-        raise refuse("bank-damaged", "is damaged: its checksum is wrong")
-    header: dict[str, Any] = json.loads(data[begin : begin + n_head])
-    return header, view[begin + n_head :]
 
 
 # Sources.
@@ -214,23 +189,7 @@ def _recipe(entry: Mapping[str, Any]) -> Recipe:
     )  # fmt: skip
 
 
-class _Arrays:
-    """Arrays one after the other, each beginning at a multiple of 8."""
-
-    def __init__(self) -> None:
-        self.parts: list[bytes] = []
-        self.n_bytes = 0
-
-    def add(self, array: NDArray[Any], kind: str) -> dict[str, Any]:
-        """Take in an array and return where it is."""
-        data = np.ascontiguousarray(array, dtype=kind).tobytes()
-        entry = {"at": self.n_bytes, "shape": list(array.shape)}
-        self.parts.append(data + b"\0" * (-len(data) % _ALIGN))
-        self.n_bytes += len(self.parts[-1])
-        return entry
-
-
-def _graph_entry(graph: PlanGraph, arrays: _Arrays) -> dict[str, Any]:
+def _graph_entry(graph: PlanGraph, arrays: Arrays) -> dict[str, Any]:
     return {
         "name": graph.goal,
         "plans": str(graph.plans),
@@ -242,16 +201,11 @@ def _graph_entry(graph: PlanGraph, arrays: _Arrays) -> dict[str, Any]:
 
 
 def _graph(entry: Mapping[str, Any], body: memoryview) -> PlanGraph:
-    def array(name: str) -> NDArray[Any]:
-        place = entry["arrays"][name]
-        size = int(np.prod(place["shape"], dtype=np.int64))
-        found = np.frombuffer(body, dtype=_ARRAYS[name], count=size, offset=place["at"])
-        return found.reshape(place["shape"])
-
+    arrays = {name: array(body, entry["arrays"][name], kind) for name, kind in _ARRAYS.items()}
     return PlanGraph(
-        entry["name"], Packing(tuple(entry["positions"])), array("rows"),
-        tuple((_number(cost), first) for cost, first in entry["layers"]), array("first"),
-        array("steps"), array("targets"), array("is_goal"), entry["complete"],
+        goal=entry["name"], packing=Packing(tuple(entry["positions"])),
+        layers=tuple((_number(cost), first) for cost, first in entry["layers"]),
+        complete=entry["complete"], **arrays,
     )  # fmt: skip
 
 

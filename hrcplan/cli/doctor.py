@@ -27,6 +27,7 @@ def command() -> int:
         "python": platform.python_version(),
         "platform": platform.platform(),
         "java": _java(),
+        "cache": _cache(),
         "packages": {name: _version(name) for name in PACKAGES},
         "planners": {name: _state(why) for name, why in planners.items()},
         "engines": {name: _state(why) for name, why in _engines().items()},
@@ -43,6 +44,8 @@ def _print(health: dict[str, Any]) -> None:
     output.result(
         f"java: {health['java'] or 'not found; install hrcplan[java], or a Java runtime'}"
     )
+    cache = health["cache"]
+    output.result(f"cache: {cache['folder'] or 'none'}, {cache['bytes'] / 1e6:.1f} MB")
     output.result("\npackages")
     for name, version in health["packages"].items():
         output.result(f"  {name:18} {version or '-'}")
@@ -81,3 +84,15 @@ def _java() -> str | None:
 
     java = find_java()
     return None if java is None else str(java)
+
+
+def _cache() -> dict[str, Any]:
+    from hrcplan.files import cache_folder
+
+    folder = cache_folder()
+    try:
+        files = [] if folder is None else [f for f in folder.rglob("*") if f.is_file()]
+        n_bytes = sum(file.stat().st_size for file in files)
+    except OSError:
+        n_bytes = 0
+    return {"folder": None if folder is None else str(folder), "bytes": n_bytes}

@@ -76,6 +76,20 @@ def weights_to_posterior(weights: Floats) -> Floats:
         return normalized(np.log(weights))
 
 
+def weights_to_posteriors(weights: Floats) -> Floats:
+    """Return rows of weights, each as ``weights_to_posterior`` does it.
+
+    >>> weights_to_posteriors(np.array([[1.0, 3.0], [0.0, 0.0]])).round(6).tolist()
+    [[0.25, 0.75], [0.5, 0.5]]
+    """
+    with np.errstate(divide="ignore"):
+        logs = np.log(np.where(weights.any(axis=1, keepdims=True), weights, 1))
+    shares = np.exp((logs - logs.max(axis=1, keepdims=True)).round(ROUNDED))
+    totals = [math.fsum(row) for row in shares.tolist()]
+    found: Floats = shares / np.array(totals)[:, None]
+    return found
+
+
 def batch(belief: Belief[S], steps: Sequence[int], robot: Sequence[bool] = ()) -> list[Floats]:
     """Return the posterior before and after each of several steps.
 

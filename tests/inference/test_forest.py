@@ -1,12 +1,17 @@
 """The forest, and how near it comes to the best that can be done with the same features."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from hrcplan.bank import build
+from hrcplan.errors import UsageError
 from hrcplan.inference import batch
 from hrcplan.inference.ceiling import Ceiling
-from hrcplan.inference.forest import Flat, Forest
+from hrcplan.inference.flat import Flat
+from hrcplan.inference.forest import MAX_KNOWN, Forest
+from hrcplan.inference.training import columns, prefixes
 
 MEALS = 10
 SAMPLES = 12_000
@@ -23,7 +28,7 @@ def forest(some):
 
 
 @pytest.fixture(scope="module")
-def prefixes(some):
+def begun(some):
     rng = np.random.default_rng(2)
     found = []
     for goal in range(MEALS):
@@ -32,21 +37,91 @@ def prefixes(some):
     return found
 
 
-def test_one_row_through_flat_trees_is_what_scikit_learn_says(forest):
-    rows, _ = forest.prefixes(200, np.random.default_rng(3))
-    expected = forest.predict(rows)
-    flat = Flat(forest._model)
-    for row, probabilities in zip(rows, expected, strict=True):
-        assert flat.predict(row).tolist() == pytest.approx(probabilities.tolist(), abs=1e-6)
+@pytest.fixture(scope="module", params=["workshop", "hall"])
+def small(request):
+    """A bank, a classifier of scikit-learn trained on it, and the same as arrays."""
+    from sklearn.ensemble import RandomForestClassifier
+
+    bank = request.getfixturevalue(request.param)
+    rows, goals = prefixes(bank, 1500, np.random.default_rng(8))
+    classifier = RandomForestClassifier(30, min_samples_leaf=2, random_state=3).fit(rows, goals)
+    return bank, classifier, Flat.of(classifier)
 
 
-def test_accuracy_is_near_the_ceiling_and_not_above_it(some, forest, prefixes):
-    plans, goals = zip(*prefixes, strict=True)
+def test_rows_through_arrays_are_what_scikit_learn_says(small):
+    _, classifier, flat = small
+    n_features = classifier.n_features_in_
+    density = np.random.default_rng(3).random((400, 1))
+    rows = (np.random.default_rng(4).random((400, n_features)) < density).astype(np.uint8)
+    expected = classifier.predict_proba(rows)
+    assert np.abs(flat.predict_proba(rows) - expected).max() < 1e-6
+    assert expected.std() > 0.1
+
+
+def test_a_row_has_the_same_probabilities_in_any_company(small):
+    """To the last bit: nothing that is computed in a batch may differ from one by one."""
+    _, classifier, flat = small
+    rows = np.random.default_rng(5).integers(0, 2, (2500, classifier.n_features_in_), np.uint8)
+    together = flat.predict_proba(rows)
+    for i in range(0, len(rows), 101):
+        assert flat.predict_proba(rows[i : i + 1])[0].tolist() == together[i].tolist()
+    assert flat.predict_proba(rows[::-1])[::-1].tolist() == together.tolist()
+    assert flat.predict_proba(rows[:0]).shape == (0, len(classifier.classes_))
+
+
+def test_a_forest_of_bare_roots():
+    from sklearn.ensemble import RandomForestClassifier
+
+    rows = np.zeros((4, 2), dtype=np.uint8)
+    classifier = RandomForestClassifier(3, random_state=0).fit(rows, [0, 1, 1, 1])
+    flat = Flat.of(classifier)
+    assert flat.predict_proba(rows) == pytest.approx(classifier.predict_proba(rows))
+
+
+def test_extensions_are_observations_one_after_the_other(some, forest, walk):
+    rng = np.random.default_rng(6)
+    state = forest.start()
+    for step in walk(some, 3, 5):
+        state = forest.observe(state, step)
+    after = {}
+    for _ in range(60):
+        steps, later = [], state
+        for _ in range(rng.integers(0, 4)):
+            steps.append(int(rng.choice(some.table.applicable(later.world))))
+            later = forest.observe(later, steps[-1])
+        after[tuple(steps)] = forest.posterior(later).tolist()
+    fresh = Forest(some, seed=1, n_samples=SAMPLES, n_trees=40)
+    assert fresh.extended(state.row, list(after)).tolist() == list(after.values())
+    assert fresh.extended(state.row, []).shape == (0, MEALS)
+    assert not state.row[columns(some)[list(after)[-1]]].all()  # the row itself stays
+
+
+def test_many_rows_are_posteriors_and_only_some_are_remembered(forest):
+    rows = np.random.default_rng(7).integers(0, 2, (MAX_KNOWN + 300, forest.n_labels), np.uint8)
+    rows[1], rows[2] = rows[0], 0
+    found = forest.many(rows)
+    assert found[0].tolist() == found[1].tolist()
+    assert found[2].tolist() == [1 / MEALS] * MEALS
+    assert len(forest._known) == MAX_KNOWN
+    assert found.sum(axis=1) == pytest.approx(np.ones(len(rows)))
+    assert forest.many(rows).tolist() == found.tolist()
+    with pytest.raises(UsageError, match="labels"):
+        forest.many(rows[:, 1:])
+
+
+def test_no_plans_no_forest(some):
+    none = some.reroot(0, 0)  # from nowhere
+    with pytest.raises(UsageError, match="no goal has a plan"):
+        Forest(replace(some, graphs=(none,) * MEALS))
+
+
+def test_accuracy_is_near_the_ceiling_and_not_above_it(some, forest, begun):
+    plans, goals = zip(*begun, strict=True)
     best = Ceiling(some).accuracy(plans, goals)
     right = 0
-    for plan, goal in prefixes:
+    for plan, goal in begun:
         right += int(batch(forest, plan)[-1].argmax()) == goal
-    assert best - 0.03 <= right / len(prefixes) <= best + 0.01
+    assert best - 0.03 <= right / len(begun) <= best + 0.01
     assert forest.training.accuracy == pytest.approx(best, abs=0.04)
 
 
@@ -68,21 +143,22 @@ def test_the_ceiling_is_bayes_over_listed_prefixes(workshop, brute):
 
 
 def test_same_seed_same_forest_whatever_the_jobs(some):
-    one = Forest(some, seed=5, n_samples=1000, n_trees=8)
-    two = Forest(some, seed=5, n_samples=1000, n_trees=8, n_jobs=2)
-    rows, _ = one.prefixes(100, np.random.default_rng(4))
-    assert np.abs(one.predict(rows) - two.predict(rows)).max() < 1e-12  # sums in another order
+    one, two, other = (
+        Forest(some, seed=seed, n_samples=1000, n_trees=8, n_jobs=n_jobs, cache=False)
+        for seed, n_jobs in ((5, 1), (5, 2), (6, 1))
+    )
+    rows, _ = prefixes(some, 100, np.random.default_rng(4))
+    assert one.many(rows).tolist() == two.many(rows).tolist()
     assert one.training.accuracy == two.training.accuracy
-    other = Forest(some, seed=6, n_samples=1000, n_trees=8)
-    assert np.abs(one.predict(rows) - other.predict(rows)).max() > 0.01
+    assert np.abs(one.many(rows) - other.many(rows)).max() > 0.01
 
 
-def test_any_classifier_can_be_plugged_in(some, prefixes):
+def test_any_classifier_can_be_plugged_in(some, begun):
     from sklearn.naive_bayes import BernoulliNB
 
     belief = Forest(some, n_samples=4000, classifier=BernoulliNB())
-    right = sum(int(batch(belief, plan)[-1].argmax()) == goal for plan, goal in prefixes[::5])
-    assert right / len(prefixes[::5]) > 0.8
+    right = sum(int(batch(belief, plan)[-1].argmax()) == goal for plan, goal in begun[::5])
+    assert right / len(begun[::5]) > 0.8
     assert belief.training.n_held_out == 800
 
 

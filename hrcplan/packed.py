@@ -1,0 +1,138 @@
+"""Arrays in one file: a short prefix, a JSON header, arrays, and a hash over all of it.
+
+::
+
+    8 bytes  magic
+    4 bytes  version of the format
+    4 bytes  zero
+    8 bytes  length of the header
+    8 bytes  length of the arrays
+    32 bytes SHA-256 of the 32 bytes above, the header and the arrays
+    header   JSON: whatever the file is about, and where arrays begin
+    arrays   little-endian, each beginning at a multiple of 8
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import mmap
+import struct
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hrcplan.errors import InputError
+
+_PREFIX = struct.Struct("<8sIIQQ")
+_HASH = hashlib.sha256().digest_size
+_ALIGN = 8
+
+
+class Arrays:
+    """Arrays one after the other, each beginning at a multiple of 8.
+
+    >>> arrays = Arrays()
+    >>> arrays.add(np.arange(3), "<i4"), arrays.add(np.eye(2), "<f4")
+    ({'at': 0, 'shape': [3]}, {'at': 16, 'shape': [2, 2]})
+    >>> array(memoryview(b"".join(arrays.parts)), {"at": 16, "shape": [2, 2]}, "<f4").tolist()
+    [[1.0, 0.0], [0.0, 1.0]]
+    """
+
+    def __init__(self) -> None:
+        self.parts: list[bytes] = []
+        self.n_bytes = 0
+
+    def add(self, array: NDArray[Any], kind: str) -> dict[str, Any]:
+        """Take in an array and return where it is."""
+        data = np.ascontiguousarray(array, dtype=kind).tobytes()
+        entry = {"at": self.n_bytes, "shape": list(array.shape)}
+        self.parts.append(data + b"\0" * (-len(data) % _ALIGN))
+        self.n_bytes += len(self.parts[-1])
+        return entry
+
+
+def array(body: memoryview, entry: Mapping[str, Any], kind: str) -> NDArray[Any]:
+    """Return an array that was taken in, without a copy."""
+    size = int(np.prod(entry["shape"], dtype=np.int64))
+    found = np.frombuffer(body, dtype=kind, count=size, offset=entry["at"])
+    return found.reshape(entry["shape"])
+
+
+def mapped(path: Path) -> memoryview:
+    """Return the bytes of a file, in memory that all processes share.
+
+    The file may be removed or replaced by rename in the meantime, but not cut.
+
+    Raises:
+        OSError: if there is no such file, or it may not be read.
+    """
+    with path.open("rb") as file:
+        if not file.seek(0, 2):  # nothing cannot be mapped
+            return memoryview(b"")
+        return memoryview(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ))
+
+
+@dataclass(frozen=True, slots=True)
+class Format:
+    """One kind of such files; ``noun`` and ``title`` say in errors what it is, ``hint`` how to.
+
+    >>> toys = Format(b"TOYSTOYS", 1, "toy", "box of toys", "buy one")
+    >>> toys.unpacked(toys.packed({"n": 2}, Arrays()), "a file")[0]
+    {'n': 2}
+    >>> toys.unpacked(b"TOY", "a file")
+    Traceback (most recent call last):
+    ...
+    hrcplan.errors.InputError: 'a file' is no box of toys
+    """
+
+    magic: bytes
+    version: int
+    noun: str
+    title: str
+    hint: str
+
+    def packed(self, header: Mapping[str, Any], arrays: Arrays) -> bytes:
+        """Return header and arrays as the bytes of a file."""
+        head = json.dumps(header, ensure_ascii=False, separators=(",", ":")).encode()
+        head += b" " * (-len(head) % _ALIGN)
+        body = b"".join(arrays.parts)
+        prefix = _PREFIX.pack(self.magic, self.version, 0, len(head), len(body))
+        return prefix + hashlib.sha256(prefix + head + body).digest() + head + body
+
+    def unpacked(self, data: bytes | memoryview, shown: str) -> tuple[dict[str, Any], memoryview]:
+        """Return header and arrays, once everything that can be checked here is.
+
+        Args:
+            data: The bytes of a file.
+            shown: What errors call it.
+
+        Raises:
+            InputError: if it is none of this kind, of another version, cut short or damaged.
+        """
+        view, begin = memoryview(data), _PREFIX.size + _HASH
+        if view[: len(self.magic)] != self.magic:
+            raise self._refusal(shown, f"not-a-{self.noun}", f"is no {self.title}")
+        if len(view) < begin:
+            raise self._refusal(shown, f"{self.noun}-truncated", f"is cut short: {len(view)} bytes")
+        _, version, _, n_head, n_body = _PREFIX.unpack_from(view)
+        if version != self.version:
+            message = f"is a {self.noun} of format {version}; this hrcplan reads {self.version}"
+            raise self._refusal(shown, f"{self.noun}-version", message)
+        if len(view) != begin + n_head + n_body:
+            message = f"has {len(view)} bytes instead of {begin + n_head + n_body}"
+            raise self._refusal(shown, f"{self.noun}-truncated", message)
+        digest = hashlib.sha256(view[: _PREFIX.size])
+        digest.update(view[begin:])
+        if digest.digest() != view[_PREFIX.size : begin]:
+            message = "is damaged: its checksum is wrong"
+            raise self._refusal(shown, f"{self.noun}-damaged", message)
+        header: dict[str, Any] = json.loads(bytes(view[begin : begin + n_head]))
+        return header, view[begin + n_head :]
+
+    def _refusal(self, shown: str, code: str, message: str) -> InputError:
+        return InputError(f"'{shown}' {message}", code=code, path=shown, hint=self.hint)
