@@ -5,8 +5,7 @@ import sys
 
 import pytest
 
-from hrcplan.agents.human import Course
-from hrcplan.agents.human import Simulated as Human
+from hrcplan.agents.human import Course, Frontier
 from hrcplan.assistance import ASSISTANTS
 from hrcplan.bank import Bank, build, build_bank, from_problems
 from hrcplan.errors import UnsupportedError, UsageError
@@ -57,8 +56,8 @@ def test_the_same_hundred_episodes_in_both_worlds(
             mistake_rate=chance.choice([0.0, 0.1, 0.4]), wait_rate=0.1, seed=str(episode),
         )  # fmt: skip
         robot = robots[episode % 2]
-        here = play(meals, Human(meals, course), robot, course)
-        there = play(meals, Human(meals, course), robot, course, world)
+        here = play(meals, Frontier(meals, course), robot, course)
+        there = play(meals, Frontier(meals, course), robot, course, world)
         assert there.turns == here.turns
         assert there.ending == here.ending
         endings.append(here.ending)
