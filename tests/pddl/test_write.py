@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hrcplan.errors import UnsupportedError
+from hrcplan.execution.worlds.gym import environment, named
 from hrcplan.facade import load_problem
 from hrcplan.pddl import library
 from hrcplan.pddl.check import load_domain
@@ -164,25 +165,14 @@ def test_binary_sums_mean_the_same(odd: Problem) -> None:
     assert metric.startswith("(- (- (* 0.17 (total-time)) (total-cost)) (/ (mood ann) 7))")
 
 
-def test_pddlgym_reads_the_kitchen_without_costs(tmp_path: Path) -> None:
+def test_pddlgym_reads_the_kitchen_without_costs() -> None:
     """The second simulator: it knows type hierarchies, but no numbers."""
-    core = pytest.importorskip("pddlgym.core", reason="pddlgym needs Python < 3.12")
+    pytest.importorskip("pddlgym.core", reason="pddlgym needs Python < 3.12")
     problem = load_problem("kitchen", library.problem_names("kitchen")[0])
-    (tmp_path / "domain.pddl").write_text(domain_text(problem.domain, strip_costs=True))
-    (tmp_path / "problems").mkdir()
-    (tmp_path / "problems" / "p.pddl").write_text(problem_text(problem, strip_costs=True))
-    env = core.PDDLEnv(
-        str(tmp_path / "domain.pddl"),
-        str(tmp_path / "problems"),
-        operators_as_actions=True,
-        dynamic_action_space=True,
-    )
+    env = environment(problem)
     seen, _ = env.reset()
     assert len(seen.literals) == len(problem.facts)
-    offered = {
-        (str(a.predicate), *(str(v).partition(":")[0] for v in a.variables))
-        for a in env.action_space.all_ground_literals(seen)
-    }
+    offered = set(map(named, env.action_space.all_ground_literals(seen)))
     task = Task(problem)
     ours = {(task.actions[i].name, *task.actions[i].args) for i in task.applicable(task.initial)}
     assert ours <= offered  # pddlgym also offers what changes nothing

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import random
 import sys
-from pathlib import Path
-from typing import Any
 
 import pytest
 
+from hrcplan.execution.worlds.gym import environment, named
 from hrcplan.facade import load_problem
-from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.task import Task
 
 pytestmark = [
@@ -21,24 +19,10 @@ pytestmark = [
 ]
 
 
-def named(literal: Any) -> tuple[str, ...]:
-    return (literal.predicate.name, *(entity.name for entity in literal.variables))
-
-
 @pytest.mark.parametrize("name", ["oatmeal-apple", "smoothie-green", "stew-lentil"])
-def test_random_walk(name: str, tmp_path: Path) -> None:
-    from pddlgym.core import PDDLEnv
-
+def test_random_walk(name: str) -> None:
     problem = load_problem("kitchen", name)
-    (tmp_path / "problems").mkdir()
-    (tmp_path / "domain.pddl").write_text(domain_text(problem.domain, strip_costs=True))
-    (tmp_path / "problems" / "p.pddl").write_text(problem_text(problem, strip_costs=True))
-    world = PDDLEnv(
-        str(tmp_path / "domain.pddl"),
-        str(tmp_path / "problems"),
-        operators_as_actions=True,
-        dynamic_action_space=True,
-    )
+    world = environment(problem)
     task = Task(problem)
     there, _ = world.reset()
     here = task.initial

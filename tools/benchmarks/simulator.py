@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 import random
-import re
 import time
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from functools import partial
+from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
 from rows import Row, interleaved
 
+from hrcplan.execution.worlds.gym import environment
 from hrcplan.facade import load_problem
 from hrcplan.pddl.check import load_domain
 from hrcplan.pddl.check import load_problem as read_problem
-from hrcplan.pddl.model import TOTAL_COST, Condition, Function, Problem
-from hrcplan.pddl.write import domain_text, problem_text
+from hrcplan.pddl.classical import classical, classical_texts
+from hrcplan.pddl.model import Problem
 from hrcplan.task import Task
 
 EPISODE = 50  # steps until the walk starts anew
@@ -72,18 +72,15 @@ def _classical() -> Iterator[tuple[str, Problem]]:
 
 
 def _compare(title: str, problem: Problem) -> Iterator[Row]:
-    bare = _bare(problem)
-    runs: dict[str, Callable[[], float]] = {"ours": partial(_walk, Task(bare))}
-    with TemporaryDirectory() as folder:
-        place = Path(folder)
-        (place / "problems").mkdir()
-        (place / "domain.pddl").write_text(_one_type_each(domain_text(bare.domain)))
-        (place / "problems" / "problem.pddl").write_text(problem_text(bare))
-        runs["unified-planning"] = _unified_planning(place)
-        gym = _pddlgym(place)
-        if gym is not None:
-            runs["pddlgym"] = gym
-        rates = interleaved(runs, N_ROUNDS)
+    bare = classical(problem)
+    runs: dict[str, Callable[[], float]] = {
+        "ours": partial(_walk, Task(bare)),
+        "unified-planning": _unified_planning(*classical_texts(problem)),
+    }
+    gym = _pddlgym(problem)
+    if gym is not None:
+        runs["pddlgym"] = gym
+    rates = interleaved(runs, N_ROUNDS)
     for name, least in (("unified-planning", OVER_UP), ("pddlgym", OVER_GYM)):
         if name in rates:
             ratio = rates["ours"] / rates[name]
@@ -94,49 +91,6 @@ def _compare(title: str, problem: Problem) -> Iterator[Row]:
                 f">= {least} x",
                 ratio < least,
             )
-
-
-def _bare(problem: Problem) -> Problem:
-    """Return a problem as strict STRIPS: costs and durations left out, all at one instant."""
-    actions = tuple(
-        replace(
-            action,
-            durative=False,
-            durations=(),
-            conditions=tuple(Condition("start", c.formula) for c in action.conditions),
-            effects=tuple(
-                replace(effect, when="start")
-                for effect in sorted(action.effects, key=lambda e: e.when == "end")
-                if not isinstance(effect.target, Function)
-            ),
-        )
-        for action in problem.domain.actions
-    )
-    # What is deleted at the start and added at the end is simply there: other readers differ.
-    actions = tuple(
-        replace(action, effects=tuple(e for e in action.effects if not _undone(e, action.effects)))
-        for action in actions
-    )
-    domain = replace(
-        problem.domain, actions=actions, functions={}, requirements=(":strips", ":typing")
-    )
-    assert TOTAL_COST not in domain.functions
-    return replace(problem, domain=domain, values={}, metric=None)
-
-
-def _one_type_each(domain: str) -> str:
-    """Return a domain in which every variable has its own type: pddlgym reads no other."""
-
-    def spread(match: re.Match[str]) -> str:
-        return " ".join(f"{variable} - {match[2]}" for variable in match[1].split())
-
-    return re.sub(r"((?:\?[\w-]+ )+)- ([\w-]+)", spread, domain)
-
-
-def _undone(effect: Any, effects: Any) -> bool:
-    return effect.kind == "delete" and any(
-        other.kind == "add" and other.target == effect.target for other in effects
-    )
 
 
 def _walk(task: Task) -> float:
@@ -151,14 +105,13 @@ def _walk(task: Task) -> float:
     return OURS_N / (time.process_time() - start)
 
 
-def _unified_planning(place: Path) -> Callable[[], float]:
+def _unified_planning(domain: str, problem: str) -> Callable[[], float]:
     from unified_planning.engines.sequential_simulator import UPSequentialSimulator
     from unified_planning.io import PDDLReader
     from unified_planning.shortcuts import get_environment
 
     get_environment().credits_stream = None
-    files = str(place / "domain.pddl"), str(place / "problems" / "problem.pddl")
-    simulator = UPSequentialSimulator(PDDLReader().parse_problem(*files))
+    simulator = UPSequentialSimulator(PDDLReader().parse_problem_string(domain, problem))
 
     def begin() -> Any:
         return simulator.get_initial_state()
@@ -170,17 +123,10 @@ def _unified_planning(place: Path) -> Callable[[], float]:
     return partial(_their_walk, begin, move)
 
 
-def _pddlgym(place: Path) -> Callable[[], float] | None:
-    try:
-        from pddlgym.core import PDDLEnv
-    except ImportError:
+def _pddlgym(problem: Problem) -> Callable[[], float] | None:
+    if find_spec("pddlgym") is None:
         return None  # no wheels of what it needs for this Python
-    world = PDDLEnv(
-        str(place / "domain.pddl"),
-        str(place / "problems"),
-        operators_as_actions=True,
-        dynamic_action_space=True,
-    )
+    world = environment(problem)
 
     def begin() -> Any:
         return world.reset()[0]
