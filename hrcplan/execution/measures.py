@@ -86,13 +86,16 @@ def changes(record: Record) -> Changes:
     delays: list[int] = []
     n_false = n_before = human = 0
     open_since: int | None = None  # the timestep of the true change that awaits declaration
-    known = 0
+    is_new, known = False, 0
     for turn in record.turns:
         if not turn.is_human:
             continue
-        if human in record.course.turns:
-            open_since = turn.t
+        is_new = is_new or human in record.course.turns
         human += 1
+        if turn.step is None:
+            continue  # a wait shows nothing, so no change can be declared after it
+        if is_new:
+            open_since, is_new = turn.t, False
         for _ in range(turn.n_declared - known):
             if open_since is None:
                 n_false += 1

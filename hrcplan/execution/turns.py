@@ -123,14 +123,8 @@ class _Play:
         """Return the record."""
         lengths = [self.bank.graphs[goal].n_steps for goal in self.course.goals]
         most = PATIENCE * sum(lengths) + len(lengths)
-        turn, ending = 0, UNFINISHED
-        while len(self.turns) < most:
-            if self._is_done(turn):
-                ending = REACHED
-                break
-            if self.n_waits > 1 and turn > max(self.course.turns, default=0):
-                ending = STUCK
-                break
+        turn = 0
+        while (ending := self._ending(turn, most)) is None:
             self._human(turn)
             if self._is_done(turn):
                 ending = REACHED
@@ -138,6 +132,23 @@ class _Play:
             self._robot(self.course.goal(turn))
             turn += 1
         return Record(self.course, tuple(self.turns), ending, tuple(self.decisions_ms))
+
+    def _ending(self, turn: int, most: int) -> str | None:
+        """Return how an episode has ended before a turn of the human; None if it goes on."""
+        if self._is_done(turn):
+            return REACHED
+        # Both may wait by choice, and go on afterwards.
+        is_last = turn > max(self.course.turns, default=0)
+        if is_last and self.n_waits > 1 and not self._can_help(turn):
+            return STUCK
+        return UNFINISHED if len(self.turns) >= most else None
+
+    def _can_help(self, turn: int) -> bool:
+        """Return whether the human can do a step that its goal has next."""
+        graph, node = self.bank.locate(self.course.goal(turn), self.state)
+        doer, people = self.bank.table.doer, self.people
+        steps = graph.next(node) if node is not None else ()
+        return any(doer(self.state, step, people) is not None for step in steps)
 
     def _is_done(self, turn: int) -> bool:
         wanted = self.course.goal(turn)

@@ -9,7 +9,14 @@ import numpy as np
 
 from hrcplan.bank import Bank
 from hrcplan.inference.belief import Floats, weights_to_posterior
-from hrcplan.inference.changes import HAZARD, NEVER, Change, ChangeFilter, Filtered
+from hrcplan.inference.changes import (
+    HAZARD,
+    NEVER,
+    SETTLES,
+    Change,
+    ChangeFilter,
+    Filtered,
+)
 from hrcplan.inference.exact import IMPOSSIBLE
 from hrcplan.inference.track import Evidence, Track, Tracker
 
@@ -50,14 +57,16 @@ class Switching:
         hazard: The probability of a change before each human step.
         mistake_rates: Equally likely rates of mistakes p.
         never: The prior probability that the goal never changes.
+        settles: The probability that a goal that was changed to is kept to the end.
     """
 
     def __init__(
         self, bank: Bank, hazard: float = HAZARD,
         mistake_rates: Sequence[float] = MISTAKE_RATES, never: float = NEVER,
+        settles: float = SETTLES,
     ) -> None:  # fmt: skip
         self.tracker = Tracker(bank)
-        self.filter = ChangeFilter(len(bank.names), len(mistake_rates), hazard, never)
+        self.filter = ChangeFilter(len(bank.names), len(mistake_rates), hazard, never, settles)
         self.rates = np.array(mistake_rates)[:, None]
 
     @property

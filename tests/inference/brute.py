@@ -122,21 +122,24 @@ def exact(bank: Bank, steps: Sequence[int], rate: float) -> list[float]:
 
 
 def histories(
-    bank: Bank, steps: Sequence[int], rates: Sequence[float], hazard: float, never: float
-) -> list[tuple[tuple[int, ...], tuple[bool, ...], float]]:
+    bank: Bank, steps: Sequence[int], rates: Sequence[float], hazard: float, never: float,
+    settles: float,
+) -> list[tuple[tuple[int, ...], tuple[bool, ...], float]]:  # fmt: skip
     """Return (goal at each step, changed before it, probability with the observations)."""
     found, n = [], len(bank.names)
     seen = looks(bank, steps)
-    for rate, fixed in product(rates, (True, False)):
-        for goals in product(range(n), repeat=len(steps)):
-            changed = tuple(a != b for a, b in pairwise(goals))
-            if fixed and any(changed):
-                continue
-            weight = (never if fixed else 1 - never) / len(rates) / n
-            for change in changed:
-                if not fixed:
-                    weight *= hazard / (n - 1) if change else 1 - hazard
-            for look, goal in zip(seen, goals, strict=True):
-                weight *= look.policy(goal, rate)
-            found.append((goals, (False, *changed), weight))
+    for rate, goals in product(rates, product(range(n), repeat=len(steps))):
+        changed = tuple(a != b for a, b in pairwise(goals))
+        # The goal may change again, or will not.
+        may, will_not = 1 - never, never
+        for change in changed:
+            if change:
+                moved = may * hazard / (n - 1)
+                may, will_not = moved * (1 - settles), moved * settles
+            else:
+                may *= 1 - hazard
+        weight = (may + will_not) / len(rates) / n
+        for look, goal in zip(seen, goals, strict=True):
+            weight *= look.policy(goal, rate)
+        found.append((goals, (False, *changed), weight))
     return found

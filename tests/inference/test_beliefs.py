@@ -87,20 +87,20 @@ def test_the_share_of_plans_decides(workshop, brute):
 
 
 def test_switching_equals_all_histories(bank, walk, brute):
-    rates, hazard, never = (0.01, 0.2), 0.15, 0.3
-    belief = Switching(bank, hazard=hazard, mistake_rates=rates, never=never)
+    rates, chances = (0.01, 0.2), {"hazard": 0.15, "never": 0.3, "settles": 0.6}
+    belief = Switching(bank, mistake_rates=rates, **chances)
     for steps in [run[:4] for run in runs(bank, walk, brute)]:
         rows = batch(belief, steps)
         for length in range(1, len(steps) + 1):
             expected = np.zeros(len(bank.names))
-            for goals, _, weight in brute.histories(bank, steps[:length], rates, hazard, never):
+            for goals, _, weight in brute.histories(bank, steps[:length], rates, **chances):
                 expected[goals[-1]] += weight
             assert rows[length].tolist() == pytest.approx((expected / expected.sum()).tolist())
 
 
 def test_smoothed_changes_equal_all_histories(bank, walk, brute):
-    rates, hazard, never = (0.01, 0.2), 0.15, 0.3
-    belief = Switching(bank, hazard=hazard, mistake_rates=rates, never=never)
+    rates, chances = (0.01, 0.2), {"hazard": 0.15, "never": 0.3, "settles": 0.6}
+    belief = Switching(bank, mistake_rates=rates, **chances)
     for steps in [run[:4] for run in runs(bank, walk, brute)]:
         states = [belief.start()]
         for step in steps:
@@ -108,7 +108,7 @@ def test_smoothed_changes_equal_all_histories(bank, walk, brute):
         found = belief.filter._smoothed([state.filtered for state in states[1:]])
         expected = np.zeros(len(steps))
         total = 0.0
-        for _, changed, weight in brute.histories(bank, steps, rates, hazard, never):
+        for _, changed, weight in brute.histories(bank, steps, rates, **chances):
             expected += weight * np.array(changed)
             total += weight
         assert found.tolist() == pytest.approx((expected / total).tolist())
@@ -116,7 +116,7 @@ def test_smoothed_changes_equal_all_histories(bank, walk, brute):
 
 def test_more_changes_than_are_counted_keep_their_weight():
     """Changes beyond the cap stay in the last count: nothing is lost."""
-    chain = ChangeFilter(3, 1, hazard=0.9, never=0.0)
+    chain = ChangeFilter(3, 1, hazard=0.9, never=0.0, settles=0.0)
     state = chain.start()
     for goal in (0, 1, 2, 0, 1, 2, 0, 1):
         likelihood = np.full((1, 3), 0.01)

@@ -1,0 +1,7 @@
+(define (problem table)
+  (:domain workshop)
+  (:objects robot human - agent top legs drawer door shelf back - part)
+  (:init (controllable robot)
+    (fits legs top) (fits drawer top) (fits door back) (fits shelf back) (fits legs back)
+    (fits drawer back))
+  (:goal (and (joined legs top) (painted top) (painted legs))))
