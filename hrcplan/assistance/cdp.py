@@ -17,7 +17,16 @@ import math
 from typing import Any
 
 from hrcplan.assistance.assistant import Options, Watched, Watcher
-from hrcplan.assistance.lookahead import WIDTH, Branch, Likely, Lookahead, by_help, entropy, futures, shares
+from hrcplan.assistance.lookahead import (
+    WIDTH,
+    Branch,
+    Likely,
+    Lookahead,
+    by_help,
+    entropy,
+    futures,
+    shares,
+)
 from hrcplan.bank import Bank
 from hrcplan.inference.belief import Belief
 from hrcplan.inference.forest import Forest
