@@ -28,6 +28,7 @@ from hrcplan.assistance.lookahead import (
     shares,
 )
 from hrcplan.bank import Bank
+from hrcplan.errors import UsageError
 from hrcplan.inference.belief import Belief
 from hrcplan.inference.forest import Forest
 
@@ -45,13 +46,15 @@ class DecisionPoints(Watcher[Any]):
         likely: Which steps are likeliest.
 
     Raises:
-        UsageError: if ``width`` is less than 1.
+        UsageError: if ``support`` is negative, or ``width`` less than 1.
     """
 
     def __init__(
         self, bank: Bank, belief: Belief[Any] | None = None, support: float = SUPPORT,
         width: int = WIDTH, likely: Likely = by_help,
     ) -> None:  # fmt: skip
+        if not support >= 0:
+            raise UsageError(f"support is worth 0 bits or more, not {support}")
         super().__init__(bank, Forest(bank) if belief is None else belief)
         self.support = support
         self.lookahead = Lookahead(self.outlook, width, likely)

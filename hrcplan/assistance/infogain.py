@@ -26,6 +26,7 @@ from hrcplan.assistance.lookahead import (
     futures,
 )
 from hrcplan.bank import Bank
+from hrcplan.errors import UsageError
 from hrcplan.inference.belief import Belief, Floats
 from hrcplan.inference.forest import Forest
 
@@ -43,13 +44,15 @@ class InformationGain(Watcher[Any]):
         likely: Which steps are likeliest.
 
     Raises:
-        UsageError: if ``width`` is less than 1.
+        UsageError: if ``alignment`` is negative, or ``width`` less than 1.
     """
 
     def __init__(
         self, bank: Bank, belief: Belief[Any] | None = None, alignment: float = ALIGNMENT,
         width: int = WIDTH, likely: Likely = by_help,
     ) -> None:  # fmt: skip
+        if not alignment >= 0:
+            raise UsageError(f"alignment is worth 0 bits or more, not {alignment}")
         super().__init__(bank, Forest(bank) if belief is None else belief)
         self.alignment = alignment
         self.lookahead = Lookahead(self.outlook, width, likely)
