@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from hrcplan.bank import Bank
 from hrcplan.facade import validate
 from hrcplan.pddl.conventions import robots
 from hrcplan.pddl.model import Problem
@@ -13,6 +12,9 @@ from hrcplan.pddl.source import read_text
 from hrcplan.planners.answer import Planner
 from hrcplan.planners.solve import Result, compare, solve
 from hrcplan.validation import Report
+
+if TYPE_CHECKING:
+    from hrcplan.bank import Bank
 
 
 def check_plan(domain: str, problem: str, plan: str) -> Report:
@@ -151,9 +153,7 @@ def _side_by_side(assistant: Any, bank: Bank, run: Sequence[int], goal: int) -> 
     return walked
 
 
-def _choice(
-    assistant: Any, state: Any, bank: Bank, world: int
-) -> tuple[int | None, list[float]]:  # fmt: skip
+def _choice(assistant: Any, state: Any, bank: Bank, world: int) -> tuple[int | None, list[float]]:
     """Return what an assistant chooses and believes in a state; hold the choice to the laws."""
     assert state.world == world, "it does not know what state the task is in"
     posterior = _posterior(assistant, state)

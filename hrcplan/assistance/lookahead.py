@@ -6,7 +6,7 @@ Of all that could come next, only the few likeliest steps are looked at.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -28,11 +28,15 @@ Branch = tuple[int, ...]
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """A place in the tree: where all goals stand, what they want, and the step that led there."""
+    """A place in the tree: where all goals stand, what they want, and the step that led there.
+
+    ``known`` is shared by the whole tree: steps in another order lead to the same states.
+    """
 
     track: Track
     wanted: Wanted
     last: int | None
+    known: dict[int, tuple[Track, Wanted]] = field(default_factory=dict)
 
 
 Likely = Callable[[Place, Floats], Sequence[int]]
@@ -48,7 +52,7 @@ def shares(place: Place, belief: Floats) -> Floats:
 
 def by_help(place: Place, belief: Floats) -> list[int]:
     """Return the wanted steps by the probability that the human's goal has them next."""
-    steps = np.unique(place.wanted.steps)
+    steps = np.bincount(place.wanted.steps).nonzero()[0]
     helps = shares(place, belief)[steps].round(TIES)
     order: list[int] = steps[np.argsort(-helps, kind="stable")].tolist()
     return order
@@ -83,12 +87,20 @@ class Lookahead:
         A goal whose plans have no such step wants nothing more on this branch: to plan for it
         anew from a place that may never be reached would take far longer than all the rest.
         """
-        found = self._tracker.follow(place.track, step)
-        track = place.track if found is None else found[0]
+        world = self._tracker.successor(place.track.world, step)
+        key = place.track.world if world is None else world
+        if key not in place.known:
+            track = self._follow(place.track, step)
+            place.known[key] = track, self._outlook.wanted(track)
+        return Place(*place.known[key], step, place.known)
+
+    def _follow(self, track: Track, step: int) -> Track:
+        found = self._tracker.follow(track, step)
+        track = track if found is None else found[0]
         if any(gone.graph is None for gone in track.off.values()):
             off = {goal: self._lost(goal, gone) for goal, gone in track.off.items()}
             track = replace(track, off=off)
-        return Place(track, self._outlook.wanted(track), step)
+        return track
 
     def _lost(self, goal: int, gone: Off) -> Off:
         if gone.graph is not None:
