@@ -24,10 +24,11 @@ BEST_STAY, BEST_LIKELIHOOD = 0.8, Next(0.1)
 
 
 class Similar(Watcher[Any]):
-    """Does the step that helps the same goals as the human's last action; never waits for nothing.
+    """Does the step that helps the same goals as the human's last action.
 
-    Candidates are the steps that the robot can do and some goal's plans have. Their fields are
-    compared by cosine, and the first of equals is done; before any human action all are equal.
+    It waits only if there is nothing to do. Candidates are the steps that the robot can do and some
+    goal's plans have. Their fields are compared by cosine, and the first of equals is done; before
+    any human action all are equal.
 
     Args:
         bank: The plans.
