@@ -74,7 +74,7 @@ class DecisionPoints(Watcher[Any]):
             parts += [(place, chance) for _, chance in responses] or [(place, 1.0)]
         if not steps:
             return Options()
-        after = futures(self.belief, state.belief, branches, self.tracker.joint.label)
+        after = futures(self.belief, state.belief, branches)
         drops = float(entropy(present)) - entropy(after)
         values = self.support * shares(root, present).take(steps)
         for (place, chance), drop in zip(parts, drops.tolist(), strict=True):

@@ -65,7 +65,7 @@ class InformationGain(Watcher[Any]):
         branches, agreed = self._tree(self.lookahead.root(state), present)
         if not branches:
             return Options()
-        after = futures(self.belief, state.belief, branches, self.tracker.joint.label)
+        after = futures(self.belief, state.belief, branches)
         values = float(entropy(present)) - entropy(after) + self.alignment * np.array(agreed)
         best: dict[int, float] = {}
         for branch, value in zip(branches, values.tolist(), strict=True):

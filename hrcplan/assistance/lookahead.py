@@ -137,29 +137,19 @@ class Lookahead:
         return found
 
 
-def futures(
-    belief: Belief[Any], state: Any, branches: Sequence[Branch], labels: Sequence[int]
-) -> Floats:
+def futures(belief: Belief[Any], state: Any, branches: Sequence[Branch]) -> Floats:
     """Return what will be believed after each of several branches, a row for each.
 
-    A belief that does not look at the order of steps can say so with a method ``extended`` (see
-    `Forest`), which is then asked once for each set of labels.
-
     Args:
-        belief: The belief.
+        belief: The belief. One that does not look at the order of steps can have a method
+            ``extended``, which answers for all branches at once; see `Forest`.
         state: Its state at the root.
         branches: The branches.
-        labels: The label of each step.
     """
     extended = getattr(belief, "extended", None)
     if extended is not None:
-        places: dict[frozenset[int], int] = {}
-        rows = [
-            places.setdefault(frozenset(labels[step] for step in branch), len(places))
-            for branch in branches
-        ]
-        known: Floats = extended(state.row, [sorted(found) for found in places])
-        return known[rows]
+        rows: Floats = extended(state.row, branches)
+        return rows
     states: dict[Branch, Any] = {(): state}
     for branch in branches:
         for i, step in enumerate(branch):

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hrcplan.bank import Bank, Limits, PlanGraph
+from hrcplan.bank.relevance import relevant
 from hrcplan.errors import LimitError
 from hrcplan.inference.joint import Doable, Ids, Joint
 
@@ -69,6 +70,7 @@ class Tracker:
         self._quick = [self._rule(step) for step in range(len(bank.table))]
         self._relevant = [graph.relevant for graph in bank.graphs]
         self._known: dict[tuple[int, int], int] = {}
+        self._matters: dict[int, int] = {}
         world = bank.initial
         self.start = Track(world, self.joint.roots, self._doable.of(world))
 
@@ -143,13 +145,17 @@ class Tracker:
         """Return graph and node of a goal that has left its graph."""
         if place.graph is not None:
             return place.graph, place.node
+        if goal not in self._matters:
+            bank = self.bank
+            self._matters[goal] = relevant(bank.table.ops, bank.goals.tests[goal])[1].facts
+        state = place.state & self._matters[goal]
         try:
-            graph, node = self.bank.locate(goal, place.state, Limits(REROOT_MIB))
+            graph = self.bank.reroot(goal, state, Limits(REROOT_MIB))
         except LimitError:  # nothing is known about how this goal goes on
             from hrcplan.bank.construct import empty_graph
 
-            return empty_graph(self.bank.names[goal], self.bank.graphs[goal].packing), 0
-        return graph, node or 0
+            graph = empty_graph(self.bank.names[goal], self.bank.graphs[goal].packing)
+        return graph, 0
 
     def _jumps(
         self, track: Track, step: int, world: int, goals: list[int], nodes: Ids
@@ -187,10 +193,12 @@ class Tracker:
         return self.joint.off if node is None else int(self.joint.offsets[goal]) + node
 
     def _follow_off(self, goal: int, place: Off, step: int, world: int) -> Off:
-        graph, at = self.resolve(goal, place)
+        graph = place.graph
+        if graph is None:
+            graph, _ = self.resolve(goal, place)
         if not graph.n_nodes:
             return Off(world)
-        node = graph.next(at).get(step)
+        node = graph.next(place.node).get(step)
         if node is None:
             node = graph.node_of(world)
         return Off(world) if node is None else Off(world, graph, node)

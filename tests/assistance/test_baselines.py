@@ -1,5 +1,7 @@
 """The baselines' choices, against what can be worked out by hand."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -161,21 +163,6 @@ def test_no_plans_are_made_for_what_may_never_happen(workshop, monkeypatch):
     assert set(again.track.off) == set(lost)
 
 
-class Fast(Forest):
-    """A forest that answers for many rows at once, and counts how many."""
-
-    n_rows = 0
-
-    def extended(self, row, extensions):
-        rows = np.repeat(row[None], len(extensions), axis=0)
-        for done, labels in zip(rows, extensions, strict=True):
-            done[list(labels)] = 1
-        self.n_rows += len(rows)
-        found = np.zeros((len(rows), len(self.names)))
-        found[:, self._classes] = self.predict(rows)
-        return found / found.sum(axis=1, keepdims=True)
-
-
 class Plain:
     """A belief of which nothing is known but what every belief has."""
 
@@ -184,30 +171,48 @@ class Plain:
         self.observe, self.posterior = belief.observe, belief.posterior
 
 
+class Quick(Plain):
+    """A forest that answers for many branches at once, and counts them."""
+
+    def __init__(self, forest):
+        super().__init__(forest)
+        self.label, self.n_branches = Tracker(forest.bank).joint.label, 0
+
+    def extended(self, row, extensions):
+        self.n_branches += len(extensions)
+        return np.array([self.one(row.copy(), steps) for steps in extensions])
+
+    def one(self, row, steps):
+        row[[self.label[step] for step in steps]] = 1
+        return self.posterior(replace(self.start(), row=row))
+
+
 @pytest.mark.parametrize("world", ["workshop", "hall"])
 @pytest.mark.parametrize("kind", [DecisionPoints, InformationGain])
 def test_all_futures_at_once_are_what_they_are_one_by_one(request, walk, world, kind):
     bank = request.getfixturevalue(world)
-    forest = Fast(bank, n_samples=1000, n_trees=10)
-    quick, slow = kind(bank, forest), kind(bank, Plain(forest))
-    for seed in range(3):
-        states = [quick.start(), slow.start()]
-        for step in walk(bank, seed, 4):
-            states = [quick.observe(states[0], step), slow.observe(states[1], step)]
-            mine, theirs = quick.options(states[0]), slow.options(states[1])
-            assert mine.steps == theirs.steps
-            assert mine.values == pytest.approx(theirs.values, abs=1e-6)
-    assert forest.n_rows
+    forest = Forest(bank, n_samples=500, n_trees=5)
+    quick = Quick(forest)
+    robots = [kind(bank, belief) for belief in (forest, quick, Plain(forest))]
+    for seed in range(2):
+        states = [robot.start() for robot in robots]
+        for step in walk(bank, seed, 3):
+            states = [robot.observe(s, step) for robot, s in zip(robots, states, strict=True)]
+            first, *others = (r.options(s) for r, s in zip(robots, states, strict=True))
+            for other in others:
+                assert first.steps == other.steps
+                assert first.values == pytest.approx(other.values, abs=1e-6)
+    assert quick.n_branches
 
 
-def test_equal_sets_are_looked_up_once(desk):
-    forest = Fast(desk, n_samples=400, n_trees=5)
-    label = Tracker(desk).joint.label
-    branches = [(0, 1), (1, 0), (0, 1, 2), (2, 0, 1)]
-    rows = futures(forest, forest.start(), branches, label)
-    assert forest.n_rows == 2
-    assert rows[0].tolist() == rows[1].tolist()
-    assert rows[2].tolist() == rows[3].tolist()
+def test_branches_that_begin_alike_are_followed_together(desk):
+    belief = Plain(sure(desk))
+    observe, n_observed = belief.observe, []
+    belief.observe = lambda *args, **more: n_observed.append(more) or observe(*args, **more)
+    branches = [(0, 1), (0, 1, 2), (0, 2), (0,)]
+    rows = futures(belief, belief.start(), branches)
+    assert [more["robot"] for more in n_observed] == [True, False, True, False]
+    assert rows[3].tolist() == [0.25] * 4  # the robot's own step is no evidence
 
 
 def test_entropy_is_in_bits():
@@ -274,8 +279,8 @@ def test_information_lost_counts_against_a_branch(desk):
 
 @pytest.mark.parametrize("kind", [DecisionPoints, InformationGain])
 def test_a_forest_is_the_belief_by_default(desk, kind, monkeypatch):
-    monkeypatch.setattr(f"{kind.__module__}.Forest", lambda bank: Fast(bank, 0, 100, 2))
-    assert isinstance(kind(desk).belief, Fast)
+    monkeypatch.setattr(f"{kind.__module__}.Forest", lambda bank: Forest(bank, 0, 100, 2))
+    assert isinstance(kind(desk).belief, Forest)
 
 
 @pytest.mark.parametrize("kind", [DecisionPoints, InformationGain])

@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from hrcplan.bank import Bank, build
+from hrcplan.bank import build
 from hrcplan.inference import batch
 from hrcplan.inference.changes import ChangeFilter
 from hrcplan.inference.cost import Cost
@@ -15,7 +15,6 @@ from hrcplan.inference.exact import Exact
 from hrcplan.inference.forest import Forest
 from hrcplan.inference.recursive import Attractor, Next, Recursive
 from hrcplan.inference.switching import Switching
-from hrcplan.inference.track import Tracker
 from hrcplan.testing import check_belief
 
 WORLDS = ["workshop", "hall"]
@@ -198,20 +197,6 @@ def test_switching_finds_a_change_and_survives_mistakes(kitchen):
     changes = belief.changes(states[1:])
     assert [abs(change.at - 9) <= 1 for change in changes] == [True]
     assert changes[0].probability > 0.9
-
-
-def test_what_the_next_step_undoes_takes_no_new_plans(kitchen, monkeypatch):
-    """Serving too early only matters at the end: every goal still has the same steps next."""
-    tracker = Tracker(kitchen)
-    serve = kitchen.table.find(("serve",))
-    monkeypatch.setattr(Bank, "reroot", None)
-    served, before = tracker.follow(tracker.start, serve)
-    assert len(served.off) == 30
-    again = kitchen.table.find(("get", "pasta"))
-    back, after = tracker.follow(served, again)
-    assert after.n_next.tolist() == before.n_next.tolist()
-    assert not back.off
-    assert back.nodes.tolist() == tracker.follow(tracker.start, again)[0].nodes.tolist()
 
 
 def test_no_change_is_declared_without_one(kitchen):
