@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from hrcplan.facade import validate
+from hrcplan.pddl.conventions import robots
 from hrcplan.pddl.model import Problem
 from hrcplan.pddl.source import read_text
 from hrcplan.planners.answer import Planner
 from hrcplan.planners.solve import Result, compare, solve
 from hrcplan.validation import Report
+
+if TYPE_CHECKING:
+    from hrcplan.bank import Bank
 
 
 def check_plan(domain: str, problem: str, plan: str) -> Report:
@@ -87,6 +91,87 @@ def check_belief(belief: Any, runs: Iterable[Sequence[int]]) -> None:
         for place, step in enumerate(run):
             state = belief.observe(state, step)
             assert _posterior(belief, state) == again[place + 1], "a second walk differs"
+
+
+def check_assistant(assistant: Any, bank: Bank, runs: Iterable[Sequence[int]]) -> None:
+    """Hold an assistant to the laws of assistants.
+
+    It keeps the laws of beliefs. Beside a human who does one of the runs, it chooses None or a step
+    that the robot can do and that changes something, and it knows what state the task is in.
+    Choosing changes no state, and a state gives the same choice whenever, and in whatever walk, it
+    is asked for. An assistant with a method ``told`` is told a goal after each of the human's
+    actions.
+
+    Args:
+        assistant: An object with ``names``, ``start``, ``observe``, ``posterior`` and ``choose``
+            (see assistance/assistant.py).
+        bank: The bank that it was made from.
+        runs: Steps of the human; those that cannot be done when their turn comes are left out.
+
+    Raises:
+        AssertionError: if it breaks a law.
+    """
+    runs = [tuple(run) for run in runs]
+    check_belief(assistant, runs)
+    seen: list[tuple[Any, int | None]] = []
+    for i, run in enumerate(runs):
+        goal = i % len(assistant.names)
+        walked = _side_by_side(assistant, bank, run, goal)
+        state = assistant.start()
+        for step, is_robot, choice, posterior in walked:
+            if step is not None:
+                state = _observe(assistant, state, step, is_robot, goal)
+            if not is_robot:
+                assert _posterior(assistant, state) == posterior, "a second walk differs"
+                assert assistant.choose(state) == choice, "a second walk is answered differently"
+                seen.append((state, choice))
+    for state, choice in seen:
+        assert assistant.choose(state) == choice, "a choice depends on what was asked in between"
+
+
+_Walked = tuple[int | None, bool, int | None, list[float]]
+"""A step, whether the robot did it, and after a human's the choice and the posterior."""
+
+
+def _side_by_side(assistant: Any, bank: Bank, run: Sequence[int], goal: int) -> list[_Walked]:
+    """Let a human do a run and the robot what it chooses, in turns; return all steps."""
+    state, world = assistant.start(), bank.initial
+    walked: list[_Walked] = []
+    for step in (*run, None):
+        after = None if step is None else bank.table.successor(world, step)
+        if step is not None:
+            if after is None:
+                continue
+            world, state = after, _observe(assistant, state, step, False, goal)
+        choice, posterior = _choice(assistant, state, bank, world)
+        walked.append((step, False, choice, posterior))
+        if choice is not None:
+            world = bank.table.successor(world, choice) or world
+            state = _observe(assistant, state, choice, True, goal)
+            walked.append((choice, True, None, []))
+            assert state.world == world, "it does not know what state the task is in"
+    return walked
+
+
+def _choice(assistant: Any, state: Any, bank: Bank, world: int) -> tuple[int | None, list[float]]:
+    """Return what an assistant chooses and believes in a state; hold the choice to the laws."""
+    assert state.world == world, "it does not know what state the task is in"
+    posterior = _posterior(assistant, state)
+    choice: int | None = assistant.choose(state)
+    assert _posterior(assistant, state) == posterior, "choosing has changed what is believed"
+    assert state.world == world, "choosing has changed the state"
+    assert assistant.choose(state) == choice, "the same state is answered differently"
+    if choice is not None:
+        assert 0 <= choice < len(bank.table), f"there is no step {choice}"
+        can = bank.table.doer(world, choice, robots(bank.goals.problem))
+        assert can is not None, f"the robot cannot do {bank.table[choice]}, or it changes nothing"
+    return choice, posterior
+
+
+def _observe(assistant: Any, state: Any, step: int, is_robot: bool, goal: int) -> Any:
+    state = assistant.observe(state, step, robot=is_robot)
+    is_told = not is_robot and hasattr(assistant, "told")
+    return assistant.told(state, goal) if is_told else state
 
 
 def _posterior(belief: Any, state: Any) -> list[float]:
