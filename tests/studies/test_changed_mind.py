@@ -1,0 +1,246 @@
+"""The study of changed goals runs, stops, goes on, and takes in strangers; on a small workshop."""
+
+import json
+import sqlite3
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from hrcplan.errors import InputError, UsageError
+from hrcplan.studies import report_study, run_study
+from hrcplan.studies.changed_mind import episodes as rows_of
+from hrcplan.studies.changed_mind import scenario, script
+from hrcplan.studies.study import Seed, episodes, find
+
+NAME = "changed-mind"
+WORKSHOP = Path(__file__).parent / "workshop"
+TASK = {"domain": str(WORKSHOP / "domain.pddl"), "goals": str(WORKSHOP)}
+QUICK = {**TASK, "methods": "recursive,hrcplan,oracle"}  # no forest is trained for them
+HUMANS = ["fixed", "optimal", "suboptimal"]
+METHODS = ["paper", "recursive", "recursive-best", "cdp", "infogain", "hrcplan", "oracle"]
+MEASURES = {"first_correct", "last_incorrect_pct", "last_incorrect_step", "correct_pct", "top3_pct",
+            "wasted_robot_steps", "human_mistakes", "total_steps", "extra_steps",
+            "extra_vs_oracle", "detection_delay", "false_changes", "decision_ms"}  # fmt: skip
+
+
+def run(folder: Path, **options: Any) -> int:
+    return run_study(NAME, folder, **{"runs": 2, "options": QUICK, **options})
+
+
+def rows(folder: Path, table: str = "rows") -> list[dict[str, Any]]:
+    with sqlite3.connect(folder / "rows.sqlite") as found:
+        found.row_factory = sqlite3.Row
+        return [dict(row) for row in found.execute(f"select * from {table}")]
+
+
+def test_the_promised_cells_on_the_papers_task() -> None:
+    study = find(NAME)
+    cells = study.tables[0].cells(study.options)
+    assert cells == [(human, method) for human in HUMANS for method in METHODS]
+    assert set(study.measures) == MEASURES
+    assert study.runs(study.options) == 30 * 29 * 3
+
+
+def test_same_rows_whatever_the_jobs(tmp_path: Path) -> None:
+    for jobs in (1, 2):
+        run(tmp_path / str(jobs), jobs=jobs, runs=8)
+    one, two = (tmp_path / str(jobs) / "rows.sqlite" for jobs in (1, 2))
+    assert one.read_bytes() == two.read_bytes()
+    assert (tmp_path / "1" / "clock.sqlite").is_file()
+
+
+def test_rows_that_were_made_already_are_kept_and_none_is_made_twice(tmp_path: Path) -> None:
+    run(tmp_path / "grown", limit=11)
+    n_new = run(tmp_path / "grown", runs=4)
+    run(tmp_path / "whole", runs=4)
+    wanted = list(episodes(find(NAME), {**find(NAME).options, **QUICK}, 4))
+    assert 0 < n_new < len(wanted)
+    grown, whole = (tmp_path / name / "rows.sqlite" for name in ("grown", "whole"))
+    assert grown.read_bytes() == whole.read_bytes()
+
+
+def test_cells_are_paired(tmp_path: Path) -> None:
+    """In one run every cell has the same goals; with one human also the same change and errors."""
+    run(tmp_path, runs=6)
+    for number in range(6):
+        found = [row for row in rows(tmp_path) if row["run"] == number]
+        assert len({row["first"] for row in found}) == 1
+        assert len({(row["goals"], row["turns"]) for row in found if row["human"] != "fixed"}) == 1
+        assert all(row["second"] is None for row in found if row["human"] == "fixed")
+
+
+def test_a_trial_goes_through_all_pairs() -> None:
+    bank = scenario.bank_of(TASK["domain"], TASK["goals"])
+    n = len(bank.names)
+    for trial in range(2):
+        runs = range(trial * n * (n - 1), (trial + 1) * n * (n - 1))
+        pairs = [scenario.course("optimal", bank, Seed(3, number)).goals for number in runs]
+        assert len(set(pairs)) == n * (n - 1)
+        assert all(first != second for first, second in pairs)
+
+
+def test_the_first_change_comes_before_the_first_goal_could_be_reached() -> None:
+    bank = scenario.bank_of(TASK["domain"], TASK["goals"])
+    seen = set()
+    for number in range(200):
+        course = scenario.course("optimal", bank, Seed(0, number))
+        (turn,) = course.turns
+        assert 1 <= turn <= (bank.graphs[course.goals[0]].n_steps - 1) // 2
+        seen.add(turn)
+    assert len(seen) > 1
+
+
+def test_several_changes_are_to_other_goals_and_in_order() -> None:
+    bank = scenario.bank_of(TASK["domain"], TASK["goals"])
+    for number in range(50):
+        course = scenario.course("3 changes", bank, Seed(0, number))
+        assert len(course.goals) == 4
+        assert all(a != b for a, b in zip(course.goals, course.goals[1:], strict=False))
+        assert list(course.turns) == sorted(set(course.turns))
+
+
+def test_measures_agree_with_one_another(tmp_path: Path) -> None:
+    run(tmp_path, runs=10)
+    for row in rows(tmp_path):
+        assert row["ending"] == "reached"
+        assert 0 <= row["correct_pct"] <= row["top3_pct"] <= 100
+        assert row["last_incorrect_step"] <= row["total_steps"]
+        assert row["extra_vs_oracle"] <= row["extra_steps"] or row["human_mistakes"] == 0
+        if row["method"] == "oracle":
+            assert row["extra_vs_oracle"] == row["wasted_robot_steps"] == row["first_correct"] == 0
+        if row["human"] == "fixed":
+            assert row["extra_steps"] >= 0
+            assert row["detection_delay"] is None
+
+
+def test_every_method_runs_and_reports_its_promised_figures(tmp_path: Path) -> None:
+    """Also those that learn: on goals as few as these a forest is trained in seconds."""
+    run_study(NAME, tmp_path, runs=1, options=TASK)
+    document = report_study(tmp_path)
+    assert json.loads((tmp_path / "report.json").read_text()) == document
+    assert [row["cell"] for row in document["rows"]] == [
+        {"human": human, "method": method} for human in HUMANS for method in METHODS
+    ]
+    for row in document["rows"]:
+        assert set(row["measures"]) == MEASURES
+        assert all(set(figure) == {"mean", "se"} for figure in row["measures"].values())
+        assert row["measures"]["decision_ms"]["mean"] >= 0
+    assert "<script" not in (tmp_path / "report.html").read_text()
+
+
+def test_a_strangers_robot_and_human_join(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "mine.py").write_text(
+        "from hrcplan.assistance.oracle import Oracle\n"
+        "from hrcplan.agents.human import Frontier\n"
+        "class Robot(Oracle):\n"
+        "    def choose(self, state):\n"
+        "        return None\n"
+        "class Human(Frontier):\n"
+        "    def choose(self, graph, node, steps, last, draw):\n"
+        "        return steps[0]\n"
+    )
+    monkeypatch.syspath_prepend(str(tmp_path))
+    options = {**TASK, "methods": "oracle,mine:Robot", "humans": "optimal,mine:Human"}
+    run(tmp_path / "out", options=options, limit=8)
+    found = {(row["human"], row["method"]): row for row in rows(tmp_path / "out")}
+    assert set(found) == {(h, m) for h in ("optimal", "mine:Human")
+                          for m in ("oracle", "mine:Robot")}  # fmt: skip
+    # A robot that only waits leaves every step to the human, and every second turn is lost.
+    idle = found["optimal", "mine:Robot"]
+    assert idle["total_steps"] > found["optimal", "oracle"]["total_steps"]
+    assert idle["robot_waits"] > 0
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"methods": "papre"}, "no method 'papre'"),
+        ({"humans": "optimall"}, "no human 'optimall'"),
+        ({"chooser": "nobody:Human"}, "cannot load 'nobody:Human'"),
+        ({"world": "real"}, "no world 'real'"),
+        ({"colour": "red"}, "no option 'colour'"),
+    ],
+)
+def test_unknown_parts_are_named_before_anything_runs(
+    tmp_path: Path, options: dict[str, str], message: str
+) -> None:
+    with pytest.raises(UsageError, match=message):
+        run(tmp_path / "out", options={**QUICK, **options})
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_single_goal_cannot_change(tmp_path: Path) -> None:
+    (tmp_path / "desk.pddl").write_text((WORKSHOP / "desk.pddl").read_text())
+    with pytest.raises(UsageError, match="two"):
+        run(tmp_path / "out", options={**QUICK, "goals": str(tmp_path)})
+
+
+def test_the_clock_is_measured_but_never_part_of_the_rows(tmp_path: Path) -> None:
+    run(tmp_path)
+    assert "decision_ms" not in rows(tmp_path)[0]
+    assert "decision_ms" not in rows_of.COLUMNS
+    before = report_study(tmp_path)["rows"][0]["measures"]["decision_ms"]["mean"]
+    (tmp_path / "clock.sqlite").unlink()
+    assert before > 0 == report_study(tmp_path)["rows"][0]["measures"]["decision_ms"]["mean"]
+
+
+# Scripts.
+
+
+def test_the_golden_episode_of_our_method() -> None:
+    """Figure 4: yogurt and glass are fetched, the change is noticed, oats and fruit follow."""
+    (played,) = script.episodes(script.read("golden"), ["hrcplan"])
+    done = [(turn.agent, turn.action) for turn in played.turns]
+    assert done[:6] == [
+        ("human", "(get berries)"),
+        ("robot", "(get yogurt)"),
+        ("human", "(turn_on blender)"),
+        ("robot", "(get glass)"),
+        ("human", "(pour yogurt glass)"),
+        ("robot", "(get oats)"),
+    ]
+    assert played.turns[3].top[0][0] == "smoothie-berry"
+    assert all("parfait-fruit" in dict(turn.top) for turn in played.turns[4:])
+    assert [turn.n_declared for turn in played.turns][:6] == [0, 0, 0, 0, 1, 1]
+    assert all(turn.is_needed for turn in played.turns)
+    assert played.ending == "reached"
+
+
+def test_the_golden_episode_beside_recursive_bayes() -> None:
+    ours, theirs = script.episodes(script.read("golden"), ["hrcplan", "recursive"])
+    assert [t.action for t in ours.turns if t.agent == "human"][:2] == [
+        t.action for t in theirs.turns if t.agent == "human"
+    ][:2]
+    assert len(ours.turns) < len(theirs.turns)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ("", "lacks 'domain'"),
+        ("domain = ", "not TOML"),
+        (None, "cannot read"),
+        ("domain='x'\nwanted=['a']\nchange_turns=[1]\nhuman=[]\nmethods=[]", "one number less"),
+    ],
+)
+def test_what_is_no_script_is_refused(tmp_path: Path, change: str | None, message: str) -> None:
+    path = tmp_path / "mine.toml"
+    if change is not None:
+        path.write_text(change)
+    with pytest.raises(InputError, match=message):
+        script.read(str(path))
+
+
+def test_a_script_of_another_domain(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    path.write_text(
+        f"domain = '{TASK['domain']}'\ngoals = '{TASK['goals']}'\nmethods = ['oracle']\n"
+        "wanted = ['desk', 'table']\nchange_turns = [1]\nhuman = ['(fetch drawer)']\n"
+    )
+    (played,) = script.episodes(script.read(str(path)))
+    assert played.turns[0].action == "(fetch drawer)"
+    assert {turn.goal for turn in played.turns} == {"desk", "table"}
+    path.write_text(path.read_text().replace("drawer", "drwaer"))
+    with pytest.raises(InputError, match="no step"):
+        script.episodes(script.read(str(path)))
