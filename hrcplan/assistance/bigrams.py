@@ -53,6 +53,8 @@ class Bigrams:
         rows = rows[np.lexsort((rows[:, 2], rows[:, 1]))]
         self._goal, self._after, self._times = rows[:, 0], rows[:, 2], rows[:, 3]
         self._first = np.searchsorted(rows[:, 1], np.arange(self.n_labels + 1))
+        self._n_goals = len(bank.names)
+        self._weighted: tuple[tuple[int, ...], Ids] = (), np.zeros(self._n_goals, dtype=np.int64)
         self._remembered: dict[tuple[int, tuple[int, ...]], list[int]] = {}
 
     def _count(self, goal: int, plans: Ids) -> Ids:
@@ -86,7 +88,8 @@ class Bigrams:
             goals: Sets of goals as bits, each of which counts its goals once; without any, all
                 plans of the bank count.
         """
-        key = (label, tuple(goals))
+        goals = tuple(goals)
+        key = (label, goals)
         known = self._remembered.get(key)
         if known is None:
             if len(self._remembered) >= MAX_REMEMBERED:
@@ -96,10 +99,10 @@ class Bigrams:
             known = self._remembered[key] = order[: np.count_nonzero(times)].tolist()
         return known
 
-    def _weights(self, goals: Sequence[int]) -> Ids:
-        found = np.zeros(int(self._goal.max(initial=-1)) + 1, dtype=np.int64)
-        for mask in goals:
-            for goal in bits(mask):
-                if goal < len(found):
-                    found[goal] += 1
-        return found
+    def _weights(self, goals: tuple[int, ...]) -> Ids:
+        if goals != self._weighted[0]:  # one look ahead asks for the same ones again and again
+            found = np.zeros(self._n_goals, dtype=np.int64)
+            for mask in goals:
+                found[list(bits(mask))] += 1
+            self._weighted = goals, found
+        return self._weighted[1]

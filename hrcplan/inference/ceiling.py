@@ -87,7 +87,8 @@ class Presence:
         """Return the probability of each goal for each row of done labels."""
         found = np.zeros((len(rows), len(self.names)))
         for place, row in enumerate(rows):
-            found[place] = weights_to_posterior(self._weights(row))
+            weights = self._weights(row) if row.any() else np.ones(len(self.names))
+            found[place] = weights_to_posterior(weights)
         return found
 
     def _weights(self, row: NDArray[np.uint8]) -> Floats:
