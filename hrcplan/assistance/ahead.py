@@ -51,7 +51,7 @@ class Ahead:
         nodes[goals[hit]] = joint.targets.take(places[hit])
         if not hit.all():
             for goal in goals[~hit].tolist():
-                if (before ^ world) & self._relevant[goal] or nodes[goal] == joint.off:
+                if (before ^ world) & self._relevant[goal]:
                     node = self.bank.graphs[goal].node_of(world)
                     nodes[goal] = joint.off if node is None else self._offsets[goal] + node
         return Track(world, nodes, track.doable, self._off(track, step, world))

@@ -2,6 +2,7 @@
 
 from dataclasses import FrozenInstanceError
 from importlib.util import module_from_spec, spec_from_file_location
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -38,13 +39,13 @@ TABLE = """
 """
 SET = """
 (define (problem {name}) (:domain table)
-  (:objects ann robo - agent bowl cup fork lid pan mat - thing)
+  (:objects ann robo - agent bowl cup fork lid pan pot mat - thing)
   (:init (controllable robo))
   (:goal (and (out bowl) {goal})))
 """
 MEALS = {
     "soup": "(out cup) (out lid)",
-    "stew": "(out pan) (out lid)",
+    "stew": "(out pan) (out lid) (out pot)",
     "cake": "(out fork) (clean fork)",
 }
 
@@ -178,7 +179,10 @@ def test_sequences_that_stop_fitting_are_dropped(of_meals):
     assert state.sequences == ((pan, lid), (cup, lid), (lid,))
     kept = _watch(of_meals, bowl, state=state)
     assert kept.sequences == ((pan, lid, bowl), (cup, lid, bowl), (lid, bowl))
-    wash = _step(bank, "wash", "fork")
+    pot, wash = _step(bank, "lay", "pot"), _step(bank, "wash", "fork")
+    fewer = _watch(of_meals, pot, state=kept)
+    assert fewer.sequences == ((pan, lid, bowl, pot), (lid, bowl, pot))
+    assert kept.n_declared == fewer.n_declared == 3
     assert _watch(of_meals, wash, state=kept).sequences == (
         (fork, bowl, wash), (bowl, wash), (fork, wash),
     )  # fmt: skip
@@ -298,6 +302,19 @@ def test_costs_are_those_of_trees_in_full(data, rhp):
     assert tree.costs(root) == _in_full(tree, root)
 
 
+def test_branches_that_end_early_count_too(hall):
+    """Where only one can go on, some branches end before others, and stay among the cheapest."""
+    rhp = Rhp(hall, "presence", n_sampled=50)
+    moves = [("go", "robot", "c", "d"), ("go", "ann", "b", "c")]
+    state = _watch(rhp, *(_step(hall, *words) for words in moves))
+    rng = np.random.default_rng(0)
+    for _ in range(60):
+        fields = tuple(rng.integers(0, 4, (3, len(hall.table))).tolist())
+        root = Root(state.track, state.last, fields, (), lambda: rhp.posterior(state))
+        tree = Tree(rhp.outlook, rhp.tree.bigrams, rhp.tree.people, 4, 7)
+        assert tree.costs(root) == _in_full(tree, root)
+
+
 @given(data=st.data())
 @settings(max_examples=30, deadline=None)
 def test_looking_ahead_is_what_would_follow(data, rhp):
@@ -356,7 +373,7 @@ def test_the_robot_does_what_most_plausible_goals_need(of_meals):
 
 
 def test_nothing_is_done_where_no_plan_goes_on(of_meals):
-    laid = [_step(of_meals.bank, "lay", x) for x in ("bowl", "cup", "lid", "pan", "fork")]
+    laid = [_step(of_meals.bank, "lay", x) for x in ("bowl", "cup", "lid", "pan", "fork", "pot")]
     state = _watch(of_meals, *laid, [_step(of_meals.bank, "wash", "fork")])
     assert of_meals.choose(state) is None
 
@@ -380,14 +397,15 @@ def test_bigrams_count_what_follows_in_sampled_plans(workshop):
     for goal in range(len(workshop.names)):
         for row in workshop.sampler(goal).draw(30, rng).tolist():
             plan = [label[step] for step in row if step >= 0]
-            for before, after in zip(plan, plan[1:], strict=False):
+            for before, after in pairwise(plan):
                 seen[goal, before, after] += 1
     grams = Bigrams(workshop, 30, seed=4)
     for before in range(len(label)):
         assert grams.times(before).tolist() == seen[:, before].sum(axis=0).tolist()
-        twice = seen[1, before] + 2 * seen[3, before]
-        expected = sorted(np.flatnonzero(twice), key=lambda after: -twice[after])
-        assert grams.followers(before, (0b1010, 0b1000)) == expected
+        for n in range(6):
+            weighted = seen[1, before] + n * seen[3, before] + n * seen[4, before]
+            expected = sorted(np.flatnonzero(weighted), key=lambda after: -weighted[after])
+            assert grams.followers(before, (0b10, *[0b11000] * n)) == expected
     total = seen.sum(axis=(0, 2))
     assert grams.share(0, 1) == pytest.approx(seen[:, 0, 1].sum() / total[0])
 

@@ -1,4 +1,4 @@
-"""Which goals steps are consistent with, beside lists of all plans and of all parts of histories."""
+"""Which goals steps are consistent with, beside lists of all plans and all parts of histories."""
 
 from collections import Counter
 from fractions import Fraction
