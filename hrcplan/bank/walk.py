@@ -230,7 +230,7 @@ def _all_multisets(graph: PlanGraph) -> frozenset[Multiset] | None:
             continue
         behind[node] = frozenset(
             tuple(sorted((step, *rest)))
-            for step, target in graph.next(node).items()
+            for step, target in _following(graph, node)
             for rest in behind[target]
         )
         work += len(behind[node])
@@ -252,13 +252,19 @@ def _has_subset(graph: PlanGraph, seen: Counter[int]) -> bool | None:
     for node in range(graph.n_nodes):
         if graph.is_goal[node] and everything in met[node]:
             return True
-        for step, target in graph.next(node).items():
+        for step, target in _following(graph, node):
             met[target].update(_meet(mask, places.get(step, ())) for mask in met[node])
         work += len(met[node])
         met[node] = set()
         if work > MAX_WORK:
             return None
     return False
+
+
+def _following(graph: PlanGraph, node: int) -> Iterator[tuple[int, int]]:
+    """Return the edges of a node; unlike ``next``, also those that read alike."""
+    edges = slice(graph.first[node], graph.first[node + 1])
+    return zip(graph.steps[edges].tolist(), graph.targets[edges].tolist(), strict=True)
 
 
 def _meet(mask: int, places: Sequence[int]) -> int:

@@ -1,0 +1,58 @@
+"""The largest parts of a history that still make sense, in order of size and of generality.
+
+Parts are sets of places in the history, as bits: a larger number keeps later steps. Parts are
+ordered by size, then by the sum of what their steps are worth, then later steps first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from heapq import heapify, heappop, heappush
+
+
+def bits(mask: int) -> Iterator[int]:
+    """Yield the places of the bits that are set, lowest first.
+
+    >>> list(bits(0b1101))
+    [0, 2, 3]
+    """
+    while mask:
+        low = mask & -mask
+        yield low.bit_length() - 1
+        mask ^= low
+
+
+def largest_first(
+    covers: Iterable[int], earlier: Sequence[int], latest: int, worth: Sequence[int], n: int,
+    fits: Callable[[Sequence[int]], bool],
+) -> list[tuple[int, ...]]:  # fmt: skip
+    """Return the first ``n`` parts of a history that fit, each with the latest step behind it.
+
+    Every part is made from a larger one by leaving one step out, so that parts come in order and
+    only those are looked at that are as large as what is found. Parts that read alike count once.
+
+    Args:
+        covers: Parts of which every part that may fit is a part.
+        earlier: The history, without its latest step.
+        latest: The latest step.
+        worth: What each step of the history is worth.
+        n: How many are wanted.
+        fits: Whether a sequence fits.
+    """
+    seen = set(covers)
+    waiting = [(-m.bit_count(), -sum(worth[i] for i in bits(m)), -m) for m in seen]
+    heapify(waiting)
+    found: dict[tuple[int, ...], None] = {}
+    while waiting and len(found) < n:
+        size, total, negative = heappop(waiting)
+        part = -negative
+        places = list(bits(part))
+        sequence = (*(earlier[i] for i in places), latest)
+        if sequence not in found and fits(sequence):
+            found[sequence] = None
+        for i in places:
+            smaller = part ^ 1 << i
+            if smaller not in seen:
+                seen.add(smaller)
+                heappush(waiting, (size + 1, total + worth[i], -smaller))
+    return list(found)
