@@ -80,6 +80,16 @@ class Interval:
     high: float
     n: int
 
+    @property
+    def is_above_zero(self) -> bool:
+        """Whether the whole interval is above 0."""
+        return self.low > 0
+
+    @property
+    def is_below_zero(self) -> bool:
+        """Whether the whole interval is below 0."""
+        return self.high < 0
+
 
 N_RESAMPLED = 2000
 
@@ -89,12 +99,20 @@ def two_way_bootstrap(values: Sequence[tuple[Hashable, Hashable, float]]) -> Int
 
     Rows and columns are drawn anew with replacement, each independently (the two-way cluster
     bootstrap; Cameron, Gelbach and Miller, 2011, name the problem): values of one row or one
-    column are not independent. The draws are always the same.
+    column are not independent. The draws are always the same. Values that all share one row and
+    one column say nothing of others: their interval is endless. With one column for all values
+    rows alone are drawn.
+
+    >>> two_way_bootstrap([("a", None, 1), ("b", None, 1), ("b", None, 4)])
+    Interval(mean=2.0, low=1.0, high=2.5, n=3)
     """
     if not values:
         return Interval(0.0, 0.0, 0.0, 0)
     row_of, column_of = ({key: i for i, key in enumerate(dict.fromkeys(keys))}
                          for keys in ([v[0] for v in values], [v[1] for v in values]))  # fmt: skip
+    mean = math.fsum(value for _, _, value in values) / len(values)
+    if len(row_of) == len(column_of) == 1:
+        return Interval(mean, -math.inf, math.inf, len(values))
     sums, counts = (np.zeros((len(row_of), len(column_of))) for _ in range(2))
     for row, column, value in values:
         sums[row_of[row], column_of[column]] += value
@@ -107,5 +125,4 @@ def two_way_bootstrap(values: Sequence[tuple[Hashable, Hashable, float]]) -> Int
     n_drawn = ((by_row @ counts) * by_column).sum(axis=1)
     means = total[n_drawn > 0] / n_drawn[n_drawn > 0]
     low, high = np.quantile(means, [0.025, 0.975])
-    mean = math.fsum(value for _, _, value in values) / len(values)
     return Interval(mean, float(low), float(high), len(values))
