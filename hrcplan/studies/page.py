@@ -47,7 +47,7 @@ def html(title: str, about: Mapping[str, Any], n_rows: int, findings: Findings) 
 
 
 def _facts(about: Mapping[str, Any], n_rows: int) -> str:
-    options = ", ".join(f"{key} {value}" for key, value in about["options"].items())
+    options = ", ".join(f"{key} {value}" for key, value in about["options"].items() if value)
     parts = [f"{n_rows:,} rows", f"seed {about['seed']}", options, f"hrcplan {about['version']}"]
     return " · ".join(escape(part) for part in parts if part)
 

@@ -37,7 +37,8 @@ class Cells:
             for (_, method), had in self.rows.items()
             if any(row["n_detected"] or row["false_changes"] for row in had)
         }
-        self._known: dict[tuple[str, str, str, str], Interval | None] = {}
+        self._means: dict[tuple[str, str, str], Estimate | None] = {}
+        self._gaps: dict[tuple[str, str, str, str], Interval | None] = {}
 
     def methods_of(self, human: str) -> list[str]:
         """Return the methods that have rows of a human."""
@@ -56,6 +57,12 @@ class Cells:
 
         A method that never declared a change, to any human, has no values of declared changes.
         """
+        key = (human, method, measure)
+        if key not in self._means:
+            self._means[key] = self._mean(*key)
+        return self._means[key]
+
+    def _mean(self, human: str, method: str, measure: str) -> Estimate | None:
         if measure in DECLARED and method not in self._declaring:
             return None
         rows = self.rows.get((human, method), ())
@@ -69,9 +76,9 @@ class Cells:
         there is no such run, or no value at all of a method.
         """
         key = (human, ours, theirs, measure)
-        if key not in self._known:
-            self._known[key] = self._difference(*key)
-        return self._known[key]
+        if key not in self._gaps:
+            self._gaps[key] = self._difference(*key)
+        return self._gaps[key]
 
     def _difference(self, human: str, ours: str, theirs: str, measure: str) -> Interval | None:
         if not all(self.mean(human, method, measure) for method in (ours, theirs)):

@@ -11,6 +11,7 @@ from typing import Any
 
 from hrcplan.studies.changed_mind import scenario
 from hrcplan.studies.changed_mind.cells import Cells
+from hrcplan.studies.changed_mind.episodes import ORACLE
 from hrcplan.studies.changed_mind.measures import MEASURES, number, shown
 from hrcplan.studies.estimate import Interval
 from hrcplan.studies.study import Claim, Options
@@ -18,7 +19,7 @@ from hrcplan.studies.study import Claim, Options
 GROUP = "Claims of the paper"
 FIXED, OPTIMAL, SUBOPTIMAL = HUMANS = ("fixed", "optimal", "suboptimal")
 CHANGING = (OPTIMAL, SUBOPTIMAL)
-PAPER, RECURSIVE, BEST, ORACLE = "paper", "recursive", "recursive-best", "oracle"
+PAPER, RECURSIVE, BEST = "paper", "recursive", "recursive-best"
 BOUNDS = ("cdp", "infogain")
 BASELINES = (RECURSIVE, *BOUNDS)
 JUDGED = "Means of paired differences, 95 % intervals"
@@ -114,7 +115,7 @@ def _measured(
 
 def against(found: Mapping[str, Interval]) -> str:
     """Return differences in words."""
-    return ", ".join(f"{shown(one)} to {other}" for other, one in found.items())
+    return ", ".join(f"{shown(one)} against {other}" for other, one in found.items())
 
 
 def _runs(n: Sequence[int]) -> str:
@@ -134,12 +135,18 @@ def bounds(cells: Cells) -> Claim | None:
                     return None
                 n += [one.n for one in found.values()]
                 behind += [
-                    f"{human}, {MEASURES[measure].name}: {bound} {shown(one)} to {other}"
+                    f"{human}, {MEASURES[measure].name}: {bound} {shown(one)} against {other}"
                     for other, one in found.items()
                     if MEASURES[measure].verdict(one) != "worse"
                 ]
-    claim = "When the goal changes, CDP and information gain guess worse than the method and recursive Bayes"  # fmt: skip  # noqa: E501
-    words = f"{len(n) - len(behind)} of {len(n)} comparisons show it: both humans, first right guess, last wrong guess (%), right guesses"  # fmt: skip  # noqa: E501
+    claim = (
+        "When the goal changes, CDP and information gain guess worse than the method and than "
+        "recursive Bayes"
+    )
+    words = (
+        f"{len(n) - len(behind)} of {len(n)} comparisons show it: both humans, first right guess, "
+        "last wrong guess (%), right guesses"
+    )
     if behind:
         words += f"; not these: {'; '.join(behind)}"
     return Claim(claim, not behind, f"{words}. {JUDGED}; {_runs(n)}.", GROUP)
@@ -153,7 +160,10 @@ def midpoint(printed: Mapping[str, Any], cells: Cells) -> Claim | None:
     if len(had) < len(found):
         return None
     words = ", ".join(f"{name} {number(e.mean)} ± {number(e.se)} %" for name, e in had.items())
-    claim = "When the goal is fixed, the last wrong guess of the method and of recursive Bayes is about the midpoint"  # fmt: skip  # noqa: E501
+    claim = (
+        "When the goal is fixed, the last wrong guess of the method and of recursive Bayes is "
+        "about the midpoint"
+    )
     evidence = (
         f"{words} of the episode. “Around the midpoint” is read as {low} to {high} %; how soon a "
         "fixed goal shows depends on how much the goals have in common."

@@ -7,6 +7,7 @@ from typing import Any
 
 from hrcplan.studies import plots
 from hrcplan.studies.changed_mind.cells import Cells
+from hrcplan.studies.changed_mind.episodes import ORACLE
 from hrcplan.studies.changed_mind.measures import MEASURES
 from hrcplan.studies.estimate import CONFIDENT
 from hrcplan.studies.page import keys
@@ -27,6 +28,16 @@ def color(method: str, methods: Sequence[str]) -> str:
     if method in COLORS:
         return COLORS[method]
     return _STRANGERS[strangers.index(method) % len(_STRANGERS)]
+
+
+def have_colors(methods: Sequence[str]) -> bool:
+    """Whether each method has a color of its own: there are few for strangers."""
+    return sum(name not in COLORS for name in methods) <= len(_STRANGERS)
+
+
+def without_oracle(methods: Sequence[str]) -> list[str]:
+    """Return methods but the oracle, which guesses right and wastes nothing by definition."""
+    return [method for method in methods if method != ORACLE]
 
 
 def legend(methods: Sequence[str], lines: bool = False) -> str:
@@ -58,12 +69,13 @@ def bars(cells: Cells, humans: Sequence[str], measure: str, title: str) -> str:
 
 @plots.styled
 def dots(cells: Cells, measure: str, title: str, name: str) -> str:
-    """Return a measure by human: dots with 95 % intervals."""
+    """Return a measure by human: dots with 95 % intervals, without the oracle's."""
     figure, grid = plots.figure(1, 1, 6.0, 2.7)
     axes = grid[0][0]
-    n = len(cells.methods)
+    methods = without_oracle(cells.methods)
+    n = len(methods)
     for x, human in enumerate(cells.humans):
-        for i, method in enumerate(cells.methods):
+        for i, method in enumerate(methods):
             if (e := cells.mean(human, method, measure)) is not None:
                 at, tone = x + (i - (n - 1) / 2) * 0.6 / n, color(method, cells.methods)
                 half = CONFIDENT * e.se
@@ -78,8 +90,6 @@ def _humans(axes: Any, humans: Sequence[str], measure: str, title: str) -> None:
     axes.set_xticks(range(len(humans)), labels=[human.replace(", ", ",\n") for human in humans])
     axes.set_xlim(-0.55, len(humans) - 0.45)
     axes.set_ylabel(MEASURES[measure].unit)
-    if axes.get_ylim()[0] > 0:
-        axes.set_ylim(bottom=0)
     axes.set_title(title)
     plots.bare(axes, "y")
 

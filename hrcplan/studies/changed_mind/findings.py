@@ -18,8 +18,12 @@ COMPARED = ("first_correct", "last_incorrect_step", "last_incorrect_pct", "corre
             "detection_delay", "false_changes", "wasted_robot_steps", "total_steps")  # fmt: skip
 COMPACT = ("first_correct", "last_incorrect_step", "correct_pct", "false_changes",
            "wasted_robot_steps", "extra_vs_oracle")  # fmt: skip
-PLOTTED = {"correct_pct": "Right guesses", "wasted_robot_steps": "Wasted robot steps",
-           "last_incorrect_step": "Last wrong guess", "extra_vs_oracle": "More than the oracle"}  # fmt: skip  # noqa: E501
+PLOTTED = {
+    "correct_pct": "Right guesses",
+    "wasted_robot_steps": "Wasted robot steps",
+    "last_incorrect_step": "Last wrong guess",
+    "extra_vs_oracle": "More steps than the oracle",
+}
 BANKS = ("paper", "paper, in order", "paper, in order, sampled")
 BESIDE = claims.PAPER
 LEAD = (
@@ -30,7 +34,7 @@ LEAD = (
     "made for fixed goals, <em>hrcplan</em> is ours, and <em>oracle</em> is told the goal."
 )
 COLORED = (
-    '<span class="in">Green</span>: better than 0 with 95 % confidence, '
+    '<span class="in">Green</span>: better with 95 % confidence, '
     '<span class="out">orange</span>: worse; other intervals contain 0.'
 )
 
@@ -56,12 +60,15 @@ def judged(options: Options, main: Cells, beyond: Cells) -> list[Claim]:
 
 def how_many(cells: Cells) -> str:
     """Return in words how many runs the cells have."""
-    words = []
+    found: dict[str, list[str]] = {}
     for human in cells.humans:
         method = max(cells.methods_of(human), key=lambda name: cells.n_runs(human, name))
         runs, pairs = cells.n_runs(human, method), cells.n_pairs(human, method)
         what = "pairs of goals" if scenario.human_data(human)["changes"] else "goals"
-        words.append(f"{escape(human)} {runs:,} runs of {pairs:,} {what}")
+        found.setdefault(f"{runs:,} runs of {pairs:,} {what}", []).append(escape(human))
+    if len(found) == 1:
+        return f"n per human and method: {next(iter(found))}."
+    words = [f"{' and '.join(humans)} {what}" for what, humans in found.items()]
     return f"n per method: {'; '.join(words)}."
 
 
@@ -71,11 +78,11 @@ def figure_3(cells: Cells) -> Section | None:
         return None
     changing = [human for human in cells.humans if scenario.human_data(human)["changes"]]
     wanted = [
-        ("first_correct", "a  First right guess after a change", changing),
-        ("last_incorrect_pct", "b  Last wrong guess", cells.humans),
-        ("last_incorrect_step", "b  The same, in timesteps", cells.humans),
-        ("extra_steps", "c  Extra steps", cells.humans),
-        ("correct_pct", "d  Right guesses", cells.humans),
+        ("first_correct", "a: First right guess after a change", changing),
+        ("last_incorrect_pct", "b: Last wrong guess", cells.humans),
+        ("last_incorrect_step", "b: the same, in timesteps", cells.humans),
+        ("extra_steps", "c: Extra steps", cells.humans),
+        ("correct_pct", "d: Right guesses", cells.humans),
         ("wasted_robot_steps", "Wasted robot steps", cells.humans),
     ]
     drawn = [figures.bars(cells, humans, name, title) for name, title, humans in wanted if humans]
@@ -154,7 +161,9 @@ def decisions(cells: Cells) -> Section | None:
         "only figures here that the same seed does not give again. Mean over episodes of the mean "
         f"time of a decision. The paper reports {low} to {high} s on an NVIDIA RTX 4090."
     )
-    html = table(["", *(f"{escape(human)}<small>ms</small>" for human in cells.humans)], lines)
+    html = table(
+        ["", *(f"{escape(human)}<small>ms</small>" for human in cells.humans)], lines, "narrow"
+    )
     return Section("Time of a decision", html + _note(note))
 
 
@@ -174,34 +183,30 @@ def more_than_paper(cells: Cells) -> Section | None:
         "More changes than one, humans who wait, and goals that can be reached by different sets "
         "of steps. The first right guess is the mean over changes."
     )
-    return _beside("Beyond the paper", words, cells, "beyond", per_change=True)
+    found = _beside("Beyond the paper", words, cells, "beyond")
+    if found is None:
+        return None
+    parts = {human: reach.n_changes(human) for human in cells.humans}
+    title = '<h3 class="part">wasted robot steps per change of goal</h3>'
+    ratios = tables.ratios(cells, "wasted_robot_steps", parts)
+    return Section(found.title, found.html + title + ratios)
 
 
-def _beside(
-    title: str, words: str, cells: Cells, name: str, per_change: bool = False
-) -> Section | None:
+def _beside(title: str, words: str, cells: Cells, name: str) -> Section | None:
     """Return plots of a table, and per human its means with differences to the paper's method."""
     if not cells.rows:
         return None
     drawn = [figures.dots(cells, measure, text, name) for measure, text in PLOTTED.items()]
     caption = f"Means over pairs of goals with 95 % intervals. {how_many(cells)}"
-    parts = [f"<p>{words}</p>", panels(drawn, caption, figures.legend(cells.methods), "wide")]
+    keys = figures.legend(figures.without_oracle(cells.methods))
+    parts = [f"<p>{words}</p>", panels(drawn, caption, keys, "wide")]
     for human in cells.humans:
-        more = [_per_change(cells, human)] if per_change else []
         parts.append(f'<h3 class="part">{escape(human)}</h3>')
         methods = cells.methods_of(human)
-        parts.append(tables.both(cells, human, COMPACT, BESIDE, methods, more))
+        parts.append(tables.both(cells, human, COMPACT, BESIDE, methods))
     if BESIDE in cells.methods:
         parts.append(_note(f"Below the means: paired differences to <em>{BESIDE}</em>. {COLORED}"))
     return Section(title, "\n".join(parts))
-
-
-def _per_change(cells: Cells, human: str) -> tuple[str, Sequence[str]]:
-    """Return a column: wasted steps per change of goal."""
-    found = [cells.mean(human, m, "wasted_robot_steps") for m in cells.methods_of(human)]
-    n = reach.n_changes(human)
-    words = [tables.NOTHING if e is None else number(e.mean / n) for e in found]
-    return "wasted<br>per change<small>steps</small>", words
 
 
 def banks(cells: Cells) -> Section | None:
@@ -231,10 +236,10 @@ def _false_ones(cells: Cells, methods: Sequence[str]) -> str:
     for human in cells.humans:
         if not scenario.human_data(human).get("mistake_rate"):
             found = {name: cells.mean(human, name, "false_changes") for name in methods}
-            words = [f"{number(e.mean)} {escape(n)}" for n, e in found.items() if e is not None]
+            words = [f"<em>{escape(name)}</em> {number(e.mean)}" for name, e in found.items() if e]
             return (
                 f"<p>The {escape(human)} human makes no mistakes, so each false change with it is "
-                f"made by the bank or the rule alone: {', '.join(words)} per episode.</p>"
+                f"made by the bank or the rule alone. Per episode: {'; '.join(words)}.</p>"
             )
     return ""
 
@@ -244,9 +249,8 @@ def exchanged(cells: Cells) -> Section | None:
     had = [method for method in cells.methods if method not in BANKS[1:]]
     if not had:
         return None
-    filled = ", ".join(
-        f"{dot} {escape(human)}" for dot, human in zip(("full", "hollow"), cells.humans)
-    )  # fmt: skip
+    dots = zip(("full", "hollow"), cells.humans, strict=False)
+    filled = ", ".join(f"{dot} {escape(human)}" for dot, human in dots)
     caption = f"Means over pairs of goals, 95 % intervals; dots: {filled}. {how_many(cells)}"
     svg = figures.variants(cells, ("correct_pct", "false_changes", "wasted_robot_steps"))
     parts = [
@@ -261,7 +265,7 @@ def exchanged(cells: Cells) -> Section | None:
         methods = [method for method in had if method in cells.methods_of(human)]
         if methods:
             parts.append(f'<h3 class="part">{escape(human)}</h3>')
-            parts.append(tables.both(cells, human, COMPACT, BESIDE, methods))
+            parts.append(tables.both(cells, human, COMPACT[:-1], BESIDE, methods))
     parts.append(_note(f"Below the means: paired differences to <em>{BESIDE}</em>. {COLORED}"))
     return Section("Parts exchanged", "\n".join(parts))
 

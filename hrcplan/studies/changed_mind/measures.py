@@ -37,7 +37,9 @@ MEASURES = {
     "top3_pct": Measure("right goal among three", "among first<br>three", "%", True),
     "detection_delay": Measure("delay of detection", "delay of<br>detection", "timesteps"),
     "false_changes": Measure("false changes", "false<br>changes", "per episode"),
-    "false_before": Measure("false changes before the first", "before the<br>first true one", "per episode"),
+    "false_before": Measure(
+        "false changes before the first", "before the<br>first true one", "per episode"
+    ),
     "n_detected": Measure("changes detected", "changes<br>detected", "per episode", True),
     "wasted_robot_steps": Measure("wasted robot steps", "wasted<br>robot steps", "per episode"),
     "human_mistakes": Measure("human's mistakes", "human's<br>mistakes", "per episode", None),

@@ -52,7 +52,9 @@ def _judged(
     """Return the goal in words, and whether it is reached."""
     whose = f"{one['beside']}'s"
     if "share" in one:
-        return f"at most {one['share']:.0%} of {whose}", ours.mean <= one["share"] * theirs.mean
+        return f"at most {100 * one['share']:g} % of {whose}", ours.mean <= one[
+            "share"
+        ] * theirs.mean
     if "above" in one:
         return f"at most {one['above']:g} above {whose}", gap.mean <= one["above"]
     if "below" in one:
@@ -67,7 +69,7 @@ def _mean(e: Estimate) -> str:
 
 
 def _share(ours: Estimate, theirs: Estimate) -> str:
-    return f"{ours.mean / theirs.mean:.0%}" if theirs.mean else "of 0"
+    return f"{100 * ours.mean / theirs.mean:.0f} %" if theirs.mean else "of 0"
 
 
 def as_good(human: str, data: Mapping[str, Any], cells: Cells) -> Claim | None:
@@ -95,7 +97,7 @@ def _worse(
     measure: str, other: str, gap: Interval, human: str, data: Mapping[str, Any], cells: Cells
 ) -> str:
     """Return where a baseline is better, and the reason if one is known and in the rows."""
-    text = f"{MEASURES[measure].name} {shown(gap)} to {other}"
+    text = f"{MEASURES[measure].name} {shown(gap)} against {other}"
     total = cells.difference(human, data["method"], other, "total_steps")
     why = _reason(data["reasons"], measure, other)
     if why and total is not None and total.is_below_zero:
@@ -104,9 +106,7 @@ def _worse(
 
 
 def _reason(reasons: Iterable[Mapping[str, Any]], measure: str, other: str) -> str:
-    return next(
-        (r["why"] for r in reasons if r["measure"] == measure and other in r["beside"]), ""
-    )
+    return next((r["why"] for r in reasons if r["measure"] == measure and other in r["beside"]), "")
 
 
 def waste(data: Mapping[str, Any], beyond: Cells) -> Claim | None:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from hrcplan.studies.changed_mind import figures
 from hrcplan.studies.changed_mind.cells import Cells
+from hrcplan.studies.changed_mind.episodes import ORACLE
 from hrcplan.studies.changed_mind.measures import MEASURES, ends, head, number, shown, signed
 from hrcplan.studies.estimate import CONFIDENT, Estimate, Interval
 from hrcplan.studies.page import escape, key, table
@@ -24,7 +25,9 @@ def means(cells: Cells, human: str, measures: Sequence[str]) -> str:
 
 
 def named(cells: Cells, method: str) -> str:
-    """Return the name of a method behind its color."""
+    """Return the name of a method, behind its color where each has one."""
+    if not figures.have_colors(cells.methods):
+        return escape(method)
     return f"{key(figures.color(method, cells.methods))}{escape(method)}"
 
 
@@ -33,11 +36,21 @@ def _mean(e: Estimate | None) -> str:
         return NOTHING
     half = CONFIDENT * e.se
     interval = f"{number(e.mean - half)} to {number(e.mean + half)}" if e.n > 1 else "n = 1"
-    return f'{_short(e)}<small>{interval}</small>'  # fmt: skip
+    return f"{_short(e)}<small>{interval}</small>"
 
 
 def _short(e: Estimate) -> str:
     return f'{number(e.mean)} <span class="se">± {number(e.se)}</span>'
+
+
+def ratios(cells: Cells, measure: str, parts: Mapping[str, float]) -> str:
+    """Return a measure's means divided by a number per human; a line per human."""
+    lines = []
+    for human in cells.humans:
+        found = [cells.mean(human, method, measure) for method in cells.methods]
+        words = [NOTHING if e is None else number(e.mean / parts[human]) for e in found]
+        lines.append([escape(human), *words])
+    return table(["", *(named(cells, method) for method in cells.methods)], lines, "narrow")
 
 
 def gaps(cells: Cells, human: str, measures: Sequence[str], beside: str) -> str:
@@ -50,7 +63,7 @@ def gaps(cells: Cells, human: str, measures: Sequence[str], beside: str) -> str:
         for method in cells.methods_of(human)
         if method != beside
     ]
-    return table(["", *map(_goal, measures)], lines)
+    return table(["", *map(_goal, measures)], lines, "tight")
 
 
 def _goal(measure: str) -> str:
@@ -70,8 +83,12 @@ def _gap(measure: str, gap: Interval | None, name: str = "") -> str:
 
 
 def best(
-    cells: Cells, humans: Iterable[str], measures: Sequence[str], ours: str, baselines: Sequence[str]
-) -> str:  # fmt: skip
+    cells: Cells,
+    humans: Iterable[str],
+    measures: Sequence[str],
+    ours: str,
+    baselines: Sequence[str],
+) -> str:
     """Return a line per human: our differences to the baseline with the best mean."""
     lines = []
     for human in humans:
@@ -80,7 +97,7 @@ def best(
             other = _best(cells, human, name, baselines)
             line.append(_gap(name, cells.difference(human, ours, other, name), other))
         lines.append(line)
-    return table(["", *map(_goal, measures)], lines)
+    return table(["", *map(_goal, measures)], lines, "tight")
 
 
 def _best(cells: Cells, human: str, measure: str, baselines: Iterable[str]) -> str:
@@ -91,21 +108,23 @@ def _best(cells: Cells, human: str, measure: str, baselines: Iterable[str]) -> s
     return min(had, key=lambda name: had[name]) if had else ""
 
 
-def both(cells: Cells, human: str, measures: Sequence[str], beside: str, methods: Sequence[str],
-         more: Sequence[tuple[str, Sequence[str]]] = ()) -> str:  # fmt: skip
+def both(
+    cells: Cells, human: str, measures: Sequence[str], beside: str, methods: Sequence[str]
+) -> str:
     """Return a line per method: means, and below them paired differences to one method.
 
-    ``more`` are further columns: a head and a cell per method.
+    The oracle is not compared.
     """
     lines = []
-    for i, method in enumerate(methods):
+    for method in methods:
         line = [named(cells, method)]
         for name in measures:
             e = cells.mean(human, method, name)
-            gap = cells.difference(human, method, beside, name) if method != beside else None
+            is_alone = method in (beside, ORACLE)
+            gap = None if is_alone else cells.difference(human, method, beside, name)
             line.append(NOTHING if e is None else _short(e) + _below(name, gap))
-        lines.append([*line, *(column[i] for _, column in more)])
-    return table(["", *map(head, measures), *(title for title, _ in more)], lines)
+        lines.append(line)
+    return table(["", *map(head, measures)], lines, "tight")
 
 
 def _below(measure: str, gap: Interval | None) -> str:
