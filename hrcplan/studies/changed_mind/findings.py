@@ -88,7 +88,8 @@ def figure_3(cells: Cells) -> Section | None:
     drawn = [figures.bars(cells, humans, name, title) for name, title, humans in wanted if humans]
     caption = (
         "a to d as in the paper; lines are what it calls empirical bounds, and the oracle. Means "
-        f"over pairs of goals ± one standard error. {how_many(cells)}"
+        f"over pairs of goals ± one standard error. {how_many(cells)} The paper prints no numbers "
+        "for this figure, so none stand beside ours."
     )
     words = (
         "<p>Percentages of the episode flatter a robot that wastes steps: it makes the episode "
@@ -172,7 +173,7 @@ def other_choosers(cells: Cells) -> Section | None:
     words = (
         "Our belief assumes that the human takes any useful next step with equal probability. "
         "These humans do not: <em>cc-htn</em> follows a network of chains and cliques, as in the "
-        "paper; <em>plans</em> draws a whole plan of its goal and follows it."
+        "paper; <em>plans</em> follows any plan of its goal, all plans alike."
     )
     return _beside("Humans who choose otherwise", words, cells, "choosers")
 
