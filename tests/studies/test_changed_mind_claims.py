@@ -185,6 +185,9 @@ def test_where_we_are_behind_is_listed_with_its_reason() -> None:
     claim = found["optimal: at least as good as every baseline in every measure counted in steps"]
     assert "worse in 1: last wrong guess +" in claim.evidence
     assert "against recursive (a likely reason: a robot that does useless steps" in claim.evidence
+    found = bent(adding("detection_delay", 2), method="hrcplan", human="optimal")
+    claim = found["optimal: at least as good as every baseline in every measure counted in steps"]
+    assert "and pays in false changes, +" in claim.evidence
     found = bent(adding("first_correct", -30), method="recursive", human="optimal")
     claim = found["optimal: at least as good as every baseline in every measure counted in steps"]
     assert "worse in 1: first right guess +" in claim.evidence

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 from hrcplan.studies.changed_mind import scenario
 from hrcplan.studies.changed_mind.cells import Cells
-from hrcplan.studies.changed_mind.measures import MEASURES, number, shown, signed
+from hrcplan.studies.changed_mind.measures import MEASURES, number, shown
 from hrcplan.studies.estimate import Estimate, Interval
 from hrcplan.studies.study import Claim
 
@@ -96,17 +96,14 @@ def as_good(human: str, data: Mapping[str, Any], cells: Cells) -> Claim | None:
 def _worse(
     measure: str, other: str, gap: Interval, human: str, data: Mapping[str, Any], cells: Cells
 ) -> str:
-    """Return where a baseline is better, and the reason if one is known and in the rows."""
+    """Return where a baseline is better, and why if a reason is known and the rows bear it out."""
     text = f"{MEASURES[measure].name} {shown(gap)} against {other}"
-    total = cells.difference(human, data["method"], other, "total_steps")
-    why = _reason(data["reasons"], measure, other)
-    if why and total is not None and total.is_below_zero:
-        text += f" (a likely reason: {why}: {signed(-total.mean)})"
+    for reason in data["reasons"]:
+        if reason["measure"] == measure and other in reason["beside"]:
+            price = cells.difference(human, other, data["method"], reason["pays"])
+            if price is not None and MEASURES[reason["pays"]].verdict(price) == "worse":
+                text += f" (a likely reason: {reason['why']}, {shown(price)})"
     return text
-
-
-def _reason(reasons: Iterable[Mapping[str, Any]], measure: str, other: str) -> str:
-    return next((r["why"] for r in reasons if r["measure"] == measure and other in r["beside"]), "")
 
 
 def waste(data: Mapping[str, Any], beyond: Cells) -> Claim | None:
