@@ -36,7 +36,7 @@ def have_colors(methods: Sequence[str]) -> bool:
 
 
 def without_oracle(methods: Sequence[str]) -> list[str]:
-    """Return methods but the oracle, which guesses right and wastes nothing by definition."""
+    """Return methods but the oracle, whose guesses, being told, would only stretch the scale."""
     return [method for method in methods if method != ORACLE]
 
 
