@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
+import numpy.typing as npt
 
 CONFIDENT = 1.96
 """Standard errors on either side of a mean that hold it with 95 % confidence."""
@@ -80,8 +82,19 @@ class Interval:
     high: float
     n: int
 
+    @property
+    def is_above_zero(self) -> bool:
+        """Whether the whole interval is above 0."""
+        return self.low > 0
+
+    @property
+    def is_below_zero(self) -> bool:
+        """Whether the whole interval is below 0."""
+        return self.high < 0
+
 
 N_RESAMPLED = 2000
+Counts = npt.NDArray[np.float64]
 
 
 def two_way_bootstrap(values: Sequence[tuple[Hashable, Hashable, float]]) -> Interval:
@@ -89,23 +102,39 @@ def two_way_bootstrap(values: Sequence[tuple[Hashable, Hashable, float]]) -> Int
 
     Rows and columns are drawn anew with replacement, each independently (the two-way cluster
     bootstrap; Cameron, Gelbach and Miller, 2011, name the problem): values of one row or one
-    column are not independent. The draws are always the same.
+    column are not independent. The draws are always the same. Values that all share one row and
+    one column say nothing of others: their interval is endless. With one column for all values
+    rows alone are drawn.
+
+    >>> two_way_bootstrap([("a", None, 1), ("b", None, 1), ("b", None, 4)])
+    Interval(mean=2.0, low=1.0, high=2.5, n=3)
     """
     if not values:
         return Interval(0.0, 0.0, 0.0, 0)
-    row_of, column_of = ({key: i for i, key in enumerate(dict.fromkeys(keys))}
-                         for keys in ([v[0] for v in values], [v[1] for v in values]))  # fmt: skip
+    row_of, column_of = (
+        {key: i for i, key in enumerate(dict.fromkeys(value[at] for value in values))}
+        for at in (0, 1)
+    )
+    mean = math.fsum(value for _, _, value in values) / len(values)
+    if len(row_of) == len(column_of) == 1:
+        return Interval(mean, -math.inf, math.inf, len(values))
     sums, counts = (np.zeros((len(row_of), len(column_of))) for _ in range(2))
     for row, column, value in values:
         sums[row_of[row], column_of[column]] += value
         counts[row_of[row], column_of[column]] += 1
-    rng = np.random.default_rng(0)
-    by_row, by_column = (
-        rng.multinomial(n, np.full(n, 1 / n), N_RESAMPLED).astype(np.float64) for n in sums.shape
-    )
-    total = ((by_row @ sums) * by_column).sum(axis=1)
-    n_drawn = ((by_row @ counts) * by_column).sum(axis=1)
+    rows, columns = _drawn(*sums.shape)
+    total, n_drawn = (np.einsum("dr,rc,dc->d", rows, of, columns) for of in (sums, counts))
     means = total[n_drawn > 0] / n_drawn[n_drawn > 0]
     low, high = np.quantile(means, [0.025, 0.975])
-    mean = math.fsum(value for _, _, value in values) / len(values)
     return Interval(mean, float(low), float(high), len(values))
+
+
+@lru_cache(maxsize=16)
+def _drawn(n_rows: int, n_columns: int) -> tuple[Counts, Counts]:
+    """Return how often each row and each column is drawn, a line per sample."""
+    rng = np.random.default_rng(0)
+    rows, columns = (
+        rng.multinomial(n, np.full(n, 1 / n), N_RESAMPLED).astype(np.float64)
+        for n in (n_rows, n_columns)
+    )
+    return rows, columns

@@ -47,7 +47,7 @@ def html(title: str, about: Mapping[str, Any], n_rows: int, findings: Findings) 
 
 
 def _facts(about: Mapping[str, Any], n_rows: int) -> str:
-    options = ", ".join(f"{key} {value}" for key, value in about["options"].items())
+    options = ", ".join(f"{key} {value}" for key, value in about["options"].items() if value)
     parts = [f"{n_rows:,} rows", f"seed {about['seed']}", options, f"hrcplan {about['version']}"]
     return " · ".join(escape(part) for part in parts if part)
 
@@ -98,3 +98,23 @@ def table(head: Sequence[str], rows: Sequence[Sequence[str]], kind: str = "") ->
 def picture(svg: str, caption: str) -> str:
     """Return a plot with its caption, which is HTML."""
     return f"<figure>{svg}<figcaption>{caption}</figcaption></figure>"
+
+
+def panels(svgs: Sequence[str], caption: str, keys: str = "", kind: str = "") -> str:
+    """Return small plots that stand side by side as far as there is room, with keys above."""
+    inner = "".join(f"<div>{svg}</div>" for svg in svgs)
+    return (
+        f'<figure>{keys}<div class="{f"panels {kind}".strip()}">{inner}</div>'
+        f"<figcaption>{caption}</figcaption></figure>"
+    )
+
+
+def key(color: str, kind: str = "") -> str:
+    """Return a small mark in a color; of kind ``line`` a stroke."""
+    return f'<i class="{f"key {kind}".strip()}" style="color:{color}"></i>'
+
+
+def keys(marks: Sequence[tuple[str, str, str]]) -> str:
+    """Return what colors stand for: each a name, a color, and the kind of its mark."""
+    inner = "".join(f"<span>{key(color, kind)}{escape(name)}</span>" for name, color, kind in marks)
+    return f'<p class="keys">{inner}</p>'

@@ -27,5 +27,5 @@ STUDY = Study(
     findings=findings,
     inputs=scenario.inputs,
     runs=scenario.runs,
-    unit=("first", "second"),
+    unit=episodes.UNIT,
 )  # fmt: skip

@@ -19,7 +19,8 @@ MEASURES = (
 )  # fmt: skip
 CLOCKED = ("decision_ms",)
 DETAILS = ("n_detected", "false_before", "robot_waits")
-DRAWN = ("first", "second", "goals", "turns", "ending")
+UNIT = ("first", "second")
+DRAWN = (*UNIT, "goals", "turns", "ending")
 COLUMNS = (*DRAWN, *(name for name in MEASURES if name not in CLOCKED), *DETAILS)
 ORACLE = "oracle"
 

@@ -2,9 +2,283 @@
 
 from __future__ import annotations
 
-from hrcplan.studies.study import Findings, Options, Rows
+from collections.abc import Sequence
+
+from hrcplan.studies.changed_mind import claims, figures, reach, scenario, tables
+from hrcplan.studies.changed_mind.cells import Cells
+from hrcplan.studies.changed_mind.measures import number
+from hrcplan.studies.page import escape, panels, picture, table
+from hrcplan.studies.study import Claim, Findings, Options, Rows, Section
+
+GUESSES = ("first_correct", "last_incorrect_step", "last_incorrect_pct", "correct_pct", "top3_pct",
+           "detection_delay", "n_detected", "false_changes")  # fmt: skip
+STEPS = ("wasted_robot_steps", "human_mistakes", "robot_waits", "total_steps", "extra_steps",
+         "extra_vs_oracle")  # fmt: skip
+COMPARED = ("first_correct", "last_incorrect_step", "last_incorrect_pct", "correct_pct",
+            "detection_delay", "false_changes", "wasted_robot_steps", "total_steps")  # fmt: skip
+COMPACT = ("first_correct", "last_incorrect_step", "correct_pct", "false_changes",
+           "wasted_robot_steps", "extra_vs_oracle")  # fmt: skip
+PLOTTED = {
+    "correct_pct": "Right guesses",
+    "wasted_robot_steps": "Wasted robot steps",
+    "last_incorrect_step": "Last wrong guess",
+    "extra_vs_oracle": "More steps than the oracle",
+}
+BANKS = ("paper", "paper, in order", "paper, in order, sampled")
+BESIDE = claims.PAPER
+LEAD = (
+    "A human and a robot take turns at one task. The robot is not told the human's goal, which may "
+    "change on the way; it infers the goal from the human's actions and helps meanwhile. <em>paper"
+    "</em> is the paper's method as we read it, <em>recursive</em> is recursive Bayes as printed, "
+    "<em>recursive-best</em> the same at its best setting, <em>cdp</em> and <em>infogain</em> are "
+    "made for fixed goals, <em>hrcplan</em> is ours, and <em>oracle</em> is told the goal."
+)
+COLORED = (
+    '<span class="in">Green</span>: better with 95 % confidence, '
+    '<span class="out">orange</span>: worse; other intervals contain 0.'
+)
 
 
 def findings(options: Options, rows: Rows) -> Findings:
     """Return claims and sections; what has no rows is left out."""
-    return Findings("", [], [])
+    found = {name: Cells(name, options, had) for name, had in rows.items()}
+    main, beyond = found[scenario.MAIN], found["beyond"]
+    sections = [
+        figure_3(main), all_means(main), differences(main), decisions(main),
+        other_choosers(found["choosers"]), more_than_paper(beyond),
+        banks(found["variants"]), exchanged(found["variants"]), readings(),
+    ]  # fmt: skip
+    stated = judged(options, main, beyond)
+    return Findings(LEAD, stated, [section for section in sections if section is not None])
+
+
+def judged(options: Options, main: Cells, beyond: Cells) -> list[Claim]:
+    """Return the paper's claims, and on the study's own task what we want to reach."""
+    stated = claims.claims(options, main)
+    return [*stated, *(reach.claims(main, beyond) if scenario.is_own_task(options) else ())]
+
+
+def how_many(cells: Cells) -> str:
+    """Return in words how many runs the cells have."""
+    found: dict[str, list[str]] = {}
+    for human in cells.humans:
+        method = max(cells.methods_of(human), key=lambda name: cells.n_runs(human, name))
+        runs, pairs = cells.n_runs(human, method), cells.n_pairs(human, method)
+        what = "pairs of goals" if scenario.human_data(human)["changes"] else "goals"
+        found.setdefault(f"{runs:,} runs of {pairs:,} {what}", []).append(escape(human))
+    if len(found) == 1:
+        return f"n per human and method: {next(iter(found))}."
+    words = [f"{' and '.join(humans)} {what}" for what, humans in found.items()]
+    return f"n per method: {'; '.join(words)}."
+
+
+def figure_3(cells: Cells) -> Section | None:
+    """Return the four panels of the paper's Figure 3, and one in timesteps."""
+    if not cells.rows:
+        return None
+    changing = [human for human in cells.humans if scenario.human_data(human)["changes"]]
+    wanted = [
+        ("first_correct", "a: First right guess after a change", changing),
+        ("last_incorrect_pct", "b: Last wrong guess", cells.humans),
+        ("last_incorrect_step", "b: the same, in timesteps", cells.humans),
+        ("extra_steps", "c: Extra steps", cells.humans),
+        ("correct_pct", "d: Right guesses", cells.humans),
+        ("wasted_robot_steps", "Wasted robot steps", cells.humans),
+    ]
+    drawn = [figures.bars(cells, humans, name, title) for name, title, humans in wanted if humans]
+    caption = (
+        "a to d as in the paper; lines are what it calls empirical bounds, and the oracle. Means "
+        f"over pairs of goals ± one standard error. {how_many(cells)} The paper prints no numbers "
+        "for this figure, so none stand beside ours."
+    )
+    words = (
+        "<p>Percentages of the episode flatter a robot that wastes steps: it makes the episode "
+        "longer, so the same last wrong guess comes at a smaller percentage, and the human, who "
+        "has to do more of the work, gives more evidence. So the timestep stands beside it, and "
+        "the wasted steps.</p>"
+    )
+    keys = figures.legend(cells.methods, lines=True)
+    return Section("Figure 3: guesses and steps", words + panels(drawn, caption, keys))
+
+
+def all_means(cells: Cells) -> Section | None:
+    """Return all measures of all cells."""
+    if not cells.rows:
+        return None
+    parts = [
+        "<p>Mean ± standard error over pairs of goals (for a fixed goal: over goals), and below it "
+        "the 95 % interval. For a human whose goal is fixed the first right guess is counted from "
+        "its first action. A dash: the method declares no changes, or none was to be found.</p>"
+    ]
+    for human in cells.humans:
+        parts.append(f'<h3 class="part">{escape(human)}: guesses</h3>')
+        parts.append(tables.means(cells, human, GUESSES))
+        parts.append(f'<h3 class="part">{escape(human)}: steps</h3>')
+        parts.append(tables.means(cells, human, STEPS))
+    return Section("All measures", "\n".join([*parts, _note(how_many(cells))]))
+
+
+def _note(text: str) -> str:
+    return f'<p class="note">{text}</p>'
+
+
+def differences(cells: Cells) -> Section | None:
+    """Return paired differences to the paper's method, and of ours to the best baseline."""
+    parts = []
+    for human in cells.humans:
+        had = cells.methods_of(human)
+        if BESIDE in had and len(had) > 1:
+            parts.append(f'<h3 class="part">{escape(human)}</h3>')
+            parts.append(tables.gaps(cells, human, COMPARED, BESIDE))
+    data = scenario.data()["reach"]
+    ours = [human for human in cells.humans if data["method"] in cells.methods_of(human)]
+    if ours and any(name in cells.methods for name in data["baselines"]):
+        parts.append(f'<h3 class="part">{data["method"]} beside the best baseline</h3>')
+        parts.append(tables.best(cells, ours, COMPARED, data["method"], data["baselines"]))
+    if not parts:
+        return None
+    words = (
+        f"<p>Differences to the method <em>{BESIDE}</em> in the same runs (same goals, time of "
+        "change and seed), with 95 % intervals of a bootstrap that draws first and second goals "
+        f"anew. {COLORED} The best baseline is the one with the best mean in that column. Delays "
+        "are compared in runs in which both methods found the change.</p>"
+    )
+    return Section("Paired differences", words + "\n".join(parts))
+
+
+def decisions(cells: Cells) -> Section | None:
+    """Return how long a decision takes."""
+    lines = []
+    for method in cells.methods:
+        found = [cells.mean(human, method, "decision_ms") for human in cells.humans]
+        if any(e is not None for e in found):
+            words = [tables.NOTHING if e is None else number(e.mean) for e in found]
+            lines.append([tables.named(cells, method), *words])
+    if not lines:
+        return None
+    low, high = scenario.data()["printed"]["decision_s"]
+    note = (
+        "Measured by the clock while the rows were made, with whatever else the machine did: the "
+        "only figures here that the same seed does not give again. Mean over episodes of the mean "
+        f"time of a decision. The paper reports {low} to {high} s on an NVIDIA RTX 4090."
+    )
+    html = table(
+        ["", *(f"{escape(human)}<small>ms</small>" for human in cells.humans)], lines, "narrow"
+    )
+    return Section("Time of a decision", html + _note(note))
+
+
+def other_choosers(cells: Cells) -> Section | None:
+    """Return humans that choose otherwise than our belief assumes."""
+    words = (
+        "Our belief assumes that the human takes any useful next step with equal probability. "
+        "These humans do not: <em>cc-htn</em> follows a network of chains and cliques, as in the "
+        "paper; <em>plans</em> follows any plan of its goal, all plans alike."
+    )
+    return _beside("Humans who choose otherwise", words, cells, "choosers")
+
+
+def more_than_paper(cells: Cells) -> Section | None:
+    """Return humans who change their goal more often, wait, or have alternatives."""
+    words = (
+        "More changes than one, humans who wait, and goals that can be reached by different sets "
+        "of steps. The first right guess is the mean over changes."
+    )
+    found = _beside("Beyond the paper", words, cells, "beyond")
+    if found is None:
+        return None
+    parts = {human: reach.n_changes(human) for human in cells.humans}
+    title = '<h3 class="part">wasted robot steps per change of goal</h3>'
+    ratios = tables.ratios(cells, "wasted_robot_steps", parts)
+    return Section(found.title, found.html + title + ratios)
+
+
+def _beside(title: str, words: str, cells: Cells, name: str) -> Section | None:
+    """Return plots of a table, and per human its means with differences to the paper's method."""
+    if not cells.rows:
+        return None
+    drawn = [figures.dots(cells, measure, text, name) for measure, text in PLOTTED.items()]
+    caption = f"Means over pairs of goals with 95 % intervals. {how_many(cells)}"
+    keys = figures.legend(figures.without_oracle(cells.methods))
+    parts = [f"<p>{words}</p>", panels(drawn, caption, keys, "wide")]
+    for human in cells.humans:
+        parts.append(f'<h3 class="part">{escape(human)}</h3>')
+        methods = cells.methods_of(human)
+        parts.append(tables.both(cells, human, COMPACT, BESIDE, methods))
+    if BESIDE in cells.methods:
+        parts.append(_note(f"Below the means: paired differences to <em>{BESIDE}</em>. {COLORED}"))
+    return Section(title, "\n".join(parts))
+
+
+def banks(cells: Cells) -> Section | None:
+    """Return what the bank and the order of steps do to the paper's detection of changes."""
+    had = [method for method in BANKS if method in cells.methods]
+    if len(had) < 2:
+        return None
+    names = ("false_changes", "false_before", "n_detected", "detection_delay", "correct_pct",
+             "wasted_robot_steps")  # fmt: skip
+    parts = [
+        "<p>The paper calls a history consistent if a policy of the bank has its actions in any "
+        "order (<em>paper</em>, the reading taken), and elsewhere if it is a subsequence of one "
+        "(<em>in order</em>); its bank holds 10,000 sampled sequences per goal, not all plans "
+        "(<em>sampled</em>). A false change is one that is declared though the goal stayed.</p>",
+        _false_ones(cells, had),
+    ]
+    for human in cells.humans:
+        methods = [method for method in had if method in cells.methods_of(human)]
+        if methods:
+            parts.append(f'<h3 class="part">{escape(human)}</h3>')
+            parts.append(tables.both(cells, human, names, BESIDE, methods))
+    return Section("Two banks, two kinds of consistency", "\n".join(parts))
+
+
+def _false_ones(cells: Cells, methods: Sequence[str]) -> str:
+    """Return a sentence: false changes with a human who makes no mistakes."""
+    for human in cells.humans:
+        if not scenario.human_data(human).get("mistake_rate"):
+            found = {name: cells.mean(human, name, "false_changes") for name in methods}
+            words = [f"<em>{escape(name)}</em> {number(e.mean)}" for name, e in found.items() if e]
+            return (
+                f"<p>The {escape(human)} human makes no mistakes, so each false change with it is "
+                f"made by the bank or the rule alone. Per episode: {'; '.join(words)}.</p>"
+            )
+    return ""
+
+
+def exchanged(cells: Cells) -> Section | None:
+    """Return the paper's method with one part or number exchanged, and ours likewise."""
+    had = [method for method in cells.methods if method not in BANKS[1:]]
+    if not had:
+        return None
+    dots = zip(("full", "hollow"), cells.humans, strict=False)
+    filled = ", ".join(f"{dot} {escape(human)}" for dot, human in dots)
+    caption = f"Means over pairs of goals, 95 % intervals; dots: {filled}. {how_many(cells)}"
+    svg = figures.variants(cells, ("correct_pct", "false_changes", "wasted_robot_steps"))
+    parts = [
+        "<p><em>our belief</em>: the robot acts as in the paper, but guesses by our filter; "
+        "<em>our steps</em>: the belief is theirs, but the robot takes the step that is most "
+        "likely to be useful. <em>sequences</em>: how many candidate sequences are kept (3 in the "
+        "paper). <em>exact belief</em>: counted in the bank, not learnt by a forest. <em>looks "
+        "ahead</em>: our robot also weighs what the human's answer would tell.</p>",
+        picture(svg, caption),
+    ]
+    for human in cells.humans:
+        methods = [method for method in had if method in cells.methods_of(human)]
+        if methods:
+            parts.append(f'<h3 class="part">{escape(human)}</h3>')
+            parts.append(tables.both(cells, human, COMPACT[:-1], BESIDE, methods))
+    parts.append(_note(f"Below the means: paired differences to <em>{BESIDE}</em>. {COLORED}"))
+    return Section("Parts exchanged", "\n".join(parts))
+
+
+def readings() -> Section:
+    """Return where the readings are explained."""
+    words = (
+        "<p>Where the paper is silent a reading was taken: the goals and their steps, what a "
+        "sequence of the classifier is, which history counts as consistent, what the baselines' "
+        "likelihoods are, what a mistake is and when the goal changes. "
+        "<code>docs/reproduce.md</code> lists all of them with their reasons. A claim that lacks "
+        "the rows of one of its methods or humans is not stated. Every number but the times can be "
+        "computed again from <code>rows.sqlite</code>, one row per episode.</p>"
+    )
+    return Section("Readings", words)

@@ -1,0 +1,92 @@
+"""Rows of one table by human and method: their means, and paired differences between methods."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from hrcplan.studies.changed_mind import scenario
+from hrcplan.studies.changed_mind.episodes import UNIT
+from hrcplan.studies.changed_mind.measures import DECLARED
+from hrcplan.studies.estimate import Estimate, Interval, two_way_bootstrap
+from hrcplan.studies.report import cells_of, estimates
+from hrcplan.studies.study import Options, Row
+
+KEYS = ("human", "method")
+
+
+class Cells:
+    """The rows of a table, without the cells that have none.
+
+    Attributes:
+        rows: Rows by human and method.
+        humans: Humans that have rows, in the order of the study.
+        methods: Methods likewise.
+    """
+
+    def __init__(self, table: str, options: Options, rows: Sequence[Row]) -> None:
+        found = cells_of(rows, KEYS, scenario.cells(table, options))
+        self.rows: dict[tuple[str, str], Sequence[Row]] = {
+            (str(human), str(method)): had for (human, method), had in found.items() if had
+        }
+        self.humans = list(dict.fromkeys(human for human, _ in self.rows))
+        order = [str(method) for _, method in found]
+        has = {method for _, method in self.rows}
+        self.methods = [method for method in dict.fromkeys(order) if method in has]
+        self._declaring = {
+            method
+            for (_, method), had in self.rows.items()
+            if any(row["n_detected"] or row["false_changes"] for row in had)
+        }
+        self._means: dict[tuple[str, str, str], Estimate | None] = {}
+        self._gaps: dict[tuple[str, str, str, str], Interval | None] = {}
+
+    def methods_of(self, human: str) -> list[str]:
+        """Return the methods that have rows of a human."""
+        return [method for method in self.methods if (human, method) in self.rows]
+
+    def n_runs(self, human: str, method: str) -> int:
+        """Return how many rows a cell has."""
+        return len(self.rows.get((human, method), ()))
+
+    def n_pairs(self, human: str, method: str) -> int:
+        """Return of how many pairs of goals, or single goals, the rows of a cell are."""
+        return len({tuple(row[key] for key in UNIT) for row in self.rows.get((human, method), ())})
+
+    def mean(self, human: str, method: str, measure: str) -> Estimate | None:
+        """Return the mean over pairs of goals; None without values.
+
+        A method that never declared a change, to any human, has no values of declared changes.
+        """
+        key = (human, method, measure)
+        if key not in self._means:
+            self._means[key] = self._mean(*key)
+        return self._means[key]
+
+    def _mean(self, human: str, method: str, measure: str) -> Estimate | None:
+        if measure in DECLARED and method not in self._declaring:
+            return None
+        rows = self.rows.get((human, method), ())
+        found = estimates(rows, (measure,), UNIT)[measure]
+        return found if found.n else None
+
+    def difference(self, human: str, ours: str, theirs: str, measure: str) -> Interval | None:
+        """Return the mean of ours minus theirs over the runs in which both have a value.
+
+        The interval is that of the two-way cluster bootstrap over first and second goals. None if
+        there is no such run, or no value at all of a method.
+        """
+        key = (human, ours, theirs, measure)
+        if key not in self._gaps:
+            self._gaps[key] = self._difference(*key)
+        return self._gaps[key]
+
+    def _difference(self, human: str, ours: str, theirs: str, measure: str) -> Interval | None:
+        if not all(self.mean(human, method, measure) for method in (ours, theirs)):
+            return None
+        beside = {row["run"]: row for row in self.rows[human, theirs]}
+        values = []
+        for row in self.rows[human, ours]:
+            a, b = row[measure], beside.get(row["run"], {}).get(measure)
+            if a is not None and b is not None:
+                values.append((row["first"], row["second"], float(a) - float(b)))
+        return two_way_bootstrap(values) if values else None

@@ -1,0 +1,202 @@
+"""What the paper claims, each claim judged by the rows alone; ours are in ``reach.py``.
+
+A claim that lacks the rows of one of its methods or humans is not stated.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from hrcplan.studies.changed_mind import scenario
+from hrcplan.studies.changed_mind.cells import Cells
+from hrcplan.studies.changed_mind.episodes import ORACLE
+from hrcplan.studies.changed_mind.measures import MEASURES, number, shown
+from hrcplan.studies.estimate import Interval
+from hrcplan.studies.study import Claim, Options
+
+GROUP = "Claims of the paper"
+FIXED, OPTIMAL, SUBOPTIMAL = HUMANS = ("fixed", "optimal", "suboptimal")
+CHANGING = (OPTIMAL, SUBOPTIMAL)
+PAPER, RECURSIVE, BEST = "paper", "recursive", "recursive-best"
+BOUNDS = ("cdp", "infogain")
+BASELINES = (RECURSIVE, *BOUNDS)
+JUDGED = "Means of paired differences, 95 % intervals"
+
+
+@dataclass(frozen=True, slots=True)
+class Ahead:
+    """That a method is better than each of others in a measure, for each of some humans.
+
+    ``also`` are measures that are shown beside it, and do not decide.
+    """
+
+    claim: str
+    measure: str
+    humans: tuple[str, ...]
+    note: str = ""
+    also: tuple[str, ...] = ()
+    ours: tuple[str, ...] = (PAPER,)
+    others: tuple[str, ...] = BASELINES
+
+
+_STOCHASTIC = (
+    "The paper says “when the human switches goals stochastically”: one or both of the humans "
+    "whose goal changes, so each is judged by itself."
+)
+AHEAD = (
+    Ahead("After a change the first right guess comes sooner than with any baseline, for both "
+          "humans whose goal changes", "first_correct", CHANGING),
+    *(Ahead(f"When the goal changes, the last wrong guess comes earlier than with any baseline "
+            f"({human} human)", "last_incorrect_pct", (human,), _STOCHASTIC,
+            ("last_incorrect_step",)) for human in CHANGING),
+    Ahead("When the goal is fixed, the last wrong guess of the method and of recursive Bayes comes "
+          "earlier than that of CDP and information gain", "last_incorrect_pct", (FIXED,),
+          ours=(PAPER, RECURSIVE), others=BOUNDS),
+    *(Ahead(f"When the goal changes, more guesses are right than with any baseline ({human} human)",
+            "correct_pct", (human,), _STOCHASTIC) for human in CHANGING),
+    Ahead("Fewer extra steps than with any baseline, for all three humans", "extra_steps", HUMANS,
+          "Differences in total steps are the same: a run has one mistake-free length."),
+)  # fmt: skip
+
+
+def claims(options: Options, cells: Cells) -> list[Claim]:
+    """Return the paper's claims; those about printed numbers on the study's own task only."""
+    found = [ahead(wanted, cells) for wanted in AHEAD]
+    found.append(bounds(cells))
+    if scenario.is_own_task(options):
+        printed = scenario.data()["printed"]
+        found += [midpoint(printed, cells), minimal(printed, cells), length(printed, cells)]
+    return [claim for claim in found if claim is not None]
+
+
+def ahead(wanted: Ahead, cells: Cells) -> Claim | None:
+    """Return that a method is better than each of the others, by paired differences."""
+    words, n, holds = [], [], True
+    for human in wanted.humans:
+        for ours in wanted.ours:
+            found = differences(cells, human, ours, wanted.others, wanted.measure)
+            if found is None:
+                return None
+            holds &= all(
+                MEASURES[wanted.measure].verdict(one) == "better" for one in found.values()
+            )
+            n += [one.n for one in found.values()]
+            words.append(f"{human}, {ours}: {_measured(cells, human, ours, wanted, found)}")
+    evidence = f"{'; '.join(words)}. {JUDGED}; {_runs(n)}."
+    return Claim(wanted.claim, holds, f"{evidence} {wanted.note}".strip(), GROUP)
+
+
+def differences(
+    cells: Cells, human: str, ours: str, others: Iterable[str], measure: str
+) -> dict[str, Interval] | None:
+    """Return paired differences to each of the others; None if one has no rows."""
+    found = {other: cells.difference(human, ours, other, measure) for other in others}
+    had = {other: one for other, one in found.items() if one is not None}
+    return had if len(had) == len(found) else None
+
+
+def _measured(
+    cells: Cells, human: str, ours: str, wanted: Ahead, found: Mapping[str, Interval]
+) -> str:
+    """Return a mean, its differences to others, and those that stand beside the claim."""
+    mean = cells.mean(human, ours, wanted.measure)
+    text = f"{number(mean.mean if mean else 0)} {MEASURES[wanted.measure].unit}, {against(found)}"
+    if RECURSIVE not in wanted.others:
+        return text
+    beside = [(wanted.measure, (BEST,)), *((name, (*wanted.others, BEST)) for name in wanted.also)]
+    for measure, others in beside:
+        if more := differences(cells, human, ours, others, measure):
+            unit = "" if measure == wanted.measure else f" in {MEASURES[measure].unit}"
+            text += f" [beside the claim{unit}: {against(more)}]"
+    return text
+
+
+def against(found: Mapping[str, Interval]) -> str:
+    """Return differences in words."""
+    return ", ".join(f"{shown(one)} against {other}" for other, one in found.items())
+
+
+def _runs(n: Sequence[int]) -> str:
+    few, many = min(n), max(n)
+    return f"n = {few:,} runs" if few == many else f"n = {few:,} to {many:,} runs"
+
+
+def bounds(cells: Cells) -> Claim | None:
+    """Return that the methods for fixed goals guess worse than both others when goals change."""
+    names = ("first_correct", "last_incorrect_pct", "correct_pct")
+    n, behind = [], []
+    for human in CHANGING:
+        for measure in names:
+            for bound in BOUNDS:
+                found = differences(cells, human, bound, (PAPER, RECURSIVE), measure)
+                if found is None:
+                    return None
+                n += [one.n for one in found.values()]
+                behind += [
+                    f"{human}, {MEASURES[measure].name}: {bound} {shown(one)} against {other}"
+                    for other, one in found.items()
+                    if MEASURES[measure].verdict(one) != "worse"
+                ]
+    claim = (
+        "When the goal changes, CDP and information gain guess worse than the method and than "
+        "recursive Bayes"
+    )
+    words = (
+        f"{len(n) - len(behind)} of {len(n)} comparisons show it: both humans, first right guess, "
+        "last wrong guess (%), right guesses"
+    )
+    if behind:
+        words += f"; not these: {'; '.join(behind)}"
+    return Claim(claim, not behind, f"{words}. {JUDGED}; {_runs(n)}.", GROUP)
+
+
+def midpoint(printed: Mapping[str, Any], cells: Cells) -> Claim | None:
+    """Return that with a fixed goal the last wrong guess is about the middle of the episode."""
+    low, high = printed["midpoint_pct"]
+    found = {name: cells.mean(FIXED, name, "last_incorrect_pct") for name in (PAPER, RECURSIVE)}
+    had = {name: e for name, e in found.items() if e is not None}
+    if len(had) < len(found):
+        return None
+    words = ", ".join(f"{name} {number(e.mean)} ± {number(e.se)} %" for name, e in had.items())
+    claim = (
+        "When the goal is fixed, the last wrong guess of the method and of recursive Bayes is "
+        "about the midpoint"
+    )
+    evidence = (
+        f"{words} of the episode. “Around the midpoint” is read as {low} to {high} %; how soon a "
+        "fixed goal shows depends on how much the goals have in common."
+    )
+    return Claim(claim, all(low <= e.mean <= high for e in had.values()), evidence, GROUP)
+
+
+def minimal(printed: Mapping[str, Any], cells: Cells) -> Claim | None:
+    """Return that the method's extra steps are few, for every human."""
+    found = {human: cells.mean(human, PAPER, "extra_steps") for human in HUMANS}
+    had = {human: e for human, e in found.items() if e is not None}
+    if len(had) < len(found):
+        return None
+    most = printed["minimal_steps"]
+    words = ", ".join(f"{human} {number(e.mean)} ± {number(e.se)}" for human, e in had.items())
+    evidence = (
+        f"{words}. “Minimal” is read as less than {most:g} step. Extra steps count the human's own "
+        "mistakes too, as in the paper."
+    )
+    claim = "The number of extra steps is minimal for all three humans"
+    return Claim(claim, all(e.mean < most for e in had.values()), evidence, GROUP)
+
+
+def length(printed: Mapping[str, Any], cells: Cells) -> Claim | None:
+    """Return that combinations of two goals are as long as in the paper."""
+    found = cells.mean(OPTIMAL, ORACLE, "total_steps")
+    if found is None:
+        return None
+    mean, within = printed["combined_length"], printed["combined_within"]
+    evidence = (
+        f"{number(found.mean)} ± {number(found.se)} timesteps with a robot that is told the goal "
+        f"and a human without mistakes; read as within {within:g} of the printed mean. The goals "
+        "are ours: the paper does not list its own."
+    )
+    claim = f"Combinations of two goals take {mean:g} steps on average"
+    return Claim(claim, abs(found.mean - mean) <= within, evidence, GROUP)

@@ -1,0 +1,134 @@
+"""The tables of the study, as HTML: means, paired differences, and both in one."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+
+from hrcplan.studies.changed_mind import figures
+from hrcplan.studies.changed_mind.cells import Cells
+from hrcplan.studies.changed_mind.episodes import ORACLE
+from hrcplan.studies.changed_mind.measures import MEASURES, ends, head, number, shown, signed
+from hrcplan.studies.estimate import CONFIDENT, Estimate, Interval
+from hrcplan.studies.page import escape, key, table
+
+NOTHING = "\u2013"
+_MARKS = {"better": "in", "worse": "out", "": ""}
+
+
+def means(cells: Cells, human: str, measures: Sequence[str]) -> str:
+    """Return a line per method: mean, standard error and 95 % interval of each measure."""
+    lines = [
+        [named(cells, method), *(_mean(cells.mean(human, method, name)) for name in measures)]
+        for method in cells.methods_of(human)
+    ]
+    return table(["", *map(head, measures)], lines)
+
+
+def named(cells: Cells, method: str) -> str:
+    """Return the name of a method, behind its color where each has one."""
+    if not figures.have_colors(cells.methods):
+        return escape(method)
+    return f"{key(figures.color(method, cells.methods))}{escape(method)}"
+
+
+def _mean(e: Estimate | None) -> str:
+    if e is None:
+        return NOTHING
+    half = CONFIDENT * e.se
+    interval = f"{number(e.mean - half)} to {number(e.mean + half)}" if e.n > 1 else "n = 1"
+    return f"{_short(e)}<small>{interval}</small>"
+
+
+def _short(e: Estimate) -> str:
+    return f'{number(e.mean)} <span class="se">± {number(e.se)}</span>'
+
+
+def ratios(cells: Cells, measure: str, parts: Mapping[str, float]) -> str:
+    """Return a measure's means divided by a number per human; a line per human."""
+    lines = []
+    for human in cells.humans:
+        found = [cells.mean(human, method, measure) for method in cells.methods]
+        words = [NOTHING if e is None else number(e.mean / parts[human]) for e in found]
+        lines.append([escape(human), *words])
+    return table(["", *(named(cells, method) for method in cells.methods)], lines, "narrow")
+
+
+def gaps(cells: Cells, human: str, measures: Sequence[str], beside: str) -> str:
+    """Return a line per other method: its paired differences to one method."""
+    lines = [
+        [
+            named(cells, method),
+            *(_gap(name, cells.difference(human, method, beside, name)) for name in measures),
+        ]
+        for method in cells.methods_of(human)
+        if method != beside
+    ]
+    return table(["", *map(_goal, measures)], lines, "tight")
+
+
+def _goal(measure: str) -> str:
+    """Return the head of a column of differences, which says which way is better."""
+    found = MEASURES[measure]
+    way = {True: "more is better", False: "less is better", None: ""}[found.more_is_better]
+    return f"{found.head}<small>{found.unit}</small><small>{way}</small>"
+
+
+def _gap(measure: str, gap: Interval | None, name: str = "") -> str:
+    if gap is None:
+        return NOTHING
+    verdict = MEASURES[measure].verdict(gap)
+    mark = f' class="{_MARKS[verdict]}"' if verdict else ""
+    whom = f"<small>{escape(name)}</small>" if name else ""
+    return f"<span{mark}>{signed(gap.mean)}</span><small>{ends(gap)}</small>{whom}"
+
+
+def best(
+    cells: Cells,
+    humans: Iterable[str],
+    measures: Sequence[str],
+    ours: str,
+    baselines: Sequence[str],
+) -> str:
+    """Return a line per human: our differences to the baseline with the best mean."""
+    lines = []
+    for human in humans:
+        line = [escape(human)]
+        for name in measures:
+            other = _best(cells, human, name, baselines)
+            line.append(_gap(name, cells.difference(human, ours, other, name), other))
+        lines.append(line)
+    return table(["", *map(_goal, measures)], lines, "tight")
+
+
+def _best(cells: Cells, human: str, measure: str, baselines: Iterable[str]) -> str:
+    """Return the baseline with the best mean, the first of equals; no name without any."""
+    sign = -1 if MEASURES[measure].more_is_better else 1
+    found = {name: cells.mean(human, name, measure) for name in baselines}
+    had = {name: sign * e.mean for name, e in found.items() if e is not None}
+    return min(had, key=lambda name: had[name]) if had else ""
+
+
+def both(
+    cells: Cells, human: str, measures: Sequence[str], beside: str, methods: Sequence[str]
+) -> str:
+    """Return a line per method: means, and below them paired differences to one method.
+
+    The oracle is not compared.
+    """
+    lines = []
+    for method in methods:
+        line = [named(cells, method)]
+        for name in measures:
+            e = cells.mean(human, method, name)
+            is_alone = method in (beside, ORACLE)
+            gap = None if is_alone else cells.difference(human, method, beside, name)
+            line.append(NOTHING if e is None else _short(e) + _below(name, gap))
+        lines.append(line)
+    return table(["", *map(head, measures)], lines, "tight")
+
+
+def _below(measure: str, gap: Interval | None) -> str:
+    if gap is None:
+        return ""
+    verdict = MEASURES[measure].verdict(gap)
+    return f'<small class="{_MARKS[verdict]}">{shown(gap)}</small>'
