@@ -17,16 +17,9 @@ import math
 from typing import Any
 
 from hrcplan.assistance.assistant import Options, Watched, Watcher
-from hrcplan.assistance.lookahead import (
-    WIDTH,
-    Branch,
-    Likely,
-    Lookahead,
-    by_help,
-    entropy,
-    futures,
-    shares,
-)
+from hrcplan.assistance.bigrams import Bigrams
+from hrcplan.assistance.children import BRANCHING
+from hrcplan.assistance.lookahead import Branch, Lookahead, entropy, futures, shares
 from hrcplan.bank import Bank
 from hrcplan.errors import UsageError
 from hrcplan.inference.belief import Belief
@@ -44,8 +37,8 @@ class DecisionPoints(Watcher[Any]):
         bank: The plans.
         belief: What is believed about the goal; by default a forest, which is trained first.
         support: What a step that is expected to be saved is worth, in bits.
+        bigrams: Which steps follow which; by default counted in sampled plans.
         width: How many steps are looked at from each place of the tree.
-        likely: Which steps are likeliest.
 
     Raises:
         UsageError: if ``support`` is negative, or ``width`` less than 1.
@@ -53,13 +46,13 @@ class DecisionPoints(Watcher[Any]):
 
     def __init__(
         self, bank: Bank, belief: Belief[Any] | None = None, support: float = SUPPORT,
-        width: int = WIDTH, likely: Likely = by_help,
+        bigrams: Bigrams | None = None, width: int = BRANCHING,
     ) -> None:  # fmt: skip
         if not support >= 0:
             raise UsageError(f"support is worth 0 bits or more, not {support}")
         super().__init__(bank, Forest(bank) if belief is None else belief)
         self.support = support
-        self.lookahead = Lookahead(self.outlook, width, likely)
+        self.lookahead = Lookahead(self.outlook, bigrams or Bigrams(bank), width)
 
     def options(self, state: Watched[Any]) -> Options:
         """Return the likeliest steps, and what each is worth, in bits."""

@@ -15,16 +15,9 @@ from typing import Any
 import numpy as np
 
 from hrcplan.assistance.assistant import Options, Watched, Watcher
-from hrcplan.assistance.lookahead import (
-    WIDTH,
-    Branch,
-    Likely,
-    Lookahead,
-    Place,
-    by_help,
-    entropy,
-    futures,
-)
+from hrcplan.assistance.bigrams import Bigrams
+from hrcplan.assistance.children import BRANCHING
+from hrcplan.assistance.lookahead import Branch, Lookahead, Place, entropy, futures
 from hrcplan.bank import Bank
 from hrcplan.errors import UsageError
 from hrcplan.inference.belief import Belief, Floats
@@ -42,8 +35,8 @@ class InformationGain(Watcher[Any]):
         bank: The plans.
         belief: What is believed about the goal; by default a forest, which is trained first.
         alignment: What a robot step that the likeliest goal has next is worth, in bits.
+        bigrams: Which steps follow which; by default counted in sampled plans.
         width: How many steps are looked at from each place of the tree.
-        likely: Which steps are likeliest.
 
     Raises:
         UsageError: if ``alignment`` is negative, or ``width`` less than 1.
@@ -51,13 +44,13 @@ class InformationGain(Watcher[Any]):
 
     def __init__(
         self, bank: Bank, belief: Belief[Any] | None = None, alignment: float = ALIGNMENT,
-        width: int = WIDTH, likely: Likely = by_help,
+        bigrams: Bigrams | None = None, width: int = BRANCHING,
     ) -> None:  # fmt: skip
         if not alignment >= 0:
             raise UsageError(f"alignment is worth 0 bits or more, not {alignment}")
         super().__init__(bank, Forest(bank) if belief is None else belief)
         self.alignment = alignment
-        self.lookahead = Lookahead(self.outlook, width, likely)
+        self.lookahead = Lookahead(self.outlook, bigrams or Bigrams(bank), width)
 
     def options(self, state: Watched[Any]) -> Options:
         """Return the likeliest steps, and what the best branch of each is worth, in bits."""

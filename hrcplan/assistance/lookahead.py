@@ -5,22 +5,21 @@ Of all that could come next, only the few likeliest steps are looked at.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Sequence, Set
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hrcplan.agents.human import humans
-from hrcplan.assistance.assistant import TIES, Watched
+from hrcplan.assistance.ahead import Ahead
+from hrcplan.assistance.assistant import Watched
+from hrcplan.assistance.bigrams import Bigrams
+from hrcplan.assistance.children import BRANCHING, Children
 from hrcplan.assistance.outlook import Outlook, Wanted
-from hrcplan.bank.construct import empty_graph
-from hrcplan.errors import UsageError
 from hrcplan.inference.belief import Belief, Floats
-from hrcplan.inference.track import Off, Track
-
-WIDTH = 5  # steps that are looked at from each place; the paper's b
+from hrcplan.inference.track import Track
 
 Branch = tuple[int, ...]
 """Steps in turn, the robot's first."""
@@ -39,10 +38,6 @@ class Place:
     known: dict[int, tuple[Track, Wanted]] = field(default_factory=dict)
 
 
-Likely = Callable[[Place, Floats], Sequence[int]]
-"""Returns the steps wanted at a place, the likeliest first, given the probability of each goal."""
-
-
 def shares(place: Place, belief: Floats) -> Floats:
     """Return for each step the probability that the human's goal has it next, up to the last."""
     wanted = place.wanted
@@ -50,67 +45,41 @@ def shares(place: Place, belief: Floats) -> Floats:
     return found
 
 
-def by_help(place: Place, belief: Floats) -> list[int]:
-    """Return the wanted steps by the probability that the human's goal has them next."""
-    steps = np.bincount(place.wanted.steps).nonzero()[0]
-    helps = shares(place, belief)[steps].round(TIES)
-    order: list[int] = steps[np.argsort(-helps, kind="stable")].tolist()
-    return order
-
-
 class Lookahead:
     """Expands the tree.
 
     Args:
         outlook: Looks for what the robot could do.
+        bigrams: Which steps follow which; without them the belief decides what is looked at.
         width: How many steps are looked at from each place, at most.
-        likely: Which of the wanted steps are likeliest.
 
     Raises:
         UsageError: if ``width`` is less than 1.
     """
 
-    def __init__(self, outlook: Outlook, width: int = WIDTH, likely: Likely = by_help) -> None:
-        if width < 1:
-            raise UsageError(f"a tree {width} steps wide has no branches")
-        self._outlook, self.width, self.likely = outlook, width, likely
-        self._tracker, self._doer = outlook.tracker, outlook.bank.table.doer
-        self._humans = humans(outlook.bank)
+    def __init__(
+        self, outlook: Outlook, bigrams: Bigrams | None = None, width: int = BRANCHING
+    ) -> None:
+        self._agents, self._humans = outlook.agents, humans(outlook.bank)
+        self._ahead, self._children = Ahead(outlook), Children(outlook, bigrams, width)
 
     def root(self, state: Watched[Any]) -> Place:
         """Return the place where an assistant is."""
-        return Place(state.track, self._outlook.wanted(state.track), state.last)
+        track = self._ahead.begin(state.track)
+        return Place(track, self._ahead.wanted(track), state.last)
 
     def after(self, place: Place, step: int) -> Place:
-        """Return the place after a step that can be done.
-
-        A goal whose plans have no such step wants nothing more on this branch: to plan for it
-        anew from a place that may never be reached would take far longer than all the rest.
-        """
-        world = self._tracker.successor(place.track.world, step)
+        """Return the place after a step that can be done."""
+        world = self._ahead.tracker.successor(place.track.world, step)
         key = place.track.world if world is None else world
         if key not in place.known:
-            track = self._follow(place.track, step)
-            place.known[key] = track, self._outlook.wanted(track)
+            track = self._ahead.after(place.track, step)
+            place.known[key] = track, self._ahead.wanted(track)
         return Place(*place.known[key], step, place.known)
-
-    def _follow(self, track: Track, step: int) -> Track:
-        found = self._tracker.follow(track, step)
-        track = track if found is None else found[0]
-        if any(gone.graph is None for gone in track.off.values()):
-            off = {goal: self._lost(goal, gone) for goal, gone in track.off.items()}
-            track = replace(track, off=off)
-        return track
-
-    def _lost(self, goal: int, gone: Off) -> Off:
-        if gone.graph is not None:
-            return gone
-        packing = self._outlook.bank.graphs[goal].packing
-        return Off(gone.state, empty_graph(self._outlook.bank.names[goal], packing))
 
     def steps(self, place: Place, belief: Floats) -> list[int]:
         """Return the likeliest steps that the robot can do at a place; likeliest first."""
-        return self._able(place, belief, self._outlook.agents)
+        return self._able(place, belief, self._agents)
 
     def responses(self, place: Place, belief: Floats) -> list[tuple[int, float]]:
         """Return the human's likeliest steps at a place, with probabilities that sum to one.
@@ -127,14 +96,8 @@ class Lookahead:
             chances, total = np.ones(len(steps)), len(steps)
         return list(zip(steps, (chances / total).tolist(), strict=True))
 
-    def _able(self, place: Place, belief: Floats, agents: frozenset[str] | Any) -> list[int]:
-        world, found = place.track.world, list[int]()
-        for step in self.likely(place, belief):
-            if len(found) == self.width:
-                break
-            if self._doer(world, step, agents) is not None:
-                found.append(step)
-        return found
+    def _able(self, place: Place, belief: Floats, agents: Set[str]) -> list[int]:
+        return self._children.of(place.track, place.wanted, place.last, agents, lambda: belief)
 
 
 def futures(belief: Belief[Any], state: Any, branches: Sequence[Branch]) -> Floats:

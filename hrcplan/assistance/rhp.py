@@ -16,8 +16,9 @@ from numpy.typing import NDArray
 from hrcplan.agents.human import humans
 from hrcplan.assistance.assistant import Options
 from hrcplan.assistance.bigrams import BANK, N_PLANS, PLAUSIBLE, Bigrams
+from hrcplan.assistance.children import BRANCHING
 from hrcplan.assistance.outlook import Outlook
-from hrcplan.assistance.tree import BRANCHING, DEPTH, Field, Root, Tree
+from hrcplan.assistance.tree import DEPTH, Field, Root, Tree
 from hrcplan.bank import Bank
 from hrcplan.errors import UsageError
 from hrcplan.inference.belief import Floats, weights_to_posterior

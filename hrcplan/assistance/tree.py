@@ -9,16 +9,14 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence, Set
 from dataclasses import dataclass
 
-import numpy as np
-
 from hrcplan.assistance.ahead import Ahead
-from hrcplan.assistance.assistant import TIES
 from hrcplan.assistance.bigrams import Bigrams
+from hrcplan.assistance.children import BRANCHING, Children
 from hrcplan.assistance.outlook import Outlook
 from hrcplan.inference.belief import Floats
 from hrcplan.inference.track import Track
 
-BRANCHING, DEPTH = 5, 3
+DEPTH = 3
 
 Field = Sequence[int]
 """For each label the number of goals that it helps to accomplish."""
@@ -70,12 +68,8 @@ class Tree:
         branching: int = BRANCHING, depth: int = DEPTH,
     ) -> None:  # fmt: skip
         self.outlook, self.bigrams, self.people = outlook, bigrams, people
-        self.branching, self.n_levels = branching, (depth + 1) // 2
+        self._children, self.n_levels = Children(outlook, bigrams, branching), (depth + 1) // 2
         self.ahead, self.label = Ahead(outlook), outlook.tracker.joint.label
-        self._doer = outlook.bank.table.doer
-        self._called: dict[int, list[int]] = {}
-        for step, label in enumerate(self.label):
-            self._called.setdefault(label, []).append(step)
 
     def costs(self, root: Root) -> dict[int, int]:
         """Return for each step that the robot may do first the cost of its cheapest branch.
@@ -130,32 +124,9 @@ class Tree:
                 grown.append(Branch(branch.first, track, step, costs))
 
     def children(self, root: Root, track: Track, last: int | None, agents: Set[str]) -> list[int]:
-        """Return the steps that are tried after a step, the likeliest first.
-
-        They are next in a plan of some goal, and one of the agents can do them. What was seen
-        after the last step comes first; places that are left go to what the likeliest goals want.
-        """
+        """Return the steps that are tried after a step, the likeliest first."""
         wanted = self.ahead.wanted(track)
-        open_steps = np.zeros(len(self.label), dtype=np.bool_)
-        open_steps[wanted.steps] = True
-        is_open = open_steps.tolist()
-        found: list[int] = []
-        labels = () if last is None else self.bigrams.followers(self.label[last], root.plausible)
-        for label in labels:
-            for step in self._called[label]:
-                if is_open[step] and self._doer(track.world, step, agents) is not None:
-                    found.append(step)
-                    if len(found) == self.branching:
-                        return found
-        left = [s for s in np.flatnonzero(open_steps).tolist() if s not in found]
-        left = [s for s in left if self._doer(track.world, s, agents) is not None]
-        if len(left) > self.branching - len(found):
-            posterior = root.belief()
-            weights = np.bincount(
-                wanted.steps, posterior.take(wanted.goals), len(self.label)
-            ).round(TIES)
-            left.sort(key=lambda step: -weights[step])
-        return found + left[: self.branching - len(found)]
+        return self._children.of(track, wanted, last, agents, root.belief, root.plausible)
 
 
 def _note(found: dict[int, int], branch: Branch) -> None:

@@ -1,0 +1,88 @@
+"""Which steps a look-ahead tree tries after a step: the few likeliest to follow (IV-C2)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence, Set
+
+import numpy as np
+
+from hrcplan.assistance.assistant import TIES
+from hrcplan.assistance.bigrams import Bigrams
+from hrcplan.assistance.outlook import Outlook, Wanted
+from hrcplan.errors import UsageError
+from hrcplan.inference.belief import Floats
+from hrcplan.inference.track import Track
+
+BRANCHING = 5
+
+
+class Children:
+    """Prunes a tree by 2-grams, and by the belief where no 2-gram tells.
+
+    Args:
+        outlook: Knows what goals have next.
+        bigrams: Which steps follow which; without them the belief decides alone.
+        branching: How many steps are tried from each place (b).
+
+    Raises:
+        UsageError: if ``branching`` is less than 1.
+    """
+
+    def __init__(
+        self, outlook: Outlook, bigrams: Bigrams | None = None, branching: int = BRANCHING
+    ) -> None:
+        if branching < 1:
+            raise UsageError(f"a tree {branching} steps wide has no branches")
+        self.bigrams, self.branching = bigrams, branching
+        self.label = outlook.tracker.joint.label
+        self._doer = outlook.bank.table.doer
+        self._called: dict[int, list[int]] = {}
+        for step, label in enumerate(self.label):
+            self._called.setdefault(label, []).append(step)
+
+    def of(
+        self, track: Track, wanted: Wanted, last: int | None, agents: Set[str],
+        belief: Callable[[], Floats], plausible: Sequence[int] = (),
+    ) -> list[int]:  # fmt: skip
+        """Return the steps that are tried after a step, the likeliest first.
+
+        They are next in a plan of some goal, and one of the agents can do them. What was seen
+        after the last step comes first; places that are left go to what the likeliest goals want.
+
+        Args:
+            track: Where everything stands.
+            wanted: What the goals want there.
+            last: The last step.
+            agents: Who is to act.
+            belief: Returns the posterior of the goals; only asked where no 2-gram tells.
+            plausible: Goals, as bits, whose plans the 2-grams count; all by default.
+        """
+        is_open = np.zeros(len(self.label), dtype=np.bool_)
+        is_open[wanted.steps] = True
+        found = self._seen(track, is_open.tolist(), last, agents, plausible)
+        room = self.branching - len(found)
+        if not room:
+            return found
+        left = [s for s in np.flatnonzero(is_open).tolist() if s not in found]
+        left = [s for s in left if self._doer(track.world, s, agents) is not None]
+        if len(left) > room:
+            weights = np.bincount(wanted.steps, belief().take(wanted.goals), len(self.label))
+            weights = weights.round(TIES)
+            left.sort(key=lambda step: -weights[step])
+        return found + left[:room]
+
+    def _seen(
+        self, track: Track, is_open: Sequence[bool], last: int | None, agents: Set[str],
+        plausible: Sequence[int],
+    ) -> list[int]:  # fmt: skip
+        """Return the open steps that were seen after a step, the most frequent first."""
+        found: list[int] = []
+        if last is None or self.bigrams is None:
+            return found
+        for label in self.bigrams.followers(self.label[last], plausible):
+            for step in self._called[label]:
+                if is_open[step] and self._doer(track.world, step, agents) is not None:
+                    found.append(step)
+                    if len(found) == self.branching:
+                        return found
+        return found
