@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import random
 import tomllib
 from collections.abc import Mapping
@@ -151,9 +152,9 @@ def world(options: Options, bank: Bank) -> World:
 
 
 def inputs(options: Options) -> str:
-    """Return domain and problems of the study, and its own files."""
+    """Return domain and problems of the study, and what its file says of cells and courses."""
     check(options)
-    own = [path.read_text(encoding="utf-8") for path in sorted(HERE.glob("*.toml"))]
+    own = {key: data()[key] for key in ("study", "humans", "methods", "tables")}
     found = dict.fromkeys(
         task_of(options, name) for table in data()["tables"] for name in humans(table, options)
     )
@@ -162,7 +163,7 @@ def inputs(options: Options) -> str:
         goals = goals_of(*task)
         texts += [domain_text(goals.problem.domain), problem_text(goals.problem)]
         texts += [*goals.names, *map(str, goals.formulas)]
-    return "".join([*own, *texts])
+    return json.dumps([own, *texts], sort_keys=True)
 
 
 # Courses.
