@@ -141,7 +141,7 @@ class CliqueChain(Frontier):
         self, graph: PlanGraph, node: int, steps: Sequence[int], last: int | None, draw: Draw
     ) -> int:
         """Return the step that the network allows next; any other if the human cannot do that."""
-        left = [step for step, _ in _cheapest(graph, node)]
+        left = [step for step, _ in _shortest(graph, node)]
         found = _network(graph).choose(left, last, lambda n: int(draw() * n))
         if found is None or found not in steps:
             return super().choose(graph, node, steps, last, draw)
@@ -174,10 +174,10 @@ def _network(graph: PlanGraph) -> Htn:
     return decompose(graph)
 
 
-def _cheapest(graph: PlanGraph, node: int) -> Iterator[tuple[int, int]]:
-    """Yield steps and nodes of the first of the cheapest plans that are left."""
+def _shortest(graph: PlanGraph, node: int) -> Iterator[tuple[int, int]]:
+    """Yield steps and nodes of the first of the shortest plans that are left."""
     while not graph.is_goal[node]:
-        step, node = min(graph.next(node).items(), key=lambda edge: graph.left[edge[1]])
+        step, node = min(graph.next(node).items(), key=lambda edge: graph.steps_left[edge[1]])
         yield step, node
 
 

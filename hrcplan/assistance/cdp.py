@@ -44,6 +44,8 @@ class DecisionPoints(Watcher[Any]):
         UsageError: if ``support`` is negative, or ``width`` less than 1.
     """
 
+    learns = True  # its belief is trained, unless another one is given
+
     def __init__(
         self, bank: Bank, belief: Belief[Any] | None = None, support: float = SUPPORT,
         bigrams: Bigrams | None = None, width: int = BRANCHING,

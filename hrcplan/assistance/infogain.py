@@ -42,6 +42,8 @@ class InformationGain(Watcher[Any]):
         UsageError: if ``alignment`` is negative, or ``width`` less than 1.
     """
 
+    learns = True  # its belief is trained, unless another one is given
+
     def __init__(
         self, bank: Bank, belief: Belief[Any] | None = None, alignment: float = ALIGNMENT,
         bigrams: Bigrams | None = None, width: int = BRANCHING,

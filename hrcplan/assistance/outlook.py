@@ -67,7 +67,7 @@ class Outlook:
         """Return what steps bring: expected steps saved, and the weight of goals that want them.
 
         A step that a goal has next saves it one step, an idle one none; a step that leads a goal
-        away costs it as many as its cheapest plan grows by.
+        away costs it as many as its plan grows by.
 
         Args:
             track: Where the goals stand.
@@ -108,7 +108,7 @@ class Outlook:
         return known
 
     def to_go(self, goal: int, track: Track) -> float:
-        """Return the bank cost of what is left of a goal's cheapest plan."""
+        """Return how few steps are left of a goal's plans."""
         joint, node = self.tracker.joint, int(track.nodes[goal])
         if node != joint.off:
             return _left(self.bank.graphs[goal], node - int(joint.offsets[goal]))
@@ -120,5 +120,5 @@ class Outlook:
 
 
 def _left(graph: PlanGraph, node: int) -> float:
-    """Return the cost from a node to the nearest goal node."""
-    return float(graph.left[node]) if graph.n_nodes else DEAD_END
+    """Return the number of steps from a node to the nearest goal node."""
+    return float(graph.steps_left[node]) if graph.n_nodes else DEAD_END

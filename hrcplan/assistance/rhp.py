@@ -96,6 +96,8 @@ class Rhp:
         UsageError: if an option is none of its words.
     """
 
+    learns = True  # its belief is trained, unless another one is given
+
     def __init__(
         self, bank: Bank, belief: Any = None, *, n_sequences: int = N_SEQUENCES,
         branching: int = BRANCHING, depth: int = DEPTH,

@@ -190,13 +190,11 @@ class PlanGraph:
         return tuple(dict.fromkeys(self.layers[layer][0] for layer in self.final_layers))
 
     @cached_property
-    def left(self) -> NDArray[np.float64]:
-        """The cost from each node to the nearest goal node."""
-        spent = np.array([float(cost) for cost, _ in self.layers])[self.layer_of]
-        ends = np.where(self.is_goal, spent, np.inf)
+    def steps_left(self) -> NDArray[np.int64]:
+        """How few steps lead from each node to a goal node."""
+        found = np.where(self.is_goal, 0, np.iinfo(np.int64).max - 1)
         for edges, sources in reversed(list(self.edges_by_layer())):
-            np.minimum.at(ends, sources, ends[self.targets[edges]])
-        found: NDArray[np.float64] = ends - spent
+            np.minimum.at(found, sources, found[self.targets[edges]] + 1)
         return found
 
     @cached_property

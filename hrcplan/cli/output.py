@@ -66,6 +66,11 @@ def say(text: str) -> None:
         click.echo(text, err=True)
 
 
+def note(text: str) -> None:
+    """Print on stderr what takes long, in dim letters."""
+    click.secho(text, err=True, dim=True)
+
+
 def warn(text: str) -> None:
     """Print a warning on stderr."""
     click.echo(f"warning: {text}", err=True)

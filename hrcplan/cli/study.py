@@ -60,7 +60,7 @@ def run(
     with _bar() as progress:
         n_new = run_study(
             name, folder, runs=runs, seed=seed, jobs=jobs, limit=limit, options=options,
-            progress=progress,
+            progress=progress, say=output.note,
         )  # fmt: skip
     if output.JSON:
         output.document({"study": name, "folder": str(folder), "n_new": n_new})

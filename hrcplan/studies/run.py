@@ -14,7 +14,7 @@ from pathlib import Path
 from hrcplan import __version__
 from hrcplan.errors import UsageError
 from hrcplan.studies.store import Store
-from hrcplan.studies.study import Episode, Options, Row, Seed, Study, episodes, find
+from hrcplan.studies.study import Episode, Options, Row, Say, Seed, Study, episodes, find
 
 _CHUNK = 32  # episodes a worker does before its rows are written: what a kill can lose
 Progress = Callable[[int, int], None]
@@ -30,6 +30,7 @@ def run_study(
     limit: int | None = None,
     options: Mapping[str, str | None] | None = None,
     progress: Progress | None = None,
+    say: Say = lambda text: None,
 ) -> int:
     """Run what a study has no rows of yet, and return how many are new.
 
@@ -44,6 +45,7 @@ def run_study(
         limit: Episodes of the study's first table, spread evenly over its cells.
         options: The study's own options; None values stand for its defaults.
         progress: Called with the numbers of rows done and wanted.
+        say: Called with what is going on, where that takes long.
 
     Raises:
         UsageError: if the study or an option is unknown, or the folder holds other rows.
@@ -60,6 +62,8 @@ def run_study(
     with Store.to_write(Path(folder), about, study.tables) as store:
         left = store.missing(study.tables, wanted)
         done = len(wanted) - len(left)
+        if left:
+            study.prepare(chosen, jobs, say)
         for found in _results(name, chosen, seed, left, jobs):
             for table, rows in groupby(found, lambda pair: pair[0].table):
                 store.add(study.table(table), list(rows))

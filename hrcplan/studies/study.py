@@ -17,6 +17,7 @@ Value = int | float | str | None
 Row = dict[str, Value]
 Cell = tuple[str | int | float, ...]
 Options = Mapping[str, str]
+Say = Callable[[str], None]
 
 STUDIES = {
     "failure-anticipation": "hrcplan.studies.failure_anticipation",
@@ -97,9 +98,10 @@ class Study:
     """A study; the first table holds what is reported by cell, the others what explains it.
 
     ``inputs`` returns the text of the files that rows depend on; where it has changed, rows made
-    before are not added to. ``runs`` is how many runs a cell has by default. ``unit`` names the
-    columns of which each value counts once in a standard error: means over its rows are taken
-    first; without it every row counts.
+    before are not added to. ``prepare`` makes what all episodes need, with a number of processes,
+    and is given a function that tells the user. ``runs`` is how many runs a cell has by default.
+    ``unit`` names the columns of which each value counts once in a standard error: means over its
+    rows are taken first; without it every row counts.
     """
 
     name: str
@@ -111,6 +113,7 @@ class Study:
     details: tuple[str, ...] = ()
     options: Options = field(default_factory=dict)
     runs: Callable[[Options], int] = lambda options: 1000
+    prepare: Callable[[Options, int, Say], None] = lambda options, jobs, say: None
     unit: tuple[str, ...] = ()
 
     def table(self, name: str) -> Table:

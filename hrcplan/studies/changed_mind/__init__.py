@@ -27,5 +27,6 @@ STUDY = Study(
     findings=findings,
     inputs=scenario.inputs,
     runs=scenario.runs,
+    prepare=scenario.prepare,
     unit=episodes.UNIT,
 )  # fmt: skip

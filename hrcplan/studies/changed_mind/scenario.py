@@ -17,9 +17,10 @@ from hrcplan.bank import Bank, Goals, build, read_goals
 from hrcplan.errors import UsageError
 from hrcplan.execution.turns import World
 from hrcplan.execution.worlds import WORLDS
+from hrcplan.inference.forest import Forest
 from hrcplan.inference.methods import METHODS
 from hrcplan.pddl.write import domain_text, problem_text
-from hrcplan.studies.study import Cell, Options, Seed
+from hrcplan.studies.study import Cell, Options, Say, Seed
 
 HERE = Path(__file__).parent
 MAIN = "rows"
@@ -143,6 +144,27 @@ def robot(name: str, domain: str, goals: str) -> Any:
     elif belief in ASSISTANTS.own:
         changes["belief"] = robot(belief, domain, goals)
     return kind(bank, **changes)
+
+
+def prepare(options: Options, jobs: int, say: Say) -> None:
+    """Train the forests that methods need, so that no worker has to; they are kept in the cache."""
+    tasks = dict.fromkeys(
+        task_of(options, str(human))
+        for table in data()["tables"]
+        for human, method in cells(table, options)
+        if _learns(str(method))
+    )
+    for task in tasks:
+        say(f"a forest for the {len(bank_of(*task).names)} goals; trained once, in a few minutes")
+        Forest(bank_of(*task), n_jobs=jobs)
+
+
+def _learns(method: str) -> bool:
+    """Return whether a method has the forest as its belief."""
+    changes = data()["methods"].get(method, {})
+    if "belief" in changes:
+        return changes["belief"] in ASSISTANTS.own and _learns(changes["belief"])
+    return bool(getattr(ASSISTANTS.find(changes.get("part", method)), "learns", False))
 
 
 def world(options: Options, bank: Bank) -> World:
