@@ -2,6 +2,7 @@
 
 import json
 import sqlite3
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -183,6 +184,14 @@ def test_the_clock_is_measured_but_never_part_of_the_rows(tmp_path: Path) -> Non
     before = report_study(tmp_path)["rows"][0]["measures"]["decision_ms"]["mean"]
     (tmp_path / "clock.sqlite").unlink()
     assert before > 0 == report_study(tmp_path)["rows"][0]["measures"]["decision_ms"]["mean"]
+
+
+@pytest.mark.skipif(sys.version_info >= (3, 12), reason="pddlgym has no wheels from 3.12 on")
+def test_pddlgym_gives_the_same_rows(tmp_path: Path) -> None:
+    options = {"methods": "oracle", "humans": "suboptimal"}
+    for world in ("simulated", "pddlgym"):
+        run(tmp_path / world, options={**options, "world": world}, limit=6)
+    assert rows(tmp_path / "simulated") == rows(tmp_path / "pddlgym")
 
 
 # Scripts.

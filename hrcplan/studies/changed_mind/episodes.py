@@ -56,7 +56,7 @@ def _play(options: Options, name: str, method: str, course: Course) -> Record:
     task = scenario.task_of(options, name)
     bank, robot = scenario.bank_of(*task), scenario.robot(method, *task)
     human = scenario.human(name, bank, course, options)
-    return play(bank, human, robot, course, scenario.world(options, bank))
+    return play(bank, human, robot, course, scenario.world(options["world"], *task))
 
 
 @lru_cache(maxsize=64)

@@ -167,9 +167,10 @@ def _learns(method: str) -> bool:
     return bool(getattr(ASSISTANTS.find(changes.get("part", method)), "learns", False))
 
 
-def world(options: Options, bank: Bank) -> World:
-    """Return where episodes happen."""
-    made: World = WORLDS.find(options["world"])(bank)
+@lru_cache(maxsize=4)
+def world(name: str, domain: str, goals: str) -> World:
+    """Return where episodes happen; each begins it anew."""
+    made: World = WORLDS.find(name)(bank_of(domain, goals))
     return made
 
 
