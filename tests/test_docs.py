@@ -1,4 +1,4 @@
-"""Documents are true: every console block in them is run, and prints what stands there.
+"""Documents are true: console blocks and Python examples in them print what stands there.
 
 A block shows commands after ``$ `` and what they print; ``...`` stands for anything. The blocks of
 one document share a folder, so a file that one command writes is there for the next.
@@ -51,5 +51,17 @@ def test_console_blocks(document: Path, tmp_path: Path) -> None:
         assert checker.check_output(expected, got, FLAGS), f"$ {command}\n{difference}"
 
 
+@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
+def test_python_examples(
+    document: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    monkeypatch.chdir(tmp_path)
+    found = doctest.testfile(str(document), module_relative=False, optionflags=FLAGS)
+    assert found.failed == 0, capsys.readouterr().out
+
+
 def test_there_is_something_to_run() -> None:
-    assert any(list(sessions(path.read_text(encoding="utf-8"))) for path in DOCUMENTS)
+    texts = [path.read_text(encoding="utf-8") for path in DOCUMENTS]
+    assert any(list(sessions(text)) for text in texts)
+    assert any(doctest.DocTestParser().get_examples(text) for text in texts)
