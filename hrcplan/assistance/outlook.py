@@ -38,7 +38,9 @@ class Outlook:
         self.tracker, self.bank = tracker, tracker.bank
         self.agents = robots(self.bank.goals.problem) if agents is None else agents
         self._all_goals = np.arange(len(self.bank.names))
-        self._after: dict[tuple[int, int, int], float] = {}
+        self._matters = [self.bank.matters(g) | graph.relevant
+                         for g, graph in enumerate(self.bank.graphs)]  # fmt: skip
+        self._known: dict[tuple[int, int], float] = {}
 
     def wanted(self, track: Track) -> Wanted:
         """Return the steps that could come next in the plans of each goal, whoever does them."""
@@ -97,15 +99,9 @@ class Outlook:
     def _change(self, track: Track, goal: int, step: int) -> float:
         """Return by how many steps a step that is not next in any plan brings a goal nearer."""
         world = self.tracker.successor(track.world, step)
-        node = int(track.nodes[goal])
         if world is None or not (track.world ^ world) & self.bank.graphs[goal].relevant:
             return 0.0
-        key = (goal, node if node != self.tracker.joint.off else -1 - track.world, step)
-        known = self._after.get(key)
-        if known is None:
-            before, after = self.to_go(goal, track), self._to_go_from(goal, world)
-            known = self._after[key] = max(-DEAD_END, before - after)
-        return known
+        return max(-DEAD_END, self.to_go(goal, track) - self._to_go_from(goal, world))
 
     def to_go(self, goal: int, track: Track) -> float:
         """Return how few steps are left of a goal's plans."""
@@ -115,8 +111,13 @@ class Outlook:
         return _left(*self.tracker.resolve(goal, track.off.get(goal) or Off(track.world)))
 
     def _to_go_from(self, goal: int, world: int) -> float:
-        graph, node = self.bank.locate(goal, world)
-        return DEAD_END if node is None else _left(graph, node)
+        """Return how few steps are left in a state, however it came about."""
+        key = goal, world & self._matters[goal]
+        known = self._known.get(key)
+        if known is None:
+            graph, node = self.bank.locate(goal, world)
+            known = self._known[key] = DEAD_END if node is None else _left(graph, node)
+        return known
 
 
 def _left(graph: PlanGraph, node: int) -> float:

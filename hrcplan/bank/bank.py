@@ -104,7 +104,7 @@ class Bank:
         Raises:
             LimitError: if time or memory runs out.
         """
-        key = (goal, state & self._relevant[goal][1])
+        key = (goal, state & self.matters(goal))
         if key not in self._rerooted:
             if len(self._rerooted) >= MAX_REROOTED:
                 self._rerooted.pop(next(iter(self._rerooted)))
@@ -138,6 +138,10 @@ class Bank:
             found = map(graph.node_of, _variants(state, self._fleeting[goal]))
             node = next((n for n in found if n is not None and not graph.is_goal[n]), None)
         return node
+
+    def matters(self, goal: int) -> int:
+        """Return the facts that matter to any plan of a goal, from any state, as bits."""
+        return self._relevant[goal][1]
 
     @cached_property
     def _relevant(self) -> list[tuple[tuple[Op, ...], int]]:

@@ -173,11 +173,12 @@ class Tracker:
     ) -> int:
         """Return the node of a goal after a step that is no edge; ``off`` notes it has none."""
         if node != self.joint.off:
-            if not (track.world ^ world) & self._relevant[goal]:
+            moved = (track.world ^ world) & self._relevant[goal]
+            if not moved:
                 return node
-            known = self._known.get((node, step))
+            known = self._known.get((node, moved))
             if known is None:
-                known = self._known[node, step] = self._find(goal, world)
+                known = self._known[node, moved] = self._find(goal, world)
             if known == self.joint.off:
                 off[goal] = Off(world)
             return known

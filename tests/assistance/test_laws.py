@@ -8,7 +8,9 @@ import pytest
 
 from hrcplan.assistance import ASSISTANTS
 from hrcplan.assistance.expected import Expected
+from hrcplan.assistance.outlook import Outlook
 from hrcplan.inference.forest import Forest
+from hrcplan.inference.track import Tracker
 from hrcplan.testing import check_assistant
 
 NAMES = ["recursive", "recursive-best", "cdp", "infogain", "hrcplan", "oracle"]
@@ -50,6 +52,24 @@ def test_the_robot_has_something_to_do(request, world):
         assistant = kind(bank)
         state = assistant.observe(assistant.start(), next(bank.plans(0))[0])
         assert assistant.choose(state) is not None
+
+
+@pytest.mark.parametrize("world", ["workshop", "hall"])
+def test_what_a_step_is_worth_does_not_depend_on_what_was_asked_before(request, walk, world):
+    bank = request.getfixturevalue(world)
+    even = np.ones(len(bank.names))
+
+    def worth(outlook, steps):
+        track = outlook.tracker.start
+        for step in steps:
+            track, _ = outlook.tracker.follow(track, step)
+        can = bank.table.applicable(track.world)
+        return outlook.help(track, outlook.wanted(track), can, even)[0].tolist()
+
+    used = Outlook(Tracker(bank))
+    for seed in range(40):
+        steps = walk(bank, seed, 4 + seed % 4)
+        assert worth(used, steps) == worth(Outlook(Tracker(bank)), steps)
 
 
 @dataclass
