@@ -105,8 +105,7 @@ class Frontier:
         return steps[int(draw() * len(steps))]
 
     def _able(self, world: int, steps: Sequence[int] | dict[int, int]) -> list[int]:
-        doer, doers = self.bank.table.doer, self._doers
-        return [step for step in steps if doer(world, step, doers) is not None]
+        return list(self.bank.table.able(world, steps, self._doers))
 
     def _not_needed(self, graph: PlanGraph, world: int) -> list[int]:
         needed = graph.used_steps

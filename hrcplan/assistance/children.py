@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence, Set
+from itertools import islice
 
 import numpy as np
 
@@ -35,7 +36,7 @@ class Children:
             raise UsageError(f"a tree {branching} steps wide has no branches")
         self.bigrams, self.branching = bigrams, branching
         self.label = outlook.tracker.joint.label
-        self._doer = outlook.bank.table.doer
+        self._able = outlook.bank.table.able
         self._called: dict[int, list[int]] = {}
         for step, label in enumerate(self.label):
             self._called.setdefault(label, []).append(step)
@@ -64,7 +65,7 @@ class Children:
         if not room:
             return found
         left = [s for s in np.flatnonzero(is_open).tolist() if s not in found]
-        left = [s for s in left if self._doer(track.world, s, agents) is not None]
+        left = list(self._able(track.world, left, agents))
         if len(left) > room:
             weights = np.bincount(wanted.steps, belief().take(wanted.goals), len(self.label))
             weights = weights.round(TIES)
@@ -76,13 +77,8 @@ class Children:
         plausible: Sequence[int],
     ) -> list[int]:  # fmt: skip
         """Return the open steps that were seen after a step, the most frequent first."""
-        found: list[int] = []
         if last is None or self.bigrams is None:
-            return found
-        for label in self.bigrams.followers(self.label[last], plausible):
-            for step in self._called[label]:
-                if is_open[step] and self._doer(track.world, step, agents) is not None:
-                    found.append(step)
-                    if len(found) == self.branching:
-                        return found
-        return found
+            return []
+        labels = self.bigrams.followers(self.label[last], plausible)
+        seen = (step for label in labels for step in self._called[label] if is_open[step])
+        return list(islice(self._able(track.world, seen, agents), self.branching))

@@ -55,13 +55,12 @@ class Outlook:
             graph, node = self.tracker.resolve(goal, place)
             more = list(graph.next(node)) if graph.n_nodes else []
             steps, goals = np.append(steps, more), np.append(goals, [goal] * len(more))
-        return Wanted(steps.astype(np.int64), goals.astype(np.int64))
+        return Wanted(steps.astype(np.int64), goals.astype(np.int64, copy=False))
 
     def candidates(self, track: Track, wanted: Wanted) -> list[int]:
         """Return the wanted steps that one of the agents can do, in order."""
         steps = np.flatnonzero(np.bincount(wanted.steps, minlength=self.tracker.joint.n_steps))
-        doer, agents = self.bank.table.doer, self.agents
-        return [s for s in steps.tolist() if doer(track.world, s, agents) is not None]
+        return list(self.bank.table.able(track.world, steps.tolist(), self.agents))
 
     def help(
         self, track: Track, wanted: Wanted, steps: Sequence[int], weights: Floats

@@ -43,13 +43,8 @@ class Similar(Watcher[Any]):
 
     def options(self, state: Watched[Any]) -> Options:
         """Return the steps that some goal needs, and how like the human's last action each is."""
-        label, doer = self.tracker.joint.label, self.bank.table.doer
-        track, agents = state.track, self.outlook.agents
-        steps = tuple(
-            step
-            for step in self._used
-            if track.doable >> label[step] & 1 and doer(track.world, step, agents) is not None
-        )
+        label, track = self.tracker.joint.label, state.track
+        steps = tuple(self.bank.table.able(track.world, self._used, self.outlook.agents))
         values = np.zeros(len(steps))
         if state.last is not None:
             # All fields are equally long, so the cosine is the mean of the products.

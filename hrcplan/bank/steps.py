@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence, Set
+from collections.abc import Iterable, Iterator, Sequence, Set
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
@@ -19,6 +19,10 @@ COSTS = (STEPS, TASK)
 TIE_BITS = 20
 """Bits that count steps below a cost, where zero-cost steps make their number matter."""
 MAX_TIES = (1 << TIE_BITS) - 1
+
+_Rule = tuple[int, int, int, int]
+"""Mask and value of a test, touched facts, added facts."""
+_NEVER: _Rule = (0, 1, 0, 0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,6 +103,7 @@ class StepTable:
         )
         self._index = {step.words: step.index for step in self._steps}
         self.of_action: tuple[int, ...] = tuple(self._index[self._words(a)] for a in task.actions)
+        self._rules: dict[frozenset[str], list[_Rule | None]] = {}
 
     def _words(self, action: GroundAction) -> tuple[str, ...]:
         return action.step if self.agents == "dropped" else (action.name, *action.args)
@@ -146,6 +151,34 @@ class StepTable:
             if (agent is None or agent in agents) and task.is_applicable(state, index):
                 return index
         return None
+
+    def able(self, state: int, steps: Iterable[int], agents: Set[str]) -> Iterator[int]:
+        """Yield those of several steps that one of ``agents`` can do in ``state``, in order.
+
+        It is what ``doer`` says of each, and quicker.
+        """
+        key = frozenset(agents)
+        rules = self._rules.get(key)
+        if rules is None:
+            rules = self._rules[key] = [self._rule(step, key) for step in self._steps]
+        for step in steps:
+            rule = rules[step]
+            if rule is None:
+                if self.doer(state, step, key) is not None:
+                    yield step
+                continue
+            mask, value, touched, adds = rule
+            if state & mask == value and state & touched != adds:
+                yield step
+
+    def _rule(self, step: Step, agents: Set[str]) -> _Rule | None:
+        """Return when agents can do a step; None if one test and one effect do not say it all."""
+        actions = [self.task.actions[index] for index in step.actions]
+        own = [action for action in actions if action.agent is None or action.agent in agents]
+        if any(action.conditional for action in own):
+            return None
+        found = {(*test, a.adds | a.deletes, a.adds) for a in own for test in a.tests}
+        return None if len(found) > 1 else found.pop() if found else _NEVER
 
     @cached_property
     def _prices(self) -> tuple[list[int], int]:

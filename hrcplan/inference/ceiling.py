@@ -35,17 +35,17 @@ class Ceiling:
             world = None if world is None else self.bank.table.successor(world, step)
         found = np.zeros(len(self.bank.graphs))
         if world is not None:
-            for goal in range(len(found)):
-                found[goal] = self.weight(goal, world, len(steps))
+            found = self.beginnings(world, [len(steps)] * len(found))
         return found
 
-    def weight(self, goal: int, world: int, n: int) -> float:
-        """Return the weight of a goal in a state that ``n`` of its steps led to."""
-        graph = self.bank.graphs[goal]
-        node = graph.node_of(world)
-        if node is None or self._depth[goal][graph.layer_of[node]] != n:
-            return 0.0
-        return float(self._weights[goal][node])
+    def beginnings(self, world: int, n_steps: Sequence[int]) -> Floats:
+        """Return the weight of each goal in a state that so many of its steps led to."""
+        found = np.zeros(len(self.bank.graphs))
+        for goal, (graph, n) in enumerate(zip(self.bank.graphs, n_steps, strict=True)):
+            node = graph.node_of(world)
+            if node is not None and self._depth[goal][graph.layer_of[node]] == n:
+                found[goal] = self._weights[goal][node]
+        return found
 
     def accuracy(self, prefixes: Sequence[Sequence[int]], goals: Sequence[int]) -> float:
         """Return how often the likeliest goal is right; of equals each counts its part."""
@@ -75,8 +75,10 @@ class Presence:
         for goal, graph in enumerate(bank.graphs):
             self._uses[goal, [self._label[step] for step in graph.used_steps]] = 1
         self._sizes = [
-            max(g.n_steps, n) for g, n in zip(bank.graphs, self._uses.sum(axis=1), strict=True)
+            max(g.n_steps, int(n)) for g, n in zip(bank.graphs, self._uses.sum(axis=1), strict=True)
         ]
+        self._has_plan = np.array([graph.n_nodes > 0 for graph in bank.graphs])
+        self._alike = self._any_order()
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -93,15 +95,21 @@ class Presence:
 
     def _weights(self, row: NDArray[np.uint8]) -> Floats:
         done = np.flatnonzero(row)
-        world = self._world(done.tolist())
-        found = np.zeros(len(self.names))
-        for goal, n in enumerate((self._uses @ row).tolist()):
-            if self.bank.graphs[goal].n_nodes:
-                weight = self._ceiling.weight(goal, world, n)
-                size = int(self._sizes[goal])
-                found[goal] = weight or 1 / math.comb(size, n) / max(1, size)
-                found[goal] *= self.error ** (len(done) - n)
-        return found
+        n_used = self._uses @ row
+        found = self._ceiling.beginnings(self._world(done.tolist()), n_used.tolist())
+        found = np.where(found, found, self._alike[np.arange(len(found)), n_used])
+        errors = np.array([self.error**n for n in range(len(done) + 1)])
+        weights: Floats = np.where(self._has_plan, found * errors[len(done) - n_used], 0.0)
+        return weights
+
+    def _any_order(self) -> Floats:
+        """Return for each goal and number of its steps the weight of one set among all alike."""
+        most = max(self._sizes, default=0)
+        rows = {
+            size: [1 / math.comb(size, min(n, size)) / max(1, size) for n in range(most + 1)]
+            for size in set(self._sizes)
+        }
+        return np.array([rows[size] for size in self._sizes]).reshape(-1, most + 1)
 
     def _world(self, done: Sequence[int]) -> int:
         """Return the state after steps in an order in which they can be done, if there is one."""

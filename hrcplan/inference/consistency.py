@@ -96,13 +96,15 @@ class Subset:
         found = self._all_kinds
         for occurrence in _occurrences(done):
             found &= self._kinds.get(occurrence, 0)
-        goals = found if self._alike else self._goals_of(found)
+        goals = self._goals_of(found)
         for goal in self._large:
             if self._may_fit(goal, tuple(sorted(done))):
                 goals |= 1 << goal
         return goals
 
     def _goals_of(self, kinds: int) -> int:
+        if self._alike:
+            return kinds
         return sum(1 << goal for start, span, goal in self._spans if kinds >> start & span)
 
     def _may_fit(self, goal: int, done: tuple[int, ...]) -> bool:

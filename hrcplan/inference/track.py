@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from hrcplan.bank import Bank, Limits, PlanGraph
 from hrcplan.bank.relevance import relevant
 from hrcplan.errors import LimitError
-from hrcplan.inference.joint import Doable, Ids, Joint
+from hrcplan.inference.joint import Doable, Ids, joint_of
 
 Floats = NDArray[np.float64]
 
@@ -65,7 +65,7 @@ class Tracker:
 
     def __init__(self, bank: Bank) -> None:
         self.bank = bank
-        self.joint = Joint(bank)
+        self.joint = joint_of(bank)
         self._doable = Doable(self.joint)
         self._quick = [self._rule(step) for step in range(len(bank.table))]
         self._relevant = [graph.relevant for graph in bank.graphs]
