@@ -7,13 +7,14 @@ robot meets the same human, and differences between robots are paired.
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Protocol
 
 from hrcplan.bank import Bank, PlanGraph
 from hrcplan.bank.htn import Htn, decompose
+from hrcplan.bank.walk import shortest
 from hrcplan.parts import Parts
 from hrcplan.pddl.conventions import robots
 
@@ -140,7 +141,7 @@ class CliqueChain(Frontier):
         self, graph: PlanGraph, node: int, steps: Sequence[int], last: int | None, draw: Draw
     ) -> int:
         """Return the step that the network allows next; any other if the human cannot do that."""
-        left = [step for step, _ in _shortest(graph, node)]
+        left = [step for step, _ in shortest(graph, node)]
         found = _network(graph).choose(left, last, lambda n: int(draw() * n))
         if found is None or found not in steps:
             return super().choose(graph, node, steps, last, draw)
@@ -171,13 +172,6 @@ class Scripted(Frontier):
 @lru_cache(maxsize=MAX_NETWORKS)
 def _network(graph: PlanGraph) -> Htn:
     return decompose(graph)
-
-
-def _shortest(graph: PlanGraph, node: int) -> Iterator[tuple[int, int]]:
-    """Yield steps and nodes of the first of the shortest plans that are left."""
-    while not graph.is_goal[node]:
-        step, node = min(graph.next(node).items(), key=lambda edge: graph.steps_left[edge[1]])
-        yield step, node
 
 
 @lru_cache(maxsize=64)

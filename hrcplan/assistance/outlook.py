@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hrcplan.bank import PlanGraph
+from hrcplan.bank.walk import shortest
 from hrcplan.inference.track import Off, Track, Tracker
 from hrcplan.pddl.conventions import robots
 
@@ -100,21 +101,40 @@ class Outlook:
         world = self.tracker.successor(track.world, step)
         if world is None or not (track.world ^ world) & self.bank.graphs[goal].relevant:
             return 0.0
-        return max(-DEAD_END, self.to_go(goal, track) - self._to_go_from(goal, world))
+        key = goal, world & self._matters[goal]
+        if key not in self._known and self._still_works(goal, track, world):
+            return 0.0
+        return max(-DEAD_END, self.to_go(goal, track) - self._to_go_from(key, world))
+
+    def _still_works(self, goal: int, track: Track, world: int) -> bool:
+        """Return whether a plan of a goal can be carried out in another state, too.
+
+        Then nothing is lost, and nobody has to plan anew for a state that may never be reached.
+        Nothing is won either: a step that wins something is next in a plan.
+        """
+        if self.bank.node(goal, world) is not None:
+            return False  # where it is on its graph the number of steps is known
+        state: int | None = world
+        for step, _ in shortest(*self._place(goal, track)):
+            state = None if state is None else self.tracker.successor(state, step)
+        return state is not None and self.bank.goals.is_reached(goal, state)
 
     def to_go(self, goal: int, track: Track) -> float:
         """Return how few steps are left of a goal's plans."""
+        return _left(*self._place(goal, track))
+
+    def _place(self, goal: int, track: Track) -> tuple[PlanGraph, int]:
+        """Return the graph and the node where a goal stands."""
         joint, node = self.tracker.joint, int(track.nodes[goal])
         if node != joint.off:
-            return _left(self.bank.graphs[goal], node - int(joint.offsets[goal]))
-        return _left(*self.tracker.resolve(goal, track.off.get(goal) or Off(track.world)))
+            return self.bank.graphs[goal], node - int(joint.offsets[goal])
+        return self.tracker.resolve(goal, track.off.get(goal) or Off(track.world))
 
-    def _to_go_from(self, goal: int, world: int) -> float:
-        """Return how few steps are left in a state, however it came about."""
-        key = goal, world & self._matters[goal]
+    def _to_go_from(self, key: tuple[int, int], world: int) -> float:
+        """Return how few steps are left of a goal in a state, however it came about."""
         known = self._known.get(key)
         if known is None:
-            graph, node = self.bank.locate(goal, world)
+            graph, node = self.bank.locate(key[0], world)
             known = self._known[key] = DEAD_END if node is None else _left(graph, node)
         return known
 

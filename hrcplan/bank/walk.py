@@ -272,6 +272,16 @@ def _meet(mask: int, places: Sequence[int]) -> int:
     return next((mask | place for place in places if not mask & place), mask)
 
 
+def shortest(graph: PlanGraph, node: int = 0) -> Iterator[tuple[int, int]]:
+    """Yield the steps of the shortest plan that is left at a node, and the nodes they lead to.
+
+    Of several it is the one whose first steps have the smallest ids.
+    """
+    while graph.n_nodes and not graph.is_goal[node]:
+        step, node = min(graph.next(node).items(), key=lambda edge: graph.steps_left[edge[1]])
+        yield step, node
+
+
 def first_plans(graph: PlanGraph, n: int) -> list[tuple[int, ...]]:
     """Return up to ``n`` plans, the cheapest first."""
     return list(islice(plans(graph), n))
