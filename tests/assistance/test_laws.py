@@ -167,8 +167,16 @@ class Distracted(Broken):
 
 
 class Learning(Broken):
+    """It does nothing every other time that it is started."""
+
+    n_starts = 0
+
+    def start(self):
+        self.n_starts += 1
+        return super().start()
+
     def choose(self, state):
-        return None if self.n_robot > 60 else super().choose(state)
+        return None if self.n_starts % 2 else super().choose(state)
 
 
 class Moody(Convinced):
