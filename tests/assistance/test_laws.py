@@ -87,14 +87,13 @@ class Broken:
 
     def __init__(self, bank):
         self.bank, self.inner, self.names = bank, Expected(bank), bank.names
-        self.n_asked = self.n_robot = 0
+        self.n_asked = 0
 
     def start(self):
         inner = self.inner.start()
         return Loose(inner, inner.world)
 
     def observe(self, state, step, *, robot=False):
-        self.n_robot += robot
         inner = self.inner.observe(state.inner, step, robot=robot)
         return Loose(inner, inner.world, list(state.notes))
 

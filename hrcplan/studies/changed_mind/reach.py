@@ -77,7 +77,9 @@ def as_good(human: str, data: Mapping[str, Any], cells: Cells) -> Claim | None:
     ours, verdicts, worse = data["method"], [], []
     if not all(cells.n_runs(human, method) for method in (ours, *data["baselines"])):
         return None
-    for measure in data["timesteps"]:
+    changes = scenario.human_data(human)["changes"]
+    measures = [m for m in data["timesteps"] if changes or m not in data["after_a_change"]]
+    for measure in measures:
         for other in data["baselines"]:
             gap = cells.difference(human, ours, other, measure)
             if gap is not None:
@@ -88,7 +90,7 @@ def as_good(human: str, data: Mapping[str, Any], cells: Cells) -> Claim | None:
     n_better = verdicts.count("better")
     evidence = f"Better in {n_better} of {len(verdicts)} paired comparisons (95 %), worse in "
     evidence += f"{len(worse)}{': ' if worse else ''}{'; '.join(worse)}. "
-    names = ", ".join(MEASURES[measure].name for measure in data["timesteps"])
+    names = ", ".join(MEASURES[measure].name for measure in measures)
     evidence += f"Measures: {names}; baselines: {', '.join(data['baselines'])}."
     return Claim(claim, not worse, evidence, GROUP)
 
