@@ -57,8 +57,7 @@ def kept(folder: Path, key: Key, make: Callable[[], Trained]) -> Trained:
         key: What ``key_of`` returns.
         make: Trains the forest.
     """
-    text = json.dumps([VERSION, key], sort_keys=True)
-    path = folder / f"{hashlib.sha256(text.encode()).hexdigest()[:32]}.forest"
+    path = path_of(folder, key)
     found, fault = _look(path, key)
     if found is not None:
         return found
@@ -71,6 +70,12 @@ def kept(folder: Path, key: Key, make: Callable[[], Trained]) -> Trained:
         if alone and _saved(path, key, made):
             made = _look(path, key)[0] or made
         return replace(made, is_kept=False, fault=fault)
+
+
+def path_of(folder: Path, key: Key) -> Path:
+    """Return where the forest of a key is kept, or would be."""
+    text = json.dumps([VERSION, key], sort_keys=True)
+    return folder / f"{hashlib.sha256(text.encode()).hexdigest()[:32]}.forest"
 
 
 def load(path: Path, key: Key) -> Trained:

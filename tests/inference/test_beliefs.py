@@ -1,8 +1,10 @@
 """Beliefs over plan graphs, held against listed plans and enumerated histories."""
 
+import gc
 import math
 import random
 from itertools import pairwise
+from weakref import ref
 
 import numpy as np
 import pytest
@@ -41,6 +43,20 @@ def runs(bank, walk, brute):
 @pytest.fixture(params=WORLDS)
 def bank(request):
     return request.getfixturevalue(request.param)
+
+
+def test_beliefs_about_a_bank_share_its_graphs_as_long_as_there_is_one(workshop):
+    bank = build(workshop.goals.only(["rope-red", "wire-red"]))
+    first, second = Exact(bank), Recursive(bank)
+    assert first.tracker.joint is second.tracker.joint
+    assert Exact(build(bank.goals)).tracker.joint is not first.tracker.joint
+    shared = ref(first.tracker.joint)
+    del first
+    gc.collect()
+    assert shared() is second.tracker.joint
+    del second
+    gc.collect()
+    assert shared() is None
 
 
 def test_the_worlds_are_of_both_kinds(workshop, hall):

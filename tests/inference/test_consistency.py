@@ -3,6 +3,7 @@
 from collections import Counter
 from fractions import Fraction
 from itertools import combinations
+from math import comb
 
 import numpy as np
 import pytest
@@ -192,6 +193,28 @@ def test_presence_is_the_ceiling_on_beginnings(workshop):
         known = weights > 0
         found = presence.many(row)[0]
         assert found[known] / found[goal] == pytest.approx(weights[known] / weights[goal])
+
+
+def test_presence_weighs_every_goal_by_its_definition(bank):
+    """By counts where the steps begin a plan, else all sets alike; and errors for the rest."""
+    presence, label = Presence(bank, error=0.25), labels(bank.table)
+    rng = np.random.default_rng(3)
+    rows = (rng.random((60, max(label) + 1)) < rng.random((60, 1))).astype(np.uint8)
+    n_counted = 0
+    for row in rows:
+        done = set(np.flatnonzero(row).tolist())
+        state = presence._world(sorted(done))
+        for graph, weight in zip(bank.graphs, presence._weights(row), strict=True):
+            used = {label[step] for step in graph.used_steps}
+            n, size = len(done & used), max(graph.n_steps, len(used))
+            node = graph.node_of(state)
+            expected = 1 / comb(size, n) / size
+            if node is not None and graph.layers[graph.layer_of[node]][0] == n:
+                passing = graph.ways_to(node) * graph.plans_from(node)
+                expected = passing / graph.plans / graph.n_steps
+                n_counted += 1
+            assert weight == pytest.approx(expected * 0.25 ** (len(done) - n), rel=1e-12)
+    assert 0 < n_counted < 60 * len(bank.graphs)
 
 
 def test_bits_are_places():

@@ -27,6 +27,7 @@ PARTS = {
     "growth": "grounding, walking and validating as tasks grow",
     "bank": "building, sampling, and listing plans beside top-k planners",
     "beliefs": "updates of 30 and of 10,000 goals",
+    "assistants": "decisions of robots, and how they grow with the goals",
 }
 
 

@@ -50,18 +50,20 @@ def rows() -> Iterator[Row]:
     """Yield the time of each belief's update, for few and for many goals."""
     kitchen = build_bank("kitchen")
     yield from _speed(kitchen, 150, "kitchen, 30 goals", FEW_US)
-    yield from _speed(_many_goals(), 5, f"{N_MANY:,} generated goals", MANY_US)
+    yield from _speed(
+        many_goals(N_MANY, N_ITEMS, N_WANTED), 5, f"{N_MANY:,} generated goals", MANY_US
+    )
     if os.environ.get("HRCPLAN_BENCH_FOREST"):
         yield from _forest(kitchen)
 
 
-def _many_goals() -> Bank:
-    """Return a bank of 10,000 generated goals, each of four items out of forty."""
+def many_goals(n: int, n_items: int, n_wanted: int) -> Bank:
+    """Return a bank of generated goals; each wants a few items, fetched and made."""
     rng = random.Random(0)
-    items = [f"i{i}" for i in range(N_ITEMS)]
+    items = [f"i{i}" for i in range(n_items)]
     chosen: set[tuple[str, ...]] = set()
-    while len(chosen) < N_MANY:
-        chosen.add(tuple(sorted(rng.sample(items, N_WANTED))))
+    while len(chosen) < n:
+        chosen.add(tuple(sorted(rng.sample(items, n_wanted))))
     domain = domain_in(Source("many", DOMAIN))
     problems = [
         problem_in(domain, Source("p", PROBLEM.format(

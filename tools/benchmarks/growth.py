@@ -116,7 +116,10 @@ def _walk(task: Task, n_steps: int) -> list[PlannedAction]:
     return found
 
 
+def exponent(last: tuple[int, float], n: int, seconds: float) -> float:
+    """Return the power of ``n`` by which seconds have grown since the size before."""
+    return log(seconds / last[1]) / log(n / last[0])
+
+
 def _exponent(last: tuple[int, float] | None, n: int, seconds: float) -> str:
-    if last is None:
-        return ""
-    return f", grows as n^{log(seconds / last[1]) / log(n / last[0]):.1f}"
+    return "" if last is None else f", grows as n^{exponent(last, n, seconds):.1f}"
