@@ -17,13 +17,14 @@ class Guesses:
     Attributes:
         first_correct: Timesteps from the first human action after a change to the first right
             guess, the mean over changes; of a human who never changes, from its first action.
+            None if the human did nothing after a change.
         last_incorrect_step: The timestep after the last wrong guess; 0 without one.
         last_incorrect_pct: The same as a percentage of all timesteps.
         correct_pct: The share of guesses that are right.
         top3_pct: The share of guesses with the right goal among the first three.
     """
 
-    first_correct: float
+    first_correct: float | None
     last_incorrect_step: int
     last_incorrect_pct: float
     correct_pct: float
@@ -56,7 +57,7 @@ def guesses(record: Record) -> Guesses:
     spans = _spans(record)
     firsts = [_first_right(span, record.n_turns) for span in spans]
     return Guesses(
-        sum(firsts) / len(firsts) if firsts else 0.0,
+        sum(firsts) / len(firsts) if firsts else None,
         last,
         100 * last / max(1, record.n_turns),
         100 * (len(made) - len(wrong)) / max(1, len(made)),

@@ -10,11 +10,17 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Protocol
 
+import numpy as np
+from numpy.typing import NDArray
+
 from hrcplan.agents.human import Course, Human
 from hrcplan.bank import Bank, StepTable
+from hrcplan.errors import UsageError
 from hrcplan.pddl.conventions import robots
 
 PATIENCE = 4  # an episode ends after that many times the steps that its goals need
+
+NEAR = 1e-6  # to what probabilities sum to
 
 REACHED, STUCK, UNFINISHED = "reached", "stuck", "unfinished"
 
@@ -100,6 +106,10 @@ def play(
         course: What the human wants and when; the human was made from the same one.
         world: Where it happens; by default as the PDDL says.
         watch: Is told about every turn.
+
+    Raises:
+        UsageError: if somebody's own human or robot chooses what is no step or cannot be done, or
+            believes what are no probabilities.
     """
     return _Play(bank, human, robot, course, world or Simulated(bank), watch).run()
 
@@ -165,7 +175,7 @@ class _Play:
         self.belief = self.robot.observe(self.belief, move.step)
         if hasattr(self.robot, "told"):
             self.belief = self.robot.told(self.belief, goal)
-        posterior = self.robot.posterior(self.belief)
+        posterior = _posterior(self.robot, self.belief, len(self.bank.names))
         likelier = posterior > posterior[goal]
         rank = int(likelier.sum() + (posterior[:goal] == posterior[goal]).sum())
         self._note(
@@ -200,9 +210,24 @@ class _Play:
             self.watch(turn, self.belief)
 
 
-def _action(table: StepTable, state: int, step: int, agents: frozenset[str]) -> int:
-    action = table.doer(state, step, agents)
+def _action(table: StepTable, state: int, step: Any, agents: frozenset[str]) -> int:
+    if not isinstance(step, int | np.integer) or not 0 <= step < len(table):
+        raise UsageError(f"{step!r} is no step", code="bad-step")
+    action = table.doer(state, int(step), agents)
     if action is None:
         who = " or ".join(sorted(agents)) or "anybody"
-        raise ValueError(f"{table[step]} cannot be done by {who} here")
+        raise UsageError(f"{table[int(step)]} cannot be done by {who} here", code="bad-step")
     return action
+
+
+def _posterior(robot: Any, state: Any, n_goals: int) -> NDArray[np.float64]:
+    """Return what a robot believes, which must be a probability for each goal."""
+    found = np.asarray(robot.posterior(state), dtype=object)
+    try:
+        numbers = found.astype(np.float64)
+    except (TypeError, ValueError):
+        numbers = np.zeros(0)
+    is_one = numbers.shape == (n_goals,) and (numbers >= 0).all()
+    if not is_one or abs(numbers.sum() - 1) > NEAR:
+        raise UsageError(f"{found} is no probability for each goal", code="bad-posterior")
+    return numbers

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from hrcplan.errors import InputError
+from hrcplan.files import write_atomically
 from hrcplan.studies import page
 from hrcplan.studies.estimate import Estimate, estimate, estimate_by
 from hrcplan.studies.store import FILE, Store
@@ -21,7 +21,8 @@ def report_study(folder: str | Path) -> dict[str, Any]:
     """Write the report of a folder of rows, and return what is in ``report.json``.
 
     Raises:
-        InputError: if the folder has no rows, or they are of no known study.
+        InputError: if the folder has no rows, or they are damaged or of no known study.
+        UsageError: if the report cannot be written.
     """
     folder = Path(folder)
     with Store.to_read(folder) as store:
@@ -41,8 +42,9 @@ def report_study(folder: str | Path) -> dict[str, Any]:
         ],
         "about": about,
     }
-    _write(folder / JSON_FILE, json.dumps(document, indent=2, ensure_ascii=False) + "\n")
-    _write(folder / PAGE_FILE, page.html(study.title, about, document["n_rows"], findings))
+    text = json.dumps(document, indent=2, ensure_ascii=False) + "\n"
+    write_atomically(folder / JSON_FILE, text)
+    write_atomically(folder / PAGE_FILE, page.html(study.title, about, document["n_rows"], findings))
     return document
 
 
@@ -89,10 +91,3 @@ def _summary(study: Study, cell: Cell, rows: Sequence[Row]) -> dict[str, Any]:
 
 def _figures(found: dict[str, Estimate]) -> dict[str, dict[str, float]]:
     return {name: {"mean": e.mean, "se": e.se} for name, e in found.items()}
-
-
-def _write(path: Path, text: str) -> None:
-    """Write a file by rename, so that it is there completely or not at all."""
-    fresh = path.with_name(f".{path.name}.new")
-    fresh.write_text(text, encoding="utf-8")
-    os.replace(fresh, path)

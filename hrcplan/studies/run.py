@@ -70,7 +70,7 @@ def run_study(
             done += len(found)
             if progress is not None:
                 progress(done, len(wanted))
-        if left:
+        if not store.is_compact:
             store.compact()
     return len(left)
 

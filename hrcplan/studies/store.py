@@ -11,7 +11,8 @@ import fcntl
 import json
 import os
 import sqlite3
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from types import TracebackType
 from typing import Any
@@ -21,6 +22,7 @@ from hrcplan.studies.study import Episode, Row, Table
 
 FILE, CLOCK = "rows.sqlite", "clock.sqlite"
 _ABOUT = "about"
+_GROWN, _COMPACT = 0, 1  # the file's user_version
 
 
 class Store:
@@ -39,18 +41,21 @@ class Store:
         ``about`` is everything that the rows depend on.
 
         Raises:
-            UsageError: if the folder cannot be made, another process writes to it, or it holds
-                rows that depend on something else.
+            UsageError: if the folder cannot be made or written to, another process writes to it,
+                or it holds rows that depend on something else.
+            InputError: if its files are damaged.
         """
         try:
             folder.mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise UsageError(f"cannot make {folder}: {error.strerror}", path=str(folder)) from None
         lock = _locked(folder)
-        store = cls(folder, sqlite3.connect(folder / FILE))
+        with _told(folder):
+            store = cls(folder, sqlite3.connect(folder / FILE))
         store._lock = lock
         try:
-            store._prepare(about, tables)
+            with _told(folder):
+                store._prepare(about, tables)
         except BaseException:
             store.close()
             raise
@@ -61,15 +66,17 @@ class Store:
         """Return the store of a folder.
 
         Raises:
-            InputError: if there is none.
+            UsageError: if its files cannot be opened.
+            InputError: if there is none, or its files are damaged.
         """
         path = folder / FILE
         if not path.is_file():
             hint = "hrcplan study run NAME -o DIR makes one"
             raise InputError(f"no {FILE} in {folder}", code="no-file", path=str(path), hint=hint)
-        store = cls(folder, sqlite3.connect(path))
-        if (folder / CLOCK).is_file():
-            store._open_clock()
+        with _told(folder):
+            store = cls(folder, sqlite3.connect(path))
+            if (folder / CLOCK).is_file():
+                store._open_clock()
         return store
 
     def __enter__(self) -> Store:
@@ -80,8 +87,11 @@ class Store:
         self, kind: type[BaseException] | None, error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:  # fmt: skip
-        """Close the file and let other writers in."""
+        """Close the file and let other writers in; an error of SQLite becomes one of ours."""
         self.close()
+        with _told(self.folder):
+            if isinstance(error, sqlite3.Error):
+                raise error
 
     def close(self) -> None:
         """Close the file and let other writers in."""
@@ -146,18 +156,25 @@ class Store:
                 connection.executemany(*_insert(into, rows, table.clocked))
             into = f"insert or ignore into main.{table.name}"
             connection.executemany(*_insert(into, rows, table.columns))
+            connection.execute(f"pragma main.user_version = {_GROWN}")
 
     def rows(self, table: Table) -> list[Row]:
         """Return all rows of a table, keys and run included, in the order of cells and runs."""
         more = ""
         if table.clocked and self._has_clock:
             more = f" left join clock.{table.name} using ({_names((*table.keys, 'run'))})"
-        try:
-            cursor = self._connection.execute(f"select * from main.{table.name}{more}")
-        except sqlite3.DatabaseError:
+        known = self._connection.execute("select name from main.sqlite_master").fetchall()
+        if (table.name,) not in known:
             return []  # written before the study had this table
+        cursor = self._connection.execute(f"select * from main.{table.name}{more}")
         names = [column[0] for column in cursor.description]
         return [dict(zip(names, row, strict=True)) for row in cursor]
+
+    @property
+    def is_compact(self) -> bool:
+        """Whether no row was added since the file was written anew."""
+        (found,) = self._connection.execute("pragma main.user_version").fetchone()
+        return bool(found == _COMPACT)
 
     def compact(self) -> None:
         """Write the file anew, so that its bytes depend on its rows and not on how they came."""
@@ -172,11 +189,27 @@ class Store:
                 if statement is not None:  # an index that SQLite makes by itself
                     made.execute(statement)
                     made.execute(f"insert into main.{name} select * from old.{name} order by 1, 2")
+        made.execute(f"pragma main.user_version = {_COMPACT}")
         made.close()
         fresh.replace(path)
         self._connection = sqlite3.connect(path)
         if self._has_clock:
             self._open_clock()
+        for stray in self.folder.glob(f"{FILE}-mj*"):  # what a kill left of a commit to two files
+            stray.unlink()
+
+
+@contextmanager
+def _told(folder: Path) -> Iterator[None]:
+    """Say of errors of SQLite what the caller can do about them."""
+    try:
+        yield
+    except sqlite3.OperationalError as error:  # it may not be opened or written, or is locked
+        message = f"cannot use the rows in {folder}: {error}"
+        raise UsageError(message, code="no-access", path=str(folder)) from None
+    except sqlite3.DatabaseError as error:
+        message = f"the rows in {folder} are damaged: {error}"
+        raise InputError(message, code="bad-rows", path=str(folder)) from None
 
 
 def _insert(

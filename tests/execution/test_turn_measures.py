@@ -59,7 +59,7 @@ def test_first_correct_begins_with_the_first_action_after_a_change():
 
 
 def test_a_change_after_which_the_human_never_acts_does_not_count():
-    assert guesses(record(ONCE, (A, 0), (A, 0), None)).first_correct == 0
+    assert guesses(record(ONCE, (A, 0), (A, 0), None)).first_correct is None
     assert guesses(record(TWICE, (A, 0), (A, 0), (B, 0), None)).first_correct == 2
 
 
@@ -88,7 +88,8 @@ def test_top_three():
 
 def test_nothing_happened():
     made = guesses(Record(FIXED, (), REACHED))
-    assert (made.first_correct, made.last_incorrect_step, made.last_incorrect_pct) == (0, 0, 0)
+    assert made.first_correct is None
+    assert (made.last_incorrect_step, made.last_incorrect_pct) == (0, 0)
     assert (made.correct_pct, made.top3_pct) == (0, 0)
     none = changes(Record(ONCE, (), REACHED))
     assert (none.detection_delay, none.n_detected, none.false_changes) == (None, 0, 0)

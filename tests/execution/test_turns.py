@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from hrcplan import bank as banks
 from hrcplan.agents.human import Course, Frontier, Move
 from hrcplan.assistance import ASSISTANTS
+from hrcplan.errors import UsageError
 from hrcplan.execution.turns import PATIENCE, REACHED, STUCK, UNFINISHED, Simulated, play
 from hrcplan.pddl.check import domain_in, problem_in
 from hrcplan.pddl.source import Source
@@ -217,13 +218,34 @@ def test_not_stuck_while_the_human_waits_by_choice():
 def test_who_chooses_what_it_cannot_do_is_told():
     bank = door()
     course = Course((PAINTED,))
-    with pytest.raises(ValueError, match=r"\(paint\) cannot be done by robo here"):
+    with pytest.raises(UsageError, match=r"\(paint\) cannot be done by robo here"):
         play(bank, Waiter(), Scripted(bank, [find(bank, "paint")]), course)
-    with pytest.raises(ValueError, match=r"\(paint\) cannot be done by ann here"):
+    with pytest.raises(UsageError, match=r"\(paint\) cannot be done by ann here"):
         play(bank, Waiter(find(bank, "paint")), Scripted(bank), course)
     alone = door(agents="robo")
-    with pytest.raises(ValueError, match=r"\(build\) cannot be done by anybody here"):
+    with pytest.raises(UsageError, match=r"\(build\) cannot be done by anybody here"):
         play(alone, Waiter(find(alone, "build")), Scripted(alone), course)
+
+
+@pytest.mark.parametrize("step", [-1, 10**6, "build", 0.0])
+def test_what_is_no_step_is_refused(step):
+    bank = door()
+    course = Course((BUILT,))
+    for human, robot in ((step, ()), (None, (step,))):
+        with pytest.raises(UsageError, match=f"{step!r} is no step"):
+            play(bank, Waiter(human), Scripted(bank, robot), course)
+
+
+@pytest.mark.parametrize(
+    "said", [None, [1.0], [[1.0, 0.0, 0.0]], [0.5, 0.5, 0.5], [1.5, 0.0, -0.5], ["a", "b", "c"],
+             [float("nan")] * 3],
+)  # fmt: skip
+def test_beliefs_that_are_no_probabilities_are_refused(said):
+    bank = door()
+    robot = Scripted(bank)
+    robot.posterior = lambda state: said
+    with pytest.raises(UsageError, match="no probability for each goal"):
+        play(bank, Waiter(find(bank, "build")), robot, Course((PAINTED,)))
 
 
 def test_what_the_robot_is_told_and_sees():

@@ -14,6 +14,7 @@ import pytest
 
 from hrcplan.errors import InputError, UsageError
 from hrcplan.studies import report_study, run_study
+from hrcplan.studies.store import Store
 from hrcplan.studies.study import episodes, find
 
 NAME = "failure-anticipation"
@@ -199,12 +200,44 @@ def test_rows_of_a_file_that_has_changed_are_not_added_to(tmp_path: Path) -> Non
 
 
 def test_two_processes_do_not_write_to_one_folder(tmp_path: Path) -> None:
-    from hrcplan.studies.store import Store
-
     about = {"study": NAME}
     with Store.to_write(tmp_path, about, ()), pytest.raises(UsageError, match="another process"):
         Store.to_write(tmp_path, about, ())
     Store.to_write(tmp_path, about, ()).close()
+
+
+def test_stopped_before_its_last_act_it_still_ends_with_the_same_bytes(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """All rows are there, more than once extended, but the file was not yet written anew."""
+    run(tmp_path / "whole", runs=3)
+    with monkeypatch.context() as stopping:
+        stopping.setattr(Store, "compact", lambda store: None)
+        for runs in (1, 3):
+            run(tmp_path / "stopped", runs=runs)
+    whole, stopped = (tmp_path / name / "rows.sqlite" for name in ("whole", "stopped"))
+    assert stopped.read_bytes() != whole.read_bytes()
+    stray = tmp_path / "stopped" / "rows.sqlite-mj0123ABCD9"
+    stray.touch()
+    assert run(tmp_path / "stopped", runs=3) == 0
+    assert stopped.read_bytes() == whole.read_bytes()
+    assert not stray.exists()
+
+
+def test_rows_that_are_damaged_or_out_of_reach_are_told_apart(tmp_path: Path) -> None:
+    run(tmp_path / "cut", runs=2)
+    with (tmp_path / "cut" / "rows.sqlite").open("r+b") as file:
+        file.truncate(20_000)
+    (tmp_path / "odd" / "rows.sqlite").mkdir(parents=True)
+    for again in (lambda: report_study(tmp_path / "cut"), lambda: run(tmp_path / "cut", runs=2)):
+        with pytest.raises(InputError, match="malformed"):
+            again()
+    with pytest.raises(UsageError, match="unable to open"):
+        run(tmp_path / "odd")
+    run(tmp_path / "out", runs=1)
+    (tmp_path / "out" / "report.json").mkdir()
+    with pytest.raises(UsageError, match="cannot write"):
+        report_study(tmp_path / "out")
 
 
 def test_an_unknown_study_and_an_empty_folder_are_named(tmp_path: Path) -> None:

@@ -20,7 +20,8 @@ from hrcplan.studies.changed_mind import scenario
 
 SHIPPED = ("golden",)
 TOP = 3
-_NEEDED = ("domain", "wanted", "change_turns", "human", "methods")
+_LISTS = {"wanted": str, "change_turns": int, "human": str, "methods": str}
+_NEEDED = ("domain", *_LISTS)
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,10 +67,23 @@ def read(name: str) -> Mapping[str, Any]:
         raise InputError(f"not TOML: {error}", code="bad-script", path=name) from None
     if missing := [key for key in _NEEDED if key not in found]:
         raise InputError(f"the script lacks '{missing[0]}'", code="bad-script", path=name)
-    if len(found["wanted"]) != len(found["change_turns"]) + 1:
-        message = "change_turns has one number less than wanted has goals"
-        raise InputError(message, code="bad-script", path=name)
+    if fault := _fault(found):
+        raise InputError(fault, code="bad-script", path=name)
     return found
+
+
+def _fault(script: Mapping[str, Any]) -> str | None:
+    """Return what is wrong with the values of a script, if anything is."""
+    for key, kind in _LISTS.items():
+        value = script[key]
+        if not isinstance(value, list) or any(type(one) is not kind for one in value):
+            return f"{key} is a list of {'numbers' if kind is int else 'texts'}"
+    turns = script["change_turns"]
+    if len(script["wanted"]) != len(turns) + 1:
+        return "change_turns has one number less than wanted has goals"
+    if turns != sorted({*turns, 0})[1:]:
+        return "change_turns rise from 1"
+    return None if script["methods"] else "methods names none"
 
 
 def episodes(script: Mapping[str, Any], methods: Sequence[str] = ()) -> list[Episode]:
