@@ -7,7 +7,6 @@ import os
 import threading
 import time
 from collections.abc import Callable, Iterator, Mapping
-from functools import cache
 from itertools import groupby
 from pathlib import Path
 
@@ -85,18 +84,11 @@ def _results(
         return
     from joblib import Parallel, delayed
 
-    workers = Parallel(n_jobs=jobs, return_as="generator", batch_size=1)
-    yield from workers(delayed(_work)(os.getpid(), name, options, seed, chunk) for chunk in chunks)
+    workers = Parallel(n_jobs=jobs, return_as="generator", batch_size=1,
+                       initializer=_end_with, initargs=(os.getpid(),))  # fmt: skip
+    yield from workers(delayed(_rows)(name, options, seed, chunk) for chunk in chunks)
 
 
-def _work(
-    parent: int, name: str, options: Options, seed: int, chunk: list[Episode]
-) -> list[tuple[Episode, Row]]:
-    _end_with(parent)
-    return _rows(name, options, seed, chunk)
-
-
-@cache
 def _end_with(parent: int) -> None:
     """End this worker soon after its parent was killed: it would wait for work for minutes."""
 
