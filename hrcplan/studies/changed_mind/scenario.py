@@ -155,7 +155,7 @@ def prepare(options: Options, jobs: int, say: Say) -> None:
         if _learns(str(method))
     )
     for task in tasks:
-        say(f"a forest for the {len(bank_of(*task).names)} goals; trained once, in a few minutes")
+        say(f"a forest for {len(bank_of(*task).names)} goals: trained once, in a few minutes, then kept")
         Forest(bank_of(*task), n_jobs=jobs)
 
 
