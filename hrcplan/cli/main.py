@@ -75,7 +75,8 @@ def _guarded(run: Callable[[], Any]) -> int:
         output.fail_pddl(error)
         return error.exit_code
     except HrcplanError as error:
-        output.fail(error.code, error.message, error.path, error.line, error.hint)
+        message = f"{error.message}{_notes(error)}"
+        output.fail(error.code, message, error.path, error.line, error.hint)
         return error.exit_code
     except MemoryError:
         output.fail("memory", "out of memory", hint="try a smaller problem")
@@ -89,12 +90,17 @@ def _guarded(run: Callable[[], Any]) -> int:
     except Exception as error:  # noqa: BLE001  a bug of ours: no traceback unless asked for
         if output.DEBUG:
             traceback.print_exc()
-        what = f"{type(error).__name__}: {error}"
+        what = f"{type(error).__name__}: {error}{_notes(error)}"
         output.fail(
             "internal", f"internal error: {what}", hint="run again with --debug, and tell us"
         )
         return INTERNAL_ERROR
     return result if isinstance(result, int) else 0
+
+
+def _notes(error: Exception) -> str:
+    """Return what was noted about where an error came up, such as the episode of a study."""
+    return "".join(f" ({note})" for note in getattr(error, "__notes__", ()))
 
 
 @click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})

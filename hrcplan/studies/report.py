@@ -44,9 +44,8 @@ def report_study(folder: str | Path) -> dict[str, Any]:
     }
     text = json.dumps(document, indent=2, ensure_ascii=False) + "\n"
     write_atomically(folder / JSON_FILE, text)
-    write_atomically(
-        folder / PAGE_FILE, page.html(study.title, about, document["n_rows"], findings)
-    )
+    text = page.html(study.title, about, document["n_rows"], findings)
+    write_atomically(folder / PAGE_FILE, text)
     return document
 
 

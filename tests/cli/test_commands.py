@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -241,3 +242,29 @@ def test_planners_and_doctor_know_all_planners() -> None:
     assert {card["name"] for card in cards} >= {"exact", "fast-downward", "kairos", "enhsp"}
     health = document("doctor")
     assert all(state["present"] for state in health["planners"].values()), health
+
+
+# study
+
+
+def test_a_study_says_in_which_episode_somebodys_own_robot_failed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "failing.py").write_text(
+        "from hrcplan.assistance.oracle import Oracle\n"
+        "class Breaks(Oracle):\n"
+        "    def choose(self, state):\n"
+        "        raise RuntimeError('broken')\n"
+        "class Wrong(Oracle):\n"
+        "    def choose(self, state):\n"
+        "        return -1\n"
+    )
+    monkeypatch.syspath_prepend(str(tmp_path))
+    workshop = Path(__file__).parents[1] / "studies" / "workshop"
+    task = ("--domain", str(workshop / "domain.pddl"), "--goals", str(workshop))
+    for name, code, message in (("Breaks", 5, "broken"), ("Wrong", 2, "-1 is no step")):
+        words = ("study", "run", "changed-mind", *task, "--runs", "1", "--jobs", "1",
+                 "--method", "oracle", "--method", f"failing:{name}", "-o", str(tmp_path / "out"))  # fmt: skip
+        error = document(*words, code=code)["error"]["message"]
+        assert f"{message} (in rows, cell ('fixed', 'failing:{name}'), run 0)" in error
+        shutil.rmtree(tmp_path / "out")

@@ -171,10 +171,33 @@ def test_unknown_parts_are_named_before_anything_runs(
     assert not (tmp_path / "out").exists()
 
 
-def test_a_single_goal_cannot_change(tmp_path: Path) -> None:
-    (tmp_path / "desk.pddl").write_text((WORKSHOP / "desk.pddl").read_text())
-    with pytest.raises(UsageError, match="two"):
-        run(tmp_path / "out", options={**QUICK, "goals": str(tmp_path)})
+@pytest.mark.parametrize(
+    ("goals", "old", "new", "message"),
+    [
+        (["desk"], "", "", "two"),
+        (["desk", "table"], "(painted top)", "(joined top legs)", "no plan, or holds"),
+        (["desk", "table"], "robot human - agent", "robot - agent", "no human"),
+        (["desk", "table"], "(controllable robot)", "(controllable robot) (controllable human)",
+         "no human"),
+        (["desk", "table"], "(controllable robot)", "", "no robot"),
+    ],
+)  # fmt: skip
+def test_what_is_nothing_to_study_is_told_before_anything_is_made(
+    tmp_path: Path, goals: list[str], old: str, new: str, message: str
+) -> None:
+    for goal in goals:
+        text = (WORKSHOP / f"{goal}.pddl").read_text()
+        (tmp_path / f"{goal}.pddl").write_text(text.replace(old, new).replace("robot", "ann"))
+    options = {**QUICK, "goals": str(tmp_path)}
+    with pytest.raises(UsageError, match=message):
+        run_study(NAME, tmp_path / "out", options=options)
+    assert not (tmp_path / "out").exists()
+
+
+def test_names_of_the_study_may_have_commas() -> None:
+    options = {**find(NAME).options, "methods": "oracle,paper, in order", "humans": "optimal"}
+    scenario.check(options)
+    assert scenario.cells("variants", options)[0] == ("optimal", "paper, in order")
 
 
 def test_the_clock_is_measured_but_never_part_of_the_rows(tmp_path: Path) -> None:
@@ -224,13 +247,23 @@ def test_the_golden_episode_beside_recursive_bayes() -> None:
     assert len(ours.turns) < len(theirs.turns)
 
 
+SCRIPT = "domain = 'x'\nwanted = {}\nchange_turns = {}\nhuman = {}\nmethods = {}\n"
+
+
 @pytest.mark.parametrize(
     ("change", "message"),
     [
         ("", "lacks 'domain'"),
         ("domain = ", "not TOML"),
         (None, "cannot read"),
-        ("domain='x'\nwanted=['a']\nchange_turns=[1]\nhuman=[]\nmethods=[]", "one number less"),
+        (SCRIPT.format("['a']", [1], [], "['oracle']"), "one number less"),
+        (SCRIPT.format("'a'", [], [], "['oracle']"), "wanted is a list of texts"),
+        (SCRIPT.format("['a', 'b']", 5, [], "['oracle']"), "change_turns is a list of numbers"),
+        (SCRIPT.format("['a', 'b']", ["x"], [], "['oracle']"), "change_turns is a list of numbers"),
+        (SCRIPT.format("['a', 'b']", [1], [1], "['oracle']"), "human is a list of texts"),
+        (SCRIPT.format("['a', 'b', 'c']", [5, 2], [], "['oracle']"), "rise from 1"),
+        (SCRIPT.format("['a', 'b']", [-1], [], "['oracle']"), "rise from 1"),
+        (SCRIPT.format("['a', 'b']", [1], [], "[]"), "names none"),
     ],
 )
 def test_what_is_no_script_is_refused(tmp_path: Path, change: str | None, message: str) -> None:

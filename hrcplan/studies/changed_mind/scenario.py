@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from hrcplan.agents.human import HUMANS, Course, Human
+from hrcplan.agents.human import humans as people
 from hrcplan.assistance import ASSISTANTS
 from hrcplan.bank import Bank, Goals, build, read_goals
 from hrcplan.errors import UsageError
@@ -19,6 +20,8 @@ from hrcplan.execution.turns import World
 from hrcplan.execution.worlds import WORLDS
 from hrcplan.inference.forest import Forest
 from hrcplan.inference.methods import METHODS
+from hrcplan.pddl.conventions import robots
+from hrcplan.pddl.source import nearest
 from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.studies.study import Cell, Options, Say, Seed
 
@@ -69,8 +72,24 @@ def chosen(wanted: str, own: list[str]) -> list[str]:
     >>> chosen("paper,mine:Robot", ["paper", "cdp"]), chosen("mine:Robot", ["paper", "cdp"])
     (['paper', 'mine:Robot'], ['paper', 'cdp', 'mine:Robot'])
     """
-    named = [name for name in wanted.split(",") if name]
+    named = parted(wanted)
     return ([n for n in own if n in named] or own) + [n for n in named if n not in own]
+
+
+def parted(text: str) -> list[str]:
+    """Return the names in a text with commas between; those of the study may have some themselves.
+
+    >>> parted("paper, in order,mine:Robot"), parted("paper,oracle")
+    (['paper, in order', 'mine:Robot'], ['paper', 'oracle'])
+    """
+    found: list[str] = []
+    longest_first = sorted((name for key in ADDED for name in data()[key]), key=len, reverse=True)
+    while text:
+        name = next((n for n in longest_first if f"{text},".startswith(f"{n},")), None)
+        name = text.partition(",")[0] if name is None else name
+        found += [name] if name else []
+        text = text[len(name) + 1 :]
+    return found
 
 
 def check(options: Options) -> None:
@@ -79,12 +98,14 @@ def check(options: Options) -> None:
     Raises:
         UsageError: if one cannot.
     """
-    for name in filter(None, options["methods"].split(",")):
-        if name not in data()["methods"]:
-            ASSISTANTS.find(name)
-    for name in filter(None, options["humans"].split(",")):
-        if name not in data()["humans"]:
-            HUMANS.find(name)
+    for key, parts in (("methods", ASSISTANTS), ("humans", HUMANS)):
+        own = data()[key]
+        for name in (name for name in parted(options[key]) if name not in own):
+            if ":" not in name and name not in parts.names():
+                hint = nearest(name, own) or f"{'; '.join(own)}; or module:Class"
+                message, code = f"there is no {parts.kind} '{name}'", f"unknown-{parts.kind}"
+                raise UsageError(message, code=code, hint=hint)
+            parts.find(name)
     HUMANS.find(options["chooser"])
     WORLDS.find(options["world"])
 
@@ -103,9 +124,13 @@ def bank_of(domain: str, goals: str) -> Bank:
     """Return the bank of all optimal plans.
 
     Raises:
-        UsageError: if there are fewer than two goals, or one has no plan.
+        UsageError: if there are fewer than two goals, or one has no plan, or of human and robot one
+            is missing.
     """
     bank = build(goals_of(domain, goals))
+    for kind, who in (("human", people(bank)), ("robot", robots(bank.goals.problem))):
+        if bank.goals.problem.agents and not who:
+            raise UsageError(f"there is no {kind} among the agents", code=f"no-{kind}")
     if len(bank.names) < 2:
         raise UsageError("a goal can only change where there are two", code="too-few-goals")
     for graph in bank.graphs:
@@ -155,7 +180,9 @@ def prepare(options: Options, jobs: int, say: Say) -> None:
         if _learns(str(method))
     )
     for task in tasks:
-        say(f"a forest for {len(bank_of(*task).names)} goals: trained once, in a few minutes, then kept")
+        say(
+            f"a forest for {len(bank_of(*task).names)} goals: trained once, in a few minutes, then kept"
+        )
         Forest(bank_of(*task), n_jobs=jobs)
 
 
@@ -175,7 +202,11 @@ def world(name: str, domain: str, goals: str) -> World:
 
 
 def inputs(options: Options) -> str:
-    """Return domain and problems of the study, and what its file says of cells and courses."""
+    """Return domain and problems of the study, and what its file says of cells and courses.
+
+    Raises:
+        UsageError: if something that options name cannot be found, or is nothing to study.
+    """
     check(options)
     own = {key: data()[key] for key in ("study", "humans", "methods", "tables")}
     found = dict.fromkeys(
@@ -183,7 +214,7 @@ def inputs(options: Options) -> str:
     )
     texts = []
     for task in found:
-        goals = goals_of(*task)
+        goals = bank_of(*task).goals
         texts += [domain_text(goals.problem.domain), problem_text(goals.problem)]
         texts += [*goals.names, *map(str, goals.formulas)]
     return json.dumps([own, *texts], sort_keys=True)
