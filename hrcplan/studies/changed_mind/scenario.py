@@ -180,9 +180,8 @@ def prepare(options: Options, jobs: int, say: Say) -> None:
         if _learns(str(method))
     )
     for task in tasks:
-        say(
-            f"a forest for {len(bank_of(*task).names)} goals: trained once, in a few minutes, then kept"
-        )
+        n = len(bank_of(*task).names)
+        say(f"a forest for {n} goals: trained once, in a few minutes, then kept")
         Forest(bank_of(*task), n_jobs=jobs)
 
 
