@@ -90,7 +90,7 @@ def _text(found: dict[str, Any], folder: Path) -> str:
     lines = ["".join([f"{'':22}", *(f"{name:>22}" for name in names)])]
     for row in found["rows"]:
         cell = " ".join(map(str, row["cell"].values()))
-        means = (f"{m['mean']:.2f} ± {m['se']:.2f}" for m in row["measures"].values())
+        means = (_mean(m["mean"], m["se"]) for m in row["measures"].values())
         lines.append("".join([f"{cell:22}", *(f"{text:>22}" for text in means)]))
     lines.append("")
     for claim in found["claims"]:
@@ -98,6 +98,10 @@ def _text(found: dict[str, Any], folder: Path) -> str:
         lines.append(f"               {claim['evidence']}")
     lines += ["", f"{found['n_rows']} rows; wrote {folder}/report.html and report.json"]
     return "\n".join(lines)
+
+
+def _mean(mean: float | None, se: float | None) -> str:
+    return "-" if mean is None else f"{mean:.2f} ± {se:.2f}"
 
 
 def _bar() -> AbstractContextManager[Callable[[int, int], None] | None]:

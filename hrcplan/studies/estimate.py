@@ -83,6 +83,11 @@ class Interval:
     n: int
 
     @property
+    def is_known(self) -> bool:
+        """Whether the values say where the interval ends; else they show nothing."""
+        return self.low > -math.inf
+
+    @property
     def is_above_zero(self) -> bool:
         """Whether the whole interval is above 0."""
         return self.low > 0

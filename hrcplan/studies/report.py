@@ -90,5 +90,9 @@ def _summary(study: Study, cell: Cell, rows: Sequence[Row]) -> dict[str, Any]:
     }
 
 
-def _figures(found: dict[str, Estimate]) -> dict[str, dict[str, float]]:
-    return {name: {"mean": e.mean, "se": e.se} for name, e in found.items()}
+def _figures(found: dict[str, Estimate]) -> dict[str, dict[str, float | None]]:
+    """Return means and standard errors; both are None where no row has a value."""
+    return {
+        name: {"mean": e.mean if e.n else None, "se": e.se if e.n else None}
+        for name, e in found.items()
+    }

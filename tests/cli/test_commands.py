@@ -263,8 +263,8 @@ def test_a_study_says_in_which_episode_somebodys_own_robot_failed(
     workshop = Path(__file__).parents[1] / "studies" / "workshop"
     task = ("--domain", str(workshop / "domain.pddl"), "--goals", str(workshop))
     for name, code, message in (("Breaks", 5, "broken"), ("Wrong", 2, "-1 is no step")):
-        methods = ("--method", "oracle", "--method", f"failing:{name}")
-        words = ("study", "run", "changed-mind", *task, *methods, "--runs", "1", "--jobs", "1",
+        words = ("study", "run", "changed-mind", *task, "--runs", "1", "--jobs", "1",
+                 "--method", "oracle", "--method", f"failing:{name}",
                  "-o", str(tmp_path / "out"))  # fmt: skip
         error = document(*words, code=code)["error"]["message"]
         assert f"{message} (in rows, cell ('fixed', 'failing:{name}'), run 0)" in error

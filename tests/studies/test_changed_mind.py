@@ -127,6 +127,7 @@ def test_every_method_runs_and_reports_its_promised_figures(tmp_path: Path) -> N
         assert set(row["measures"]) == MEASURES
         assert all(set(figure) == {"mean", "se"} for figure in row["measures"].values())
         assert row["measures"]["decision_ms"]["mean"] >= 0
+        assert all((f["mean"] is None) == (f["se"] is None) for f in row["measures"].values())
     assert "<script" not in (tmp_path / "report.html").read_text()
 
 
@@ -206,7 +207,16 @@ def test_the_clock_is_measured_but_never_part_of_the_rows(tmp_path: Path) -> Non
     assert "decision_ms" not in rows_of.COLUMNS
     before = report_study(tmp_path)["rows"][0]["measures"]["decision_ms"]["mean"]
     (tmp_path / "clock.sqlite").unlink()
-    assert before > 0 == report_study(tmp_path)["rows"][0]["measures"]["decision_ms"]["mean"]
+    assert before > 0
+    assert report_study(tmp_path)["rows"][0]["measures"]["decision_ms"]["mean"] is None
+
+
+def test_what_was_never_measured_is_not_reported_as_nought(tmp_path: Path) -> None:
+    """Recursive Bayes declares no changes, so there is no delay: not one of 0."""
+    run(tmp_path)
+    cells = {tuple(r["cell"].values()): r["measures"] for r in report_study(tmp_path)["rows"]}
+    assert cells["optimal", "recursive"]["detection_delay"] == {"mean": None, "se": None}
+    assert cells["optimal", "oracle"]["detection_delay"]["mean"] == 0
 
 
 @pytest.mark.skipif(sys.version_info >= (3, 12), reason="pddlgym has no wheels from 3.12 on")

@@ -104,6 +104,14 @@ def adding(measure: str, amount: float) -> Callable[[Row], Any]:
     return change
 
 
+def test_one_run_shows_nothing_to_be_as_good() -> None:
+    """Of one pair of goals no interval is known: that nothing is worse is no evidence."""
+    found = judged(made_up(2) | {"rows": [row for row in GOOD["rows"] if row["run"] == 0]})
+    absent = [c for text, c in found.items() if "no worse" in text or "as good" in text]
+    assert len(absent) == 4
+    assert not any(claim.holds for claim in absent)
+
+
 def test_made_up_rows_make_all_claims_hold() -> None:
     found = judged(GOOD)
     assert [claim.claim for claim in found.values() if not claim.holds] == []

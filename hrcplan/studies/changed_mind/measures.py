@@ -83,7 +83,7 @@ def ends(interval: Interval) -> str:
     >>> ends(Interval(1.0, 0.5, 1.5, 9)), ends(Interval(1.0, -float("inf"), float("inf"), 1))
     ('0.50 to 1.50', 'unknown')
     """
-    if interval.low == -float("inf"):
+    if not interval.is_known:
         return "unknown"
     return f"{number(interval.low)} to {number(interval.high)}"
 

@@ -61,7 +61,8 @@ def _judged(
         return f"at least {one['below']:g} below {whose}", gap.mean <= -one["below"]
     if "over" in one:
         return f"at least {one['over']:g} above {whose}", gap.mean >= one["over"]
-    return f"no worse than {whose}", MEASURES[one["measure"]].verdict(gap) != "worse"
+    is_worse = MEASURES[one["measure"]].verdict(gap) == "worse"
+    return f"no worse than {whose}", gap.is_known and not is_worse
 
 
 def _mean(e: Estimate) -> str:
@@ -74,7 +75,7 @@ def _share(ours: Estimate, theirs: Estimate) -> str:
 
 def as_good(human: str, data: Mapping[str, Any], cells: Cells) -> Claim | None:
     """Return that no baseline is better in any measure that is counted in timesteps."""
-    ours, verdicts, worse = data["method"], [], []
+    ours, verdicts, worse, n_unknown = data["method"], [], [], 0
     if not all(cells.n_runs(human, method) for method in (ours, *data["baselines"])):
         return None
     changes = scenario.human_data(human)["changes"]
@@ -83,6 +84,7 @@ def as_good(human: str, data: Mapping[str, Any], cells: Cells) -> Claim | None:
         for other in data["baselines"]:
             gap = cells.difference(human, ours, other, measure)
             if gap is not None:
+                n_unknown += not gap.is_known
                 verdicts.append(MEASURES[measure].verdict(gap))
                 if verdicts[-1] == "worse":
                     worse.append(_worse(measure, other, gap, human, data, cells))
@@ -92,7 +94,7 @@ def as_good(human: str, data: Mapping[str, Any], cells: Cells) -> Claim | None:
     evidence += f"{len(worse)}{': ' if worse else ''}{'; '.join(worse)}. "
     names = ", ".join(MEASURES[measure].name for measure in measures)
     evidence += f"Measures: {names}; baselines: {', '.join(data['baselines'])}."
-    return Claim(claim, not worse, evidence, GROUP)
+    return Claim(claim, not worse and not n_unknown, evidence, GROUP)
 
 
 def _worse(

@@ -67,13 +67,16 @@ def humans(table: str, options: Options) -> list[str]:
 
 
 def chosen(wanted: str, own: list[str]) -> list[str]:
-    """Return which parts are compared: of our own those that are named, or all; and strangers'.
+    """Return which parts are compared: those that are named, or all of our own and strangers'.
 
     >>> chosen("paper,mine:Robot", ["paper", "cdp"]), chosen("mine:Robot", ["paper", "cdp"])
     (['paper', 'mine:Robot'], ['paper', 'cdp', 'mine:Robot'])
+    >>> chosen("oracle", ["paper", "cdp"])
+    ['oracle']
     """
     named = parted(wanted)
-    return ([n for n in own if n in named] or own) + [n for n in named if n not in own]
+    is_all = not any(name in data()[key] for key in ADDED for name in named)
+    return [n for n in own if is_all or n in named] + [n for n in named if n not in own]
 
 
 def parted(text: str) -> list[str]:
