@@ -15,7 +15,7 @@ from hrcplan.bank import Bank
 from hrcplan.inference.belief import Belief
 from hrcplan.inference.switching import Switching
 
-WASTE_PRICE = 0.9  # steps; tuned on kitchens made by chance: more saves waste, but costs time
+WASTE_PRICE = 0.95  # steps; tuned on kitchens made by chance: more saves waste, but costs time
 N_LOOKED, N_ANSWERS = 5, 6  # best steps that are looked beyond, and likeliest answers to each
 
 

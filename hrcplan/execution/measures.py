@@ -36,14 +36,15 @@ class Changes:
     """Declared changes of goal beside the true ones.
 
     Attributes:
-        detection_delay: Timesteps from the first human action after a change to the declaration,
-            the mean over changes that were declared; None if none was.
+        detection_delay: Timesteps from the first human action after a change to the declaration, or
+            to the end if it is never declared, as for ``first_correct``; the mean over changes, 0
+            without any.
         n_detected: Changes that were declared before the next one, or the end.
         false_changes: Declarations with no true change before them that was still undeclared.
         false_before: Those of them before the first true change.
     """
 
-    detection_delay: float | None
+    detection_delay: float
     n_detected: int
     false_changes: int
     false_before: int
@@ -85,7 +86,7 @@ def _first_right(span: Sequence[Turn], n_turns: int) -> int:
 def changes(record: Record) -> Changes:
     """Return declared changes beside the true ones."""
     delays: list[int] = []
-    n_false = n_before = human = 0
+    n_found = n_false = n_before = human = 0
     open_since: int | None = None  # the timestep of the true change that awaits declaration
     is_new, known = False, 0
     for turn in record.turns:
@@ -96,6 +97,8 @@ def changes(record: Record) -> Changes:
         if turn.step is None:
             continue  # a wait shows nothing, so no change can be declared after it
         if is_new:
+            if open_since is not None:
+                delays.append(record.n_turns - open_since)
             open_since, is_new = turn.t, False
         for _ in range(turn.n_declared - known):
             if open_since is None:
@@ -103,10 +106,11 @@ def changes(record: Record) -> Changes:
                 n_before += not record.course.turns or human <= min(record.course.turns)
             else:
                 delays.append(turn.t - open_since)
-                open_since = None
+                n_found, open_since = n_found + 1, None
         known = max(known, turn.n_declared)
-    delay = sum(delays) / len(delays) if delays else None
-    return Changes(delay, len(delays), n_false, n_before)
+    if open_since is not None:
+        delays.append(record.n_turns - open_since)
+    return Changes(sum(delays) / max(1, len(delays)), n_found, n_false, n_before)
 
 
 def wasted(record: Record) -> int:

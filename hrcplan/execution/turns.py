@@ -102,7 +102,7 @@ def play(
         bank: The plans; they decide what is needed.
         human: Who acts first.
         robot: An assistant (see assistance/assistant.py); one with a method ``told`` is told the
-            human's goal after each of its actions.
+            human's goal after each of its turns.
         course: What the human wants and when; the human was made from the same one.
         world: Where it happens; by default as the PDDL says.
         watch: Is told about every turn.
@@ -168,13 +168,14 @@ class _Play:
         goal = self.course.goal(turn)
         move = self.human.move(turn, self.state, self.last)
         needed = self._do(move.step, goal, self.people)
+        if move.step is not None:
+            self.last = move.step
+            self.belief = self.robot.observe(self.belief, move.step)
+        if hasattr(self.robot, "told"):
+            self.belief = self.robot.told(self.belief, goal)
         if move.step is None:
             self._note(Turn(len(self.turns), True, None, goal, False))
             return
-        self.last = move.step
-        self.belief = self.robot.observe(self.belief, move.step)
-        if hasattr(self.robot, "told"):
-            self.belief = self.robot.told(self.belief, goal)
         posterior = _posterior(self.robot, self.belief, len(self.bank.names))
         likelier = posterior > posterior[goal]
         rank = int(likelier.sum() + (posterior[:goal] == posterior[goal]).sum())

@@ -35,6 +35,9 @@ _PACKAGES = ("numpy", "scikit-learn")  # whose version decides which samples and
 
 Key = Mapping[str, Any]
 
+_unsaved: dict[Path, Trained] = {}
+"""Forests that could not be written: this process at least need not train them twice."""
+
 
 def key_of(bank: Bank, seed: int, n_samples: int, n_trees: int) -> Key:
     """Return everything that a forest depends on."""
@@ -59,6 +62,7 @@ def kept(folder: Path, key: Key, make: Callable[[], Trained]) -> Trained:
     """
     path = path_of(folder, key)
     found, fault = _look(path, key)
+    found = found or _unsaved.get(path)
     if found is not None:
         return found
     with _alone(path.with_suffix(".lock")) as alone:
@@ -69,6 +73,8 @@ def kept(folder: Path, key: Key, make: Callable[[], Trained]) -> Trained:
         made = make()
         if alone and _saved(path, key, made):
             made = _look(path, key)[0] or made
+        else:
+            _unsaved[path] = made
         return replace(made, is_kept=False, fault=fault)
 
 

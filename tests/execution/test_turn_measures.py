@@ -92,7 +92,7 @@ def test_nothing_happened():
     assert (made.last_incorrect_step, made.last_incorrect_pct) == (0, 0)
     assert (made.correct_pct, made.top3_pct) == (0, 0)
     none = changes(Record(ONCE, (), REACHED))
-    assert (none.detection_delay, none.n_detected, none.false_changes) == (None, 0, 0)
+    assert (none.detection_delay, none.n_detected, none.false_changes) == (0, 0, 0)
 
 
 def declared(course, *numbers):
@@ -103,22 +103,22 @@ def declared(course, *numbers):
 @pytest.mark.parametrize(
     ("found", "delay", "n_detected", "false", "before"),
     [
-        (declared(FIXED, 0, 0, 0), None, 0, 0, 0),
-        (declared(FIXED, 0, 1, 1, 2), None, 0, 2, 2),
-        (declared(ONCE, 0, 0, 0, 0), None, 0, 0, 0),
+        (declared(FIXED, 0, 0, 0), 0, 0, 0, 0),
+        (declared(FIXED, 0, 1, 1, 2), 0, 0, 2, 2),
+        (declared(ONCE, 0, 0, 0, 0), 4, 0, 0, 0),  # never: all that is left
         (declared(ONCE, 0, 0, 1, 1), 0, 1, 0, 0),
         (declared(ONCE, 0, 0, 0, 0, 1), 4, 1, 0, 0),
         (declared(ONCE, 0, 1, 1, 2), 2, 1, 1, 1),
-        (declared(ONCE, 0, 1, 1, 1), None, 0, 1, 1),  # too early, and then never
+        (declared(ONCE, 0, 1, 1, 1), 4, 0, 1, 1),  # too early, and then never
         (declared(ONCE, 0, 0, 1, 2, 3), 0, 1, 2, 0),
         (declared(ONCE, 1, 1, 1, 3), 2, 1, 2, 1),  # two at once: one of them is for nothing
         (declared(TWICE, 0, 1, 1, 1, 2), (0 + 2) / 2, 2, 0, 0),
-        (declared(TWICE, 0, 0, 0, 0, 1), 2, 1, 0, 0),  # the first was missed
-        (declared(TWICE, 1, 1, 2, 2, 2), 2, 1, 1, 1),
+        (declared(TWICE, 0, 0, 0, 0, 1), (8 + 2) / 2, 1, 0, 0),  # the first was missed
+        (declared(TWICE, 1, 1, 2, 2, 2), (2 + 4) / 2, 1, 1, 1),
         (declared(ONCE, 0, 0, None, 0, 1), 2, 1, 0, 0),  # from the first action, not the wait
         (declared(ONCE, 0, 0, None, 1), 0, 1, 0, 0),
-        (declared(ONCE, 0, 1, None, 1), None, 0, 1, 1),  # what was declared stays so in a wait
-        (declared(TWICE, 0, 0, 0, None, 1), 0, 1, 0, 0),
+        (declared(ONCE, 0, 1, None, 1), 2, 0, 1, 1),  # what was declared stays so in a wait
+        (declared(TWICE, 0, 0, 0, None, 1), (8 + 0) / 2, 1, 0, 0),
     ],
 )
 def test_declared_changes(found, delay, n_detected, false, before):

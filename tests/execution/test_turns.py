@@ -263,7 +263,7 @@ def test_what_the_robot_is_told_and_sees():
     on, build = find(bank, "on"), find(bank, "build")
     lit = ((on, False),)
     assert beliefs == [lit, lit, lit, (*lit, (build, True))]
-    assert robot.told_goals == [PAINTED]  # waiting says nothing
+    assert robot.told_goals == [PAINTED, BUILT]  # also if the human waits
     assert (record.turns[0].guess, record.turns[0].rank) == (1, 0)
     assert seen == [(0, None), (1, on)]
 

@@ -11,10 +11,11 @@ from typing import Any
 
 import pytest
 
+from hrcplan.execution.turns import REACHED
 from hrcplan.studies import report_study
 from hrcplan.studies.changed_mind import claims, figures, reach, scenario
 from hrcplan.studies.changed_mind.cells import Cells
-from hrcplan.studies.changed_mind.findings import all_means, findings
+from hrcplan.studies.changed_mind.findings import all_means, endings, findings
 from hrcplan.studies.changed_mind.findings import judged as all_claims
 from hrcplan.studies.changed_mind.measures import MEASURES, ends, number, signed
 from hrcplan.studies.estimate import Interval
@@ -42,7 +43,7 @@ def row(human: str, method: str, run: int) -> Row:
     pct = (0.0, 40.0)[q] if q < 2 else (46 if changes == 0 else 60) + q
     made: Row = dict.fromkeys((*STUDY.tables[0].columns, "decision_ms"), 0)
     made |= {
-        "human": human, "method": method, "run": run,
+        "human": human, "method": method, "run": run, "ending": REACHED,
         "first": first, "second": second if changes else None,
         "first_correct": q + noise, "last_incorrect_pct": pct + noise,
         "last_incorrect_step": pct * total / 100,
@@ -353,3 +354,12 @@ def test_the_same_rows_give_the_same_plots() -> None:
         for _ in range(2)
     )
     assert once == again
+
+
+def test_episodes_that_did_not_reach_their_goal_are_told() -> None:
+    rows = copy.deepcopy(GOOD["rows"])
+    assert "all" in endings(Cells("rows", OPTIONS, rows))
+    rows[0]["ending"] = "stuck"
+    text = endings(Cells("rows", OPTIONS, rows))
+    assert f"In 1 of {len(rows):,} episodes" in text
+    assert f"{rows[0]['human']} {rows[0]['method']} 1" in text

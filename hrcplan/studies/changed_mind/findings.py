@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from hrcplan.execution.turns import REACHED
 from hrcplan.studies.changed_mind import claims, figures, reach, scenario, tables
 from hrcplan.studies.changed_mind.cells import Cells
 from hrcplan.studies.changed_mind.measures import number
@@ -115,7 +116,25 @@ def all_means(cells: Cells) -> Section | None:
         parts.append(tables.means(cells, human, GUESSES))
         parts.append(f'<h3 class="part">{escape(human)}: steps</h3>')
         parts.append(tables.means(cells, human, STEPS))
-    return Section("All measures", "\n".join([*parts, _note(how_many(cells))]))
+    return Section(
+        "All measures", "\n".join([*parts, _note(f"{how_many(cells)} {endings(cells)}")])
+    )
+
+
+def endings(cells: Cells) -> str:
+    """Return whether all goals were reached: an episode that ends otherwise looks short."""
+    n_all = sum(map(len, cells.rows.values()))
+    missed = {
+        f"{human} {method}": n
+        for (human, method), rows in cells.rows.items()
+        if (n := sum(row["ending"] != REACHED for row in rows))
+    }
+    if not missed:
+        return f"In all {n_all:,} episodes the last goal was reached."
+    words = ", ".join(f"{escape(cell)} {n}" for cell, n in missed.items())
+    return (
+        f"In {sum(missed.values())} of {n_all:,} episodes the last goal was not reached: {words}."
+    )
 
 
 def _note(text: str) -> str:
@@ -140,8 +159,7 @@ def differences(cells: Cells) -> Section | None:
     words = (
         f"<p>Differences to the method <em>{BESIDE}</em> in the same runs (same goals, time of "
         "change and seed), with 95 % intervals of a bootstrap that draws first and second goals "
-        f"anew. {COLORED} The best baseline is the one with the best mean in that column. Delays "
-        "are compared in runs in which both methods found the change.</p>"
+        f"anew. {COLORED} The best baseline is the one with the best mean in that column.</p>"
     )
     return Section("Paired differences", words + "\n".join(parts))
 
