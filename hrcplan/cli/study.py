@@ -38,7 +38,7 @@ command.add_command(play.command)
 @click.option("--method", "methods", multiple=True, metavar="NAME",
               help="Only this method, or also yours as module:Class (changed-mind).")  # fmt: skip
 @click.option("--human", "humans", multiple=True, metavar="NAME",
-              help="Only this human, or also yours as module:Class (changed-mind).")  # fmt: skip
+              help="Only this human of the main table, or also yours as module:Class.")  # fmt: skip
 @click.option("--chooser", metavar="NAME",
               help="How humans choose: frontier, cc-htn, plans (changed-mind).")  # fmt: skip
 @click.option("--world", metavar="NAME", help="simulated or pddlgym (changed-mind).")

@@ -296,3 +296,6 @@ def test_a_script_of_another_domain(tmp_path: Path) -> None:
     path.write_text(path.read_text().replace("drawer", "drwaer"))
     with pytest.raises(InputError, match="no step"):
         script.episodes(script.read(str(path)))
+    path.write_text(path.read_text().replace("table", "tabel"))
+    with pytest.raises(InputError, match="no goal 'tabel'"):
+        script.episodes(script.read(str(path)))

@@ -16,6 +16,7 @@ from hrcplan.assistance import Why, why
 from hrcplan.bank import Bank
 from hrcplan.errors import InputError
 from hrcplan.execution.turns import Turn, play
+from hrcplan.pddl.source import nearest
 from hrcplan.studies.changed_mind import scenario
 
 SHIPPED = ("golden",)
@@ -94,17 +95,24 @@ def episodes(script: Mapping[str, Any], methods: Sequence[str] = ()) -> list[Epi
         methods: Names of methods, if not those that the script names.
 
     Raises:
-        UsageError: if there is no such method or goal.
-        InputError: if the script names a step that there is not.
+        UsageError: if there is no such method.
+        InputError: if the script names a goal or a step that there is not.
     """
     task = str(script["domain"]), str(script.get("goals", ""))
     bank = scenario.bank_of(*task)
-    wanted = tuple(bank.goal_index(goal) for goal in script["wanted"])
+    wanted = tuple(_goal(bank, goal) for goal in script["wanted"])
     course = Course(wanted, tuple(script["change_turns"]), seed=str(script.get("seed", "")))
     steps = [_step(bank, text) for text in script["human"]]
     chosen = methods or script["methods"]
     robots = {method: scenario.robot(method, *task) for method in chosen}
     return [_played(name, robot, bank, course, steps) for name, robot in robots.items()]
+
+
+def _goal(bank: Bank, name: str) -> int:
+    if name not in bank.names:
+        hint = nearest(name, bank.names) or f"goals: {', '.join(bank.names)}"
+        raise InputError(f"there is no goal '{name}'", code="unknown-goal", hint=hint)
+    return bank.names.index(name)
 
 
 def _step(bank: Bank, text: str) -> int:
