@@ -24,7 +24,7 @@ from hrcplan.plans import Plan, PlannedAction
 
 OPTIMAL = Fraction(1)
 MAX_VARIANTS = 8  # states that are looked up for one that is off the graph
-MAX_REROOTED = 4096  # graphs from other states that are remembered
+MAX_REROOTED = 500_000  # nodes of graphs from other states that are remembered
 
 
 @dataclass(frozen=True)
@@ -105,13 +105,14 @@ class Bank:
             LimitError: if time or memory runs out.
         """
         key = (goal, state & self.matters(goal))
-        if key not in self._rerooted:
-            if len(self._rerooted) >= MAX_REROOTED:
-                self._rerooted.pop(next(iter(self._rerooted)))
-            self._rerooted[key] = optimal_graph(
+        known = self._rerooted.get(key)
+        if known is None:
+            known = self._rerooted[key] = optimal_graph(
                 self.table, self.goals.tests[goal], state, name=self.names[goal], limits=limits
             )
-        return self._rerooted[key]
+            while sum(graph.n_nodes + 1 for graph in self._rerooted.values()) > MAX_REROOTED:
+                self._rerooted.pop(next(iter(self._rerooted)))
+        return known
 
     def locate(
         self, goal: int, state: int, limits: Limits = NO_LIMITS
