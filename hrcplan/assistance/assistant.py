@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Generic, Protocol, TypeVar
@@ -68,7 +69,7 @@ class Watched(Generic[S]):
         return int(getattr(self.belief, "n_declared", 0))
 
 
-class Watcher(Generic[S]):
+class Watcher(ABC, Generic[S]):
     """An assistant made of a belief and a way to value steps, which is all that is left to write.
 
     Args:
@@ -111,9 +112,9 @@ class Watcher(Generic[S]):
         """Return the probability of each goal, in order."""
         return self.belief.posterior(state.belief)
 
+    @abstractmethod
     def options(self, state: Watched[S]) -> Options:
         """Return the steps that the robot could do now, and how good each is."""
-        raise NotImplementedError
 
     def choose(self, state: Watched[S]) -> int | None:
         """Return the step that the robot should do now, or None to wait."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
 
@@ -14,7 +15,7 @@ from hrcplan.inference.largest import bits, largest_first
 MAX_REMEMBERED = 100_000  # sequences
 
 
-class Ordered:
+class Ordered(ABC):
     """Tests the goals that the steps in any order leave, one by one, and remembers."""
 
     def __init__(self, bank: Bank) -> None:
@@ -36,9 +37,9 @@ class Ordered:
             self._remembered[done] = known
         return known
 
+    @abstractmethod
     def _fits(self, goal: int, done: tuple[int, ...]) -> bool:
         """Return whether some plan of a goal has these labels in this order."""
-        raise NotImplementedError
 
 
 class Subsequence(Ordered):
