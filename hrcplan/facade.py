@@ -12,7 +12,7 @@ from hrcplan.pddl.model import Domain, FluentKey, Number, Problem
 from hrcplan.pddl.problem import named_domain
 from hrcplan.pddl.reader import read
 from hrcplan.pddl.source import read_source
-from hrcplan.planners.answer import Planner
+from hrcplan.planners.contract import Planner
 from hrcplan.planners.solve import AUTO, DEFAULT_TIMEOUT_S, Result, solve
 from hrcplan.plans import parse_plan
 from hrcplan.task import Task

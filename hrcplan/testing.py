@@ -9,7 +9,7 @@ from hrcplan.facade import validate
 from hrcplan.pddl.conventions import robots
 from hrcplan.pddl.model import Problem
 from hrcplan.pddl.source import read_text
-from hrcplan.planners.answer import Planner
+from hrcplan.planners.contract import Planner
 from hrcplan.planners.solve import Result, compare, solve
 from hrcplan.validation import Report
 

@@ -24,7 +24,7 @@ from hrcplan.pddl.model import (
     fact_text,
     number_text,
 )
-from hrcplan.pddl.semantics import Binding, State, Undefined, bind, changes, evaluate, unmet
+from hrcplan.pddl.semantics import Binding, LiftedState, Undefined, bind, changes, evaluate, unmet
 from hrcplan.plans import EPSILON_S, Plan, PlannedAction, seconds_text
 
 COST: FluentKey = (TOTAL_COST,)
@@ -107,7 +107,7 @@ class _Replay:
         values = dict(problem.values)
         if TOTAL_COST in problem.domain.functions:
             values.setdefault(COST, 0)
-        self.state = State(problem.facts, values)
+        self.state = LiftedState(problem.facts, values)
         self.costs: list[Number] = [0] * len(plan.actions)
         self.end_s: Number = 0
         self._running: dict[int, _Event] = {}
@@ -190,10 +190,10 @@ class _Replay:
                 raise _BrokenError(step, _too_close(event, other, about))
         self._near.append((event, mine))
 
-    def _changed(self, event: _Event, after: State) -> State:
+    def _changed(self, event: _Event, after: LiftedState) -> LiftedState:
         """Return ``after`` with the effects of one event, read in the state before its instant."""
         before = self.state.values
-        timed = State(self.state.facts, {**before, (DURATION,): event.duration})
+        timed = LiftedState(self.state.facts, {**before, (DURATION,): event.duration})
         effects = [e for e in event.action.effects if e.when == event.when]
         try:
             change = changes(effects, timed, event.binding, self.problem)
@@ -216,7 +216,7 @@ def objective(problem: Problem, report: Report) -> Number | None:
     return report.makespan_s if problem.domain.is_temporal else report.cost
 
 
-def _metric(problem: Problem, end: State, makespan: Number | None) -> Number | None:
+def _metric(problem: Problem, end: LiftedState, makespan: Number | None) -> Number | None:
     """Return the metric; None if there is none, or one of a number that has no value."""
     if problem.metric is None:
         return None
@@ -227,7 +227,7 @@ def _metric(problem: Problem, end: State, makespan: Number | None) -> Number | N
 
 
 def _duration(
-    planned: PlannedAction, action: Action, binding: Binding, state: State
+    planned: PlannedAction, action: Action, binding: Binding, state: LiftedState
 ) -> Number | str:
     """Return the duration given, or the one that ``(= ?duration …)`` fixes; or what is wrong."""
     if not action.durative:
@@ -250,20 +250,22 @@ def _too_close(event: _Event, other: _Event, about: Fact) -> str:
     )
 
 
-def _require(problem: Problem, event: _Event, state: State) -> None:
+def _require(problem: Problem, event: _Event, state: LiftedState) -> None:
     _demand(problem, event, event.when, state)
     if event.is_start:
         _check_duration(event, state)
 
 
-def _demand(problem: Problem, event: _Event, when: str, state: State) -> None:
+def _demand(problem: Problem, event: _Event, when: str, state: LiftedState) -> None:
     """Stop if a condition of one phase does not hold."""
     values = {**state.values, (DURATION,): event.duration}
     for condition in event.action.conditions:
         if condition.when != when:
             continue
         try:
-            missing = unmet(condition.formula, State(state.facts, values), event.binding, problem)
+            missing = unmet(
+                condition.formula, LiftedState(state.facts, values), event.binding, problem
+            )
         except Undefined as error:
             raise _BrokenError(event.step, str(error)) from None
         if missing is not None:
@@ -278,7 +280,7 @@ def _where(event: _Event, when: str) -> str:
     return f" {words[when]} ({seconds_text(event.time)} s)"
 
 
-def _check_duration(event: _Event, state: State) -> None:
+def _check_duration(event: _Event, state: LiftedState) -> None:
     for op, expression in event.action.durations:
         try:
             wanted = evaluate(expression, state.values, event.binding)

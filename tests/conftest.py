@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from hrcplan.bank import Bank, build, from_problems
 from hrcplan.pddl.check import domain_in, problem_in
-from hrcplan.pddl.source import Source
+from hrcplan.pddl.source import SourceText
 
 # A shared machine has slow moments, so no deadline; the same examples in every run, so that a
 # failure can be seen again. To look for new ones: tools/test --hypothesis-profile=explore
@@ -66,14 +66,14 @@ def _small_bank(draw: st.DrawFn, kinds: tuple[str, ...] = ("free", "able", "movi
             f"(:action do{i} :parameters (?a - agent) :precondition (and {' '.join(before)})"
             f" :effect (and {' '.join(after)}))"
         )
-    domain = domain_in(Source("domain", f"""(define (domain d) (:requirements :strips :typing)
+    domain = domain_in(SourceText("domain", f"""(define (domain d) (:requirements :strips :typing)
       (:types agent - object) (:predicates (controllable ?a - agent) (able ?a - agent)
       {' '.join(facts)}) {' '.join(actions)})"""))  # fmt: skip
     able = draw(st.lists(st.sampled_from(["ann", "bob", "robo"]), unique=True))
     init = " ".join(f"(able {agent})" for agent in able)
     goals = [draw(st.lists(st.sampled_from(facts), min_size=1, max_size=3)) for _ in range(3)]
     problems = [
-        problem_in(domain, Source("problem", f"""(define (problem g{n}) (:domain d)
+        problem_in(domain, SourceText("problem", f"""(define (problem g{n}) (:domain d)
           (:objects ann bob robo - agent) (:init (controllable robo) {init})
           (:goal (and {" ".join(goal)})))"""))
         for n, goal in enumerate(goals)

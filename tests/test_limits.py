@@ -11,7 +11,7 @@ from hrcplan.errors import InputError, LimitError, UsageError
 from hrcplan.facade import load_problem
 from hrcplan.pddl.source import read_source
 from hrcplan.planners import registry
-from hrcplan.planners.answer import Request, Status
+from hrcplan.planners.contract import Request, Status
 from hrcplan.planners.solve import solve
 from hrcplan.task import Task
 

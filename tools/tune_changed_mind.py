@@ -23,15 +23,15 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from hrcplan.agents.human import HUMANS, Course
 from hrcplan.assistance import ASSISTANTS
 from hrcplan.bank import build, read_goals
 from hrcplan.bank.variants import vary
+from hrcplan.episodes.episode import play
+from hrcplan.episodes.humans import HUMANS, Course
+from hrcplan.episodes.measures import guesses, wasted
 from hrcplan.errors import HrcplanError
-from hrcplan.execution.measures import guesses, wasted
-from hrcplan.execution.turns import play
-from hrcplan.inference.methods import METHODS
 from hrcplan.inference.recursive import Attractor, Needed, Next
+from hrcplan.inference.registry import METHODS
 
 BELIEFS = {"recursive": "recursive", "hrcplan": "switching", "cdp": "forest", "infogain": "forest"}
 LIKELIHOODS = {kind.__name__: kind for kind in (Needed, Attractor, Next)}

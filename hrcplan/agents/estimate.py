@@ -63,12 +63,13 @@ class Prior:
 
 
 @dataclass(frozen=True)
-class Estimate:
+class AgentStateEstimate:
     """What is believed after some outcomes; stands in for ``Memory``.
 
     ``weights`` are the probabilities of the causes; what is missing from 1 is "nothing changed".
 
-    >>> start = Estimate.begin(Prior({("motivation", "human"): 1, ("knowledge", "human"): 1}))
+    >>> prior = Prior({("motivation", "human"): 1, ("knowledge", "human"): 1})
+    >>> start = AgentStateEstimate.begin(prior)
     >>> after = start.failed([("motivation", "human")])
     >>> start.blame()[("motivation", "human")] < 0.2 < 0.8 < after.blame()[("motivation", "human")]
     True
@@ -79,19 +80,19 @@ class Estimate:
     known: frozenset[FluentKey] = frozenset()
 
     @classmethod
-    def begin(cls, prior: Prior) -> Estimate:
+    def begin(cls, prior: Prior) -> AgentStateEstimate:
         """Return what is believed before anything is observed."""
         return cls(prior, {cause: prior.changed * p for cause, p in prior.causes.items()})
 
-    def failed(self, touched: Iterable[FluentKey]) -> Estimate:
+    def failed(self, touched: Iterable[FluentKey]) -> AgentStateEstimate:
         """Return what is believed after an action that ``touched`` touch has failed."""
         return self._observed(frozenset(touched), True)
 
-    def went_well(self, touched: Iterable[FluentKey]) -> Estimate:
+    def went_well(self, touched: Iterable[FluentKey]) -> AgentStateEstimate:
         """Return what is believed after an action that ``touched`` touch has succeeded."""
         return self._observed(frozenset(touched), False)
 
-    def sensed(self, key: FluentKey) -> Estimate:
+    def sensed(self, key: FluentKey) -> AgentStateEstimate:
         """Return what is believed once an element's value is known: it needs no estimate."""
         left = {cause: p for cause, p in self.weights.items() if cause[0] != key}
         nothing = 1 - sum(self.weights.values())
@@ -121,7 +122,7 @@ class Estimate:
                 found[cause[1]] += p
         return found
 
-    def _observed(self, touched: frozenset[FluentKey], failure: bool) -> Estimate:
+    def _observed(self, touched: frozenset[FluentKey], failure: bool) -> AgentStateEstimate:
         if not touched & self.prior.lows.keys():
             return self
         nothing = 1 - sum(self.weights.values())

@@ -13,18 +13,18 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from hrcplan.agents.estimate import Estimate, Prior
+from hrcplan.agents.estimate import AgentStateEstimate, Prior
 from hrcplan.agents.memory import Memory
 from hrcplan.agents.state import AgentModel
+from hrcplan.core.text import nearest
 from hrcplan.errors import InputError, UsageError
 from hrcplan.pddl.model import FluentKey, Number
-from hrcplan.pddl.source import nearest
 
 _SHIPPED = Path(__file__).with_name("profiles.toml")
 _ALONE = 2  # the length of an element that depends on its agent alone
 _SURE = 1e-9  # probabilities that differ by less are the same
 _PLACES = 100  # function values are rounded to hundredths: planners scale costs to integers
-Experience = Memory | Estimate
+Experience = Memory | AgentStateEstimate
 _CHOICES = {
     "values": ("sensed", "log"),
     "replan": ("change", "worse"),
@@ -62,7 +62,7 @@ class Profile:
 
     def begin(self, model: AgentModel) -> Experience:
         """Return what is remembered, or believed, before anything has happened."""
-        return Estimate.begin(Prior.of(model)) if self.estimate else Memory()
+        return AgentStateEstimate.begin(Prior.of(model)) if self.estimate else Memory()
 
     def told(
         self, model: AgentModel, sensed: Mapping[FluentKey, Number], memory: Experience

@@ -3,7 +3,22 @@
 The short way: ``ASSISTANTS.find("hrcplan")(bank)`` makes one; see `Assistant` for what it does.
 """
 
-from hrcplan.assistance.assistant import Assistant, Options, Watched, Watcher, Why, why
-from hrcplan.assistance.methods import ASSISTANTS
+from hrcplan.assistance.assistant import (
+    Assistant,
+    AssistantState,
+    BeliefAssistant,
+    Explanation,
+    StepChoice,
+    explain,
+)
+from hrcplan.assistance.registry import ASSISTANTS
 
-__all__ = ["ASSISTANTS", "Assistant", "Options", "Watched", "Watcher", "Why", "why"]
+__all__ = [
+    "ASSISTANTS",
+    "Assistant",
+    "AssistantState",
+    "BeliefAssistant",
+    "Explanation",
+    "StepChoice",
+    "explain",
+]

@@ -9,11 +9,11 @@ from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
 
-from hrcplan.assistance.outlook import Outlook
+from hrcplan.assistance.step_values import StepValues
 from hrcplan.bank import Bank
+from hrcplan.bank.progress import Progress, ProgressTracker
 from hrcplan.inference.belief import Belief, Floats, State
 from hrcplan.inference.exact import IMPOSSIBLE
-from hrcplan.inference.track import Track, Tracker
 
 WAIT = None
 TIES = 9  # decimals of values: what differs by less is equally good
@@ -33,7 +33,7 @@ class Assistant(Belief[S], Protocol[S]):
 
 
 @dataclass(frozen=True, slots=True)
-class Options:
+class StepChoice:
     """Steps that the robot could do, and how good each is; ``wait`` is how good it is to wait."""
 
     steps: tuple[int, ...] = ()
@@ -50,11 +50,11 @@ class Options:
 
 
 @dataclass(frozen=True, slots=True)
-class Watched(Generic[S]):
-    """The state of a `Watcher`: its belief, where every goal stands, the human's last step."""
+class AssistantState(Generic[S]):
+    """The state of a `BeliefAssistant`: its belief, the goals' progress, the human's last step."""
 
     belief: S
-    track: Track
+    track: Progress
     last: int | None = None
     ignored: str | None = None
 
@@ -69,7 +69,7 @@ class Watched(Generic[S]):
         return int(getattr(self.belief, "n_declared", 0))
 
 
-class Watcher(ABC, Generic[S]):
+class BeliefAssistant(ABC, Generic[S]):
     """An assistant made of a belief and a way to value steps, which is all that is left to write.
 
     Args:
@@ -80,49 +80,53 @@ class Watcher(ABC, Generic[S]):
     def __init__(self, bank: Bank, belief: Belief[S]) -> None:
         self.bank, self.belief = bank, belief
         own = getattr(belief, "tracker", None)
-        self.tracker: Tracker = own or Tracker(bank)
+        self.tracker: ProgressTracker = own or ProgressTracker(bank)
         self._shares_track = own is not None
-        self.outlook = Outlook(self.tracker)
+        self.outlook = StepValues(self.tracker)
 
     @property
     def names(self) -> tuple[str, ...]:
         """The goals' names, in order."""
         return self.bank.names
 
-    def start(self) -> Watched[S]:
+    def start(self) -> AssistantState[S]:
         """Return the state before anything was done."""
-        return Watched(self.belief.start(), self.tracker.start)
+        return AssistantState(self.belief.start(), self.tracker.start)
 
-    def observe(self, state: Watched[S], step: int, *, robot: bool = False) -> Watched[S]:
+    def observe(
+        self, state: AssistantState[S], step: int, *, robot: bool = False
+    ) -> AssistantState[S]:
         """Return the state after one more step, done by the human or by the robot."""
         belief = self.belief.observe(state.belief, step, robot=robot)
         if belief.ignored == IMPOSSIBLE:
-            return Watched(belief, state.track, state.last, IMPOSSIBLE)
+            return AssistantState(belief, state.track, state.last, IMPOSSIBLE)
         last = state.last if robot else step
-        return Watched(belief, self._followed(state.track, belief, step), last, belief.ignored)
+        return AssistantState(
+            belief, self._followed(state.track, belief, step), last, belief.ignored
+        )
 
-    def _followed(self, track: Track, belief: Any, step: int) -> Track:
+    def _followed(self, track: Progress, belief: Any, step: int) -> Progress:
         if self._shares_track:
-            shared: Track = belief.track
+            shared: Progress = belief.track
             return shared
         found = self.tracker.follow(track, step)
         return track if found is None else found[0]
 
-    def posterior(self, state: Watched[S]) -> Floats:
+    def posterior(self, state: AssistantState[S]) -> Floats:
         """Return the probability of each goal, in order."""
         return self.belief.posterior(state.belief)
 
     @abstractmethod
-    def options(self, state: Watched[S]) -> Options:
+    def options(self, state: AssistantState[S]) -> StepChoice:
         """Return the steps that the robot could do now, and how good each is."""
 
-    def choose(self, state: Watched[S]) -> int | None:
+    def choose(self, state: AssistantState[S]) -> int | None:
         """Return the step that the robot should do now, or None to wait."""
         return self.options(state).best
 
 
 @dataclass(frozen=True, slots=True)
-class Candidate:
+class StepCandidate:
     """A step that the robot could do: its value, and the goals that it would help, likeliest first.
 
     ``saves`` is how many steps it is expected to save.
@@ -135,16 +139,18 @@ class Candidate:
 
 
 @dataclass(frozen=True, slots=True)
-class Why:
+class Explanation:
     """Why an assistant does what it does: the goals it believes in, and what it could do."""
 
     goals: tuple[tuple[str, float], ...]
     chosen: str | None
-    candidates: tuple[Candidate, ...]
+    candidates: tuple[StepCandidate, ...]
     n_declared: int
 
 
-def why(assistant: Watcher[Any], state: Watched[Any], n_goals: int = 3, n_steps: int = 5) -> Why:
+def explain(
+    assistant: BeliefAssistant[Any], state: AssistantState[Any], n_goals: int = 3, n_steps: int = 5
+) -> Explanation:
     """Return why an assistant chooses what it chooses.
 
     Args:
@@ -160,7 +166,7 @@ def why(assistant: Watcher[Any], state: Watched[Any], n_goals: int = 3, n_steps:
     words = [str(assistant.bank.table[step]) for step in options.steps]
     order = sorted(range(len(words)), key=lambda i: -round(options.values[i], TIES))
     candidates = tuple(
-        Candidate(
+        StepCandidate(
             words[i],
             options.values[i],
             float(saved[i]),
@@ -170,13 +176,13 @@ def why(assistant: Watcher[Any], state: Watched[Any], n_goals: int = 3, n_steps:
     )
     everything = np.arange(len(posterior))
     chosen = None if options.best is None else str(assistant.bank.table[options.best])
-    return Why(
+    return Explanation(
         _named(assistant, posterior, everything, n_goals), chosen, candidates, state.n_declared
     )
 
 
 def _named(
-    assistant: Watcher[Any], posterior: Floats, goals: Sequence[int] | Any, n: int
+    assistant: BeliefAssistant[Any], posterior: Floats, goals: Sequence[int] | Any, n: int
 ) -> tuple[tuple[str, float], ...]:
     chosen = sorted(map(int, goals), key=lambda goal: -posterior[goal])[:n]
     return tuple((assistant.names[goal], float(posterior[goal])) for goal in chosen)

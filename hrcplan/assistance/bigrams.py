@@ -11,9 +11,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from hrcplan.assistance.rhp.consistency import labels
+from hrcplan.assistance.rhp.maximal_subsets import bits
 from hrcplan.bank import Bank
-from hrcplan.inference.consistency import labels
-from hrcplan.inference.largest import bits
 
 N_PLANS = 10_000  # for each goal
 BANK, PLAUSIBLE = "bank", "plausible"

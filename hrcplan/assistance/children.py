@@ -9,15 +9,15 @@ import numpy as np
 
 from hrcplan.assistance.assistant import TIES
 from hrcplan.assistance.bigrams import Bigrams
-from hrcplan.assistance.outlook import Outlook, Wanted
+from hrcplan.assistance.step_values import NextSteps, StepValues
+from hrcplan.bank.progress import Progress
 from hrcplan.errors import UsageError
 from hrcplan.inference.belief import Floats
-from hrcplan.inference.track import Track
 
 BRANCHING = 5
 
 
-class Children:
+class Branching:
     """Prunes a tree by 2-grams, and by the belief where no 2-gram tells.
 
     Args:
@@ -30,7 +30,7 @@ class Children:
     """
 
     def __init__(
-        self, outlook: Outlook, bigrams: Bigrams | None = None, branching: int = BRANCHING
+        self, outlook: StepValues, bigrams: Bigrams | None = None, branching: int = BRANCHING
     ) -> None:
         if branching < 1:
             raise UsageError(f"a tree {branching} steps wide has no branches")
@@ -42,7 +42,7 @@ class Children:
             self._called.setdefault(label, []).append(step)
 
     def of(
-        self, track: Track, wanted: Wanted, last: int | None, agents: Set[str],
+        self, track: Progress, wanted: NextSteps, last: int | None, agents: Set[str],
         belief: Callable[[], Floats], plausible: Sequence[int] = (),
     ) -> list[int]:  # fmt: skip
         """Return the steps that are tried after a step, the likeliest first.
@@ -73,7 +73,7 @@ class Children:
         return found + left[:room]
 
     def _seen(
-        self, track: Track, is_open: Sequence[bool], last: int | None, agents: Set[str],
+        self, track: Progress, is_open: Sequence[bool], last: int | None, agents: Set[str],
         plausible: Sequence[int],
     ) -> list[int]:  # fmt: skip
         """Return the open steps that were seen after a step, the most frequent first."""

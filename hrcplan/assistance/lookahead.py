@@ -12,33 +12,33 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hrcplan.agents.human import humans
-from hrcplan.assistance.ahead import Ahead
-from hrcplan.assistance.assistant import Watched
+from hrcplan.assistance.ahead import ImaginedSteps
+from hrcplan.assistance.assistant import AssistantState
 from hrcplan.assistance.bigrams import Bigrams
-from hrcplan.assistance.children import BRANCHING, Children
-from hrcplan.assistance.outlook import Outlook, Wanted
+from hrcplan.assistance.children import BRANCHING, Branching
+from hrcplan.assistance.step_values import NextSteps, StepValues
+from hrcplan.bank.progress import Progress
 from hrcplan.inference.belief import Belief, Floats
-from hrcplan.inference.track import Track
+from hrcplan.pddl.conventions import people
 
-Branch = tuple[int, ...]
+StepSequence = tuple[int, ...]
 """Steps in turn, the robot's first."""
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class TreePosition:
     """A place in the tree: where all goals stand, what they want, and the step that led there.
 
     ``known`` is shared by the whole tree: steps in another order lead to the same states.
     """
 
-    track: Track
-    wanted: Wanted
+    track: Progress
+    wanted: NextSteps
     last: int | None
-    known: dict[int, tuple[Track, Wanted]] = field(default_factory=dict)
+    known: dict[int, tuple[Progress, NextSteps]] = field(default_factory=dict)
 
 
-def shares(place: Place, belief: Floats) -> Floats:
+def shares(place: TreePosition, belief: Floats) -> Floats:
     """Return for each step the probability that the human's goal has it next, up to the last."""
     wanted = place.wanted
     found: Floats = np.bincount(wanted.steps, belief.take(wanted.goals)).astype(np.float64)
@@ -58,30 +58,30 @@ class Lookahead:
     """
 
     def __init__(
-        self, outlook: Outlook, bigrams: Bigrams | None = None, width: int = BRANCHING
+        self, outlook: StepValues, bigrams: Bigrams | None = None, width: int = BRANCHING
     ) -> None:
-        self._agents, self._humans = outlook.agents, humans(outlook.bank)
-        self._ahead, self._children = Ahead(outlook), Children(outlook, bigrams, width)
+        self._agents, self._humans = outlook.agents, people(outlook.bank.goals.problem)
+        self._ahead, self._children = ImaginedSteps(outlook), Branching(outlook, bigrams, width)
 
-    def root(self, state: Watched[Any]) -> Place:
+    def root(self, state: AssistantState[Any]) -> TreePosition:
         """Return the place where an assistant is."""
         track = self._ahead.begin(state.track)
-        return Place(track, self._ahead.wanted(track), state.last)
+        return TreePosition(track, self._ahead.wanted(track), state.last)
 
-    def after(self, place: Place, step: int) -> Place:
+    def after(self, place: TreePosition, step: int) -> TreePosition:
         """Return the place after a step that can be done."""
         world = self._ahead.tracker.successor(place.track.world, step)
         key = place.track.world if world is None else world
         if key not in place.known:
             track = self._ahead.after(place.track, step)
             place.known[key] = track, self._ahead.wanted(track)
-        return Place(*place.known[key], step, place.known)
+        return TreePosition(*place.known[key], step, place.known)
 
-    def steps(self, place: Place, belief: Floats) -> list[int]:
+    def steps(self, place: TreePosition, belief: Floats) -> list[int]:
         """Return the likeliest steps that the robot can do at a place; likeliest first."""
         return self._able(place, belief, self._agents)
 
-    def responses(self, place: Place, belief: Floats) -> list[tuple[int, float]]:
+    def responses(self, place: TreePosition, belief: Floats) -> list[tuple[int, float]]:
         """Return the human's likeliest steps at a place, with probabilities that sum to one.
 
         A goal's plans are followed by any of their next steps alike.
@@ -96,11 +96,11 @@ class Lookahead:
             chances, total = np.ones(len(steps)), len(steps)
         return list(zip(steps, (chances / total).tolist(), strict=True))
 
-    def _able(self, place: Place, belief: Floats, agents: Set[str]) -> list[int]:
+    def _able(self, place: TreePosition, belief: Floats, agents: Set[str]) -> list[int]:
         return self._children.of(place.track, place.wanted, place.last, agents, lambda: belief)
 
 
-def futures(belief: Belief[Any], state: Any, branches: Sequence[Branch]) -> Floats:
+def futures(belief: Belief[Any], state: Any, branches: Sequence[StepSequence]) -> Floats:
     """Return what will be believed after each of several branches, a row for each.
 
     Args:
@@ -113,7 +113,7 @@ def futures(belief: Belief[Any], state: Any, branches: Sequence[Branch]) -> Floa
     if extended is not None:
         rows: Floats = extended(state.row, branches)
         return rows
-    states: dict[Branch, Any] = {(): state}
+    states: dict[StepSequence, Any] = {(): state}
     for branch in branches:
         for i, step in enumerate(branch):
             if branch[: i + 1] not in states:

@@ -7,18 +7,18 @@ from zlib import crc32
 
 import numpy as np
 
-from hrcplan.assistance.outlook import Outlook
+from hrcplan.assistance.step_values import StepValues
 from hrcplan.bank import Bank
+from hrcplan.bank.progress import Progress, ProgressTracker
 from hrcplan.inference.belief import Floats
 from hrcplan.inference.exact import IMPOSSIBLE
-from hrcplan.inference.track import Track, Tracker
 
 
 @dataclass(frozen=True, slots=True)
-class Told:
+class OracleState:
     """The state of `Oracle`: where every goal stands, and the goal it was told."""
 
-    track: Track
+    track: Progress
     goal: int | None = None
     n_declared: int = 0
     ignored: str | None = None
@@ -33,38 +33,38 @@ class Oracle:
     """Does a step that the human's goal has next; which one depends on the state alone."""
 
     def __init__(self, bank: Bank) -> None:
-        self.bank, self.tracker = bank, Tracker(bank)
-        self.outlook = Outlook(self.tracker)
+        self.bank, self.tracker = bank, ProgressTracker(bank)
+        self.outlook = StepValues(self.tracker)
 
     @property
     def names(self) -> tuple[str, ...]:
         """The goals' names, in order."""
         return self.bank.names
 
-    def start(self) -> Told:
+    def start(self) -> OracleState:
         """Return the state before anything was done or told."""
-        return Told(self.tracker.start)
+        return OracleState(self.tracker.start)
 
-    def told(self, state: Told, goal: int) -> Told:
+    def told(self, state: OracleState, goal: int) -> OracleState:
         """Return the state once the human's goal is known."""
         return replace(
             state, goal=goal, n_declared=state.n_declared + (state.goal not in (None, goal))
         )
 
-    def observe(self, state: Told, step: int, *, robot: bool = False) -> Told:
+    def observe(self, state: OracleState, step: int, *, robot: bool = False) -> OracleState:
         """Return the state after one more step."""
         found = self.tracker.follow(state.track, step)
         if found is None:
             return replace(state, ignored=IMPOSSIBLE)
         return replace(state, track=found[0], ignored=None)
 
-    def posterior(self, state: Told) -> Floats:
+    def posterior(self, state: OracleState) -> Floats:
         """Return certainty of the goal."""
         found = np.zeros(len(self.names))
         found[state.goal or 0] = 1.0
         return found
 
-    def choose(self, state: Told) -> int | None:
+    def choose(self, state: OracleState) -> int | None:
         """Return a step that the goal has next and the robot can do; None if there is none."""
         wanted = self.outlook.wanted(state.track)
         mine = set(wanted.steps[wanted.goals == state.goal].tolist())

@@ -4,15 +4,27 @@ The short way: ``build_bank("kitchen")``. A `Bank` has `Goals` (names, task, goa
 `StepTable` (the steps, numbered alike for all goals) and a `PlanGraph` for each goal.
 """
 
-from hrcplan.bank.bank import Bank, Recipe, build, build_bank
+from hrcplan.bank.bank import Bank, BuildOptions, build, build_bank
 from hrcplan.bank.goals import Goals, from_problems
 from hrcplan.bank.graph import PlanGraph
-from hrcplan.bank.search import Limits
+from hrcplan.bank.search import BuildLimits
 from hrcplan.bank.sources import read_goals
-from hrcplan.bank.steps import Step, StepTable
 from hrcplan.bank.store import load, save, verify
+from hrcplan.task.steps import Step, StepTable
 
 __all__ = [
-    "Bank", "Goals", "Limits", "PlanGraph", "Recipe", "Step", "StepTable",
-    "build", "build_bank", "from_problems", "load", "read_goals", "save", "verify",
+    "Bank",
+    "BuildLimits",
+    "BuildOptions",
+    "Goals",
+    "PlanGraph",
+    "Step",
+    "StepTable",
+    "build",
+    "build_bank",
+    "from_problems",
+    "load",
+    "read_goals",
+    "save",
+    "verify",
 ]  # fmt: skip

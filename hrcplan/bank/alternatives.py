@@ -15,23 +15,23 @@ import numpy as np
 
 from hrcplan.bank.construct import NO_LIMITS, assemble, empty_graph, optimal_with_price
 from hrcplan.bank.graph import PlanGraph
-from hrcplan.bank.landmarks import Landmark, landmarks
-from hrcplan.bank.relevance import Literals, relevant
-from hrcplan.bank.rules import Packing, positions_of
-from hrcplan.bank.search import Explored, Limits
-from hrcplan.bank.steps import MAX_TIES, Op, StepTable
+from hrcplan.bank.search import BuildLimits, Explored
+from hrcplan.search.lm_cut import Landmark, landmarks
+from hrcplan.search.packed_states import FactPacking, positions_of
+from hrcplan.search.relevance import Literals, relevant
 from hrcplan.task.conditions import Tests, meets
+from hrcplan.task.steps import MAX_TIES, Operator, StepTable
 
 NODE_BYTES = 600  # measured, with its share of edges; what a Python node takes
 CHECK_EVERY = 256  # nodes between two looks at the limits
 
-Node = tuple[int, frozenset[int]]
+ShadowNode = tuple[int, frozenset[int]]
 """A state and its shadows."""
 
 
 def alternatives_graph(
     table: StepTable, goal: Tests, state: int, factor: Fraction, *, name: str = "goal",
-    limits: Limits = NO_LIMITS,
+    limits: BuildLimits = NO_LIMITS,
 ) -> PlanGraph:  # fmt: skip
     """Return the graph of plans up to ``factor`` times the optimal cost that need all their steps.
 
@@ -42,7 +42,7 @@ def alternatives_graph(
     """
     _, price = optimal_with_price(table, goal, state, name=name, limits=limits)
     ops, needed = relevant(table.ops, goal)
-    packing = Packing(positions_of(needed.facts))
+    packing = FactPacking(positions_of(needed.facts))
     marks = landmarks(ops, state, goal)
     if price is None or marks is None:
         return empty_graph(name, packing)
@@ -63,19 +63,19 @@ class _Search:
     """Forward search over states with shadows, in order of cost."""
 
     def __init__(
-        self, ops: Sequence[Op], needed: Literals, goal: Tests,
+        self, ops: Sequence[Operator], needed: Literals, goal: Tests,
         marks: Sequence[Landmark], bound: int, max_ties: int,
     ) -> None:  # fmt: skip
         self.needed, self.goal, self.bound, self.max_ties = needed, goal, bound, max_ties
         self.marks = marks
-        self.ways: dict[int, list[tuple[Op, int]]] = {}
+        self.ways: dict[int, list[tuple[Operator, int]]] = {}
         for i, op in sorted(enumerate(ops), key=lambda pair: pair[1].cost):
             met = sum(1 << m for m, mark in enumerate(marks) if i in mark.ops)
             self.ways.setdefault(op.step, []).append((op, met))
-        self.pending: dict[int, dict[Node, _Arrival]] = {}
+        self.pending: dict[int, dict[ShadowNode, _Arrival]] = {}
         self.still: dict[int, int] = {}
 
-    def run(self, state: int, packing: Packing, limits: Limits, name: str) -> Explored:
+    def run(self, state: int, packing: FactPacking, limits: BuildLimits, name: str) -> Explored:
         """Return what can be reached without a step that is certainly one too many."""
         self._push(0, (state, frozenset()), 0, [])
         states: list[int] = []
@@ -115,7 +115,9 @@ class _Search:
             if not any(self._serves(shadow, after) for shadow in without):
                 self._push(cost, (after, without), met | more, [(node, step)])
 
-    def _moved(self, shadows: frozenset[int], ways: Sequence[tuple[Op, int]]) -> Iterator[int]:
+    def _moved(
+        self, shadows: frozenset[int], ways: Sequence[tuple[Operator, int]]
+    ) -> Iterator[int]:
         """Yield where the shadows are after a step; those that cannot follow are gone."""
         for shadow in shadows:
             op = next((op for op, _ in ways if meets(shadow, op.tests)), None)
@@ -137,7 +139,7 @@ class _Search:
             self.still[met] = known
         return known
 
-    def _push(self, paid: int, node: Node, met: int, edges: list[tuple[int, int]]) -> None:
+    def _push(self, paid: int, node: ShadowNode, met: int, edges: list[tuple[int, int]]) -> None:
         layer = self.pending.setdefault(paid, {})
         arrival = layer.get(node)
         if arrival is None:
@@ -148,7 +150,7 @@ class _Search:
 
 
 def _explored(
-    packing: Packing, states: list[int], layers: list[tuple[int, int]], goals: list[bool],
+    packing: FactPacking, states: list[int], layers: list[tuple[int, int]], goals: list[bool],
     edges: list[tuple[int, int, int]],
 ) -> Explored:  # fmt: skip
     table = np.array(edges, dtype=np.int64).reshape(-1, 3)

@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from hrcplan.bank.bank import Bank
 from hrcplan.bank.graph import PlanGraph
-from hrcplan.bank.rules import Ids, Rules, Words
 from hrcplan.bank.search import group_rows
+from hrcplan.search.packed_states import Ids, PackedRules, Words
 
 
 def fault(bank: Bank, goal: int) -> str | None:
@@ -50,14 +50,14 @@ def _meaning(bank: Bank, goal: int) -> str | None:
     if (graph.packing.row(bank.initial) != graph.rows[0]).any():
         return f"'{name}': the root is not the initial state"
     used = [op for op in bank.table.ops if op.step in graph.used_steps]
-    rules = Rules(used, graph.packing)
+    rules = PackedRules(used, graph.packing)
     if (rules.meets(graph.rows, bank.goals.tests[goal]) != graph.is_goal).any():
         return f"'{name}': a goal node is no goal state, or the other way round"
     wrong = _wrong_edges(graph, rules, len(bank.table))
     return f"'{name}': {wrong} edges are not what the steps do" if wrong else None
 
 
-def _wrong_edges(graph: PlanGraph, rules: Rules, n_steps: int) -> int:
+def _wrong_edges(graph: PlanGraph, rules: PackedRules, n_steps: int) -> int:
     """Return how many edges are not among the changes that can be made to their nodes."""
     steps = np.array([op.step for op in rules.ops], dtype=np.int64)
     sources = np.repeat(np.arange(graph.n_nodes), np.diff(graph.first))

@@ -14,13 +14,13 @@ from hrcplan.bank import walk
 from hrcplan.bank.construct import NO_LIMITS, bounded_graph, optimal_graph
 from hrcplan.bank.goals import Goals
 from hrcplan.bank.graph import PlanGraph
-from hrcplan.bank.relevance import fleeting, relevant
-from hrcplan.bank.search import MAX_MIB, Limits
+from hrcplan.bank.search import MAX_MIB, BuildLimits
 from hrcplan.bank.sources import read_goals
-from hrcplan.bank.steps import STEPS, Op, StepTable
 from hrcplan.errors import UsageError
 from hrcplan.pddl.conventions import robots
 from hrcplan.plans import Plan, PlannedAction
+from hrcplan.search.relevance import fleeting, relevant
+from hrcplan.task.steps import STEPS, Operator, StepTable
 
 OPTIMAL = Fraction(1)
 MAX_VARIANTS = 8  # states that are looked up for one that is off the graph
@@ -28,7 +28,7 @@ MAX_REROOTED = 500_000  # nodes of graphs from other states that are remembered
 
 
 @dataclass(frozen=True)
-class Recipe:
+class BuildOptions:
     """How a bank is made.
 
     ``quality`` above 1 takes all sequences up to that multiple of the optimal cost;
@@ -66,7 +66,7 @@ class Bank:
     goals: Goals
     table: StepTable
     graphs: tuple[PlanGraph, ...]
-    recipe: Recipe = Recipe()
+    recipe: BuildOptions = BuildOptions()
     build_s: float = 0.0
     _rerooted: dict[tuple[int, int], PlanGraph] = field(default_factory=dict, repr=False)
 
@@ -91,14 +91,14 @@ class Bank:
         Raises:
             UsageError: if there is no such goal; the hint names the nearest.
         """
-        from hrcplan.pddl.source import nearest
+        from hrcplan.core.text import nearest
 
         if name not in self.names:
             hint = nearest(name, self.names) or f"goals: {', '.join(self.names[:40])}"
             raise UsageError(f"the bank has no goal '{name}'", code="unknown-goal", hint=hint)
         return self.names.index(name)
 
-    def reroot(self, goal: int, state: int, limits: Limits = NO_LIMITS) -> PlanGraph:
+    def reroot(self, goal: int, state: int, limits: BuildLimits = NO_LIMITS) -> PlanGraph:
         """Return the graph of all optimal plans of a goal from another state; it is remembered.
 
         Raises:
@@ -115,7 +115,7 @@ class Bank:
         return known
 
     def locate(
-        self, goal: int, state: int, limits: Limits = NO_LIMITS
+        self, goal: int, state: int, limits: BuildLimits = NO_LIMITS
     ) -> tuple[PlanGraph, int | None]:
         """Return a graph of a goal and the node in it that a state is at, whatever led there.
 
@@ -145,7 +145,7 @@ class Bank:
         return self._relevant[goal][1]
 
     @cached_property
-    def _relevant(self) -> list[tuple[tuple[Op, ...], int]]:
+    def _relevant(self) -> list[tuple[tuple[Operator, ...], int]]:
         """For each goal the steps and facts that matter to any plan of it, from any state."""
         found = (relevant(self.table.ops, tests) for tests in self.goals.tests)
         return [(ops, needed.facts) for ops, needed in found]
@@ -245,7 +245,7 @@ def _variants(state: int, facts: int) -> Iterator[int]:
 
 
 def build_bank(
-    domain: str, goals: str | None = None, recipe: Recipe = Recipe(), *,
+    domain: str, goals: str | None = None, recipe: BuildOptions = BuildOptions(), *,
     only: Sequence[str] | None = None, mib: int = MAX_MIB, timeout_s: float = float("inf"),
     report: Callable[[PlanGraph], None] | None = None,
 ) -> Bank:  # fmt: skip
@@ -273,13 +273,13 @@ def build_bank(
 
 
 def build(
-    goals: Goals, recipe: Recipe = Recipe(), *, mib: int = MAX_MIB,
+    goals: Goals, recipe: BuildOptions = BuildOptions(), *, mib: int = MAX_MIB,
     timeout_s: float = float("inf"), report: Callable[[PlanGraph], None] | None = None,
 ) -> Bank:  # fmt: skip
     """Return the policy bank of goals that are in memory; see ``build_bank``."""
     started_s = time.monotonic()
     table = StepTable(goals.task, recipe.cost)
-    limits = Limits(mib, started_s + timeout_s)
+    limits = BuildLimits(mib, started_s + timeout_s)
     bank = Bank(goals, table, (), recipe)
     graphs: list[PlanGraph] = []
     for goal in range(len(goals)):
@@ -289,7 +289,7 @@ def build(
     return replace(bank, graphs=tuple(graphs), build_s=time.monotonic() - started_s)
 
 
-def _graph(bank: Bank, goal: int, limits: Limits) -> PlanGraph:
+def _graph(bank: Bank, goal: int, limits: BuildLimits) -> PlanGraph:
     recipe, name = bank.recipe, bank.names[goal]
     tests = bank.goals.tests[goal]
     if recipe.alternatives is not None:

@@ -18,7 +18,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import comb
 
-from hrcplan.bank.rules import positions_of
+from hrcplan.search.packed_states import positions_of
 
 NEVER_CUT = 1 << 30  # more than there are pairs of steps
 
@@ -39,7 +39,7 @@ class Chain:
     that are in this order here, but not in all plans.
     """
 
-    children: tuple[Node, ...]
+    children: tuple[OrderNode, ...]
     mask: int
     added: tuple[tuple[int, int], ...] = ()
 
@@ -48,15 +48,15 @@ class Chain:
 class Clique:
     """Children in any order, which may be interleaved; ``added`` is empty: it orders nothing."""
 
-    children: tuple[Node, ...]
+    children: tuple[OrderNode, ...]
     mask: int
     added: tuple[tuple[int, int], ...] = ()
 
 
-Node = Leaf | Chain | Clique
+OrderNode = Leaf | Chain | Clique
 
 
-def n_orders(node: Node) -> int:
+def n_orders(node: OrderNode) -> int:
     """Return in how many orders the steps below a node can be done.
 
     >>> a, b, c = (Leaf(i, 1 << i) for i in range(3))
@@ -74,14 +74,14 @@ def n_orders(node: Node) -> int:
     return found
 
 
-def n_added(node: Node) -> int:
+def n_added(node: OrderNode) -> int:
     """Return how many order constraints were added at a node and below it."""
     if isinstance(node, Leaf):
         return 0
     return len(node.added) + sum(map(n_added, node.children))
 
 
-def chains_and_cliques(mask: int, before: Mapping[int, int], steps: Sequence[int]) -> Node:
+def chains_and_cliques(mask: int, before: Mapping[int, int], steps: Sequence[int]) -> OrderNode:
     """Return a partial order as chains and cliques.
 
     Args:
@@ -106,7 +106,7 @@ class _Order:
         self.related = {i: before[i] | after[i] for i in before}
         self.free = {i: mask & ~self.related[i] & ~(1 << i) for i in before}
 
-    def node(self, mask: int) -> Node:
+    def node(self, mask: int) -> OrderNode:
         """Return the steps of a mask as chains and cliques."""
         if mask.bit_count() == 1:
             return Leaf(self.steps[mask.bit_length() - 1], mask)
@@ -130,7 +130,7 @@ class _Order:
             for i in positions_of(first)
             for j in positions_of(rest & self.free[i])
         ]
-        children: list[Node] = []
+        children: list[OrderNode] = []
         for node in (self.node(first), self.node(rest)):
             children += node.children if isinstance(node, Chain) else [node]
             added += node.added if isinstance(node, Chain) else []

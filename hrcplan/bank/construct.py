@@ -9,20 +9,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hrcplan.bank.graph import PlanGraph
-from hrcplan.bank.landmarks import Landmark, landmarks
-from hrcplan.bank.relevance import read_by, relevant
-from hrcplan.bank.rules import WORD, Ids, Packing, Rules, Words, positions_of
-from hrcplan.bank.search import Explored, Explorer, Limits, group_rows
-from hrcplan.bank.steps import Op, StepTable
+from hrcplan.bank.search import BuildLimits, Explored, Explorer, group_rows
 from hrcplan.pddl.model import Number
+from hrcplan.search.lm_cut import Landmark, landmarks
+from hrcplan.search.packed_states import WORD, FactPacking, Ids, PackedRules, Words, positions_of
+from hrcplan.search.relevance import read_by, relevant
 from hrcplan.task.conditions import Tests
+from hrcplan.task.steps import Operator, StepTable
 
-NO_LIMITS = Limits()
+NO_LIMITS = BuildLimits()
 
 
 def optimal_graph(
     table: StepTable, goal: Tests, state: int, *, name: str = "goal",
-    limits: Limits = NO_LIMITS, blind: bool = False,
+    limits: BuildLimits = NO_LIMITS, blind: bool = False,
 ) -> PlanGraph:  # fmt: skip
     """Return the graph of all optimal plans from a state to a goal.
 
@@ -42,7 +42,7 @@ def optimal_graph(
 
 def optimal_with_price(
     table: StepTable, goal: Tests, state: int, *, name: str = "goal",
-    limits: Limits = NO_LIMITS, blind: bool = False,
+    limits: BuildLimits = NO_LIMITS, blind: bool = False,
 ) -> tuple[PlanGraph, int | None]:  # fmt: skip
     """Return the graph of all optimal plans, and their price (None if there is none).
 
@@ -51,7 +51,7 @@ def optimal_with_price(
     paid on top. Otherwise the bound rises until the goal is reached.
     """
     ops, needed = relevant(table.ops, goal)
-    packing = Packing(positions_of(needed.facts))
+    packing = FactPacking(positions_of(needed.facts))
     start = packing.row(state)
     marks = landmarks(ops, state, goal)
     if marks is None:
@@ -62,10 +62,10 @@ def optimal_with_price(
         marks = ()
     else:
         useful, own = _useful(ops, marks)
-        search = Explorer(Rules(useful, packing), goal, own, bound, optimal=True, limits=limits,
-                          name=name)  # fmt: skip
+        rules = PackedRules(useful, packing)
+        search = Explorer(rules, goal, own, bound, optimal=True, limits=limits, name=name)
         found = search.run(start)
-    rules = Rules(ops, packing)
+    rules = PackedRules(ops, packing)
     while found is None or found.cost is None:
         search = Explorer(rules, goal, marks, bound, optimal=True, limits=limits, name=name)
         found = search.run(start)
@@ -77,7 +77,9 @@ def optimal_with_price(
     return narrowed(graph, table, goal), found.cost
 
 
-def _useful(ops: Sequence[Op], marks: Sequence[Landmark]) -> tuple[list[Op], tuple[Landmark, ...]]:
+def _useful(
+    ops: Sequence[Operator], marks: Sequence[Landmark]
+) -> tuple[list[Operator], tuple[Landmark, ...]]:
     """Return the ops that are in a landmark, and the landmarks over these alone."""
     useful = sorted(frozenset[int]().union(*(mark.ops for mark in marks)))
     place = {op: i for i, op in enumerate(useful)}
@@ -87,7 +89,7 @@ def _useful(ops: Sequence[Op], marks: Sequence[Landmark]) -> tuple[list[Op], tup
 
 def bounded_graph(
     table: StepTable, goal: Tests, state: int, quality: Fraction, *, name: str = "goal",
-    limits: Limits = NO_LIMITS,
+    limits: BuildLimits = NO_LIMITS,
 ) -> PlanGraph:  # fmt: skip
     """Return the graph of all sequences up to ``quality`` times the optimal cost.
 
@@ -98,18 +100,18 @@ def bounded_graph(
         LimitError: if time or memory runs out.
     """
     _, price = optimal_with_price(table, goal, state, name=name, limits=limits)
-    packing = Packing(tuple(range(len(table.task.facts))))
+    packing = FactPacking(tuple(range(len(table.task.facts))))
     marks = landmarks(table.ops, state, goal)
     if price is None or marks is None:
         return empty_graph(name, packing)
     bound, max_ties = table.bound(price, quality)
-    rules = Rules(table.ops, packing)
+    rules = PackedRules(table.ops, packing)
     search = Explorer(rules, goal, marks, bound, optimal=False, limits=limits, name=name,
                       max_ties=max_ties)  # fmt: skip
     return assemble(table, search.run(packing.row(state)), packing, name)
 
 
-def empty_graph(name: str, packing: Packing) -> PlanGraph:
+def empty_graph(name: str, packing: FactPacking) -> PlanGraph:
     """Return the graph of a goal that cannot be reached."""
     rows = np.zeros((0, packing.n_words), dtype=np.uint64)
     none = np.zeros(0, dtype=np.int32)
@@ -117,7 +119,7 @@ def empty_graph(name: str, packing: Packing) -> PlanGraph:
     return PlanGraph(name, packing, rows, (), first, none, none, np.zeros(0, dtype=np.bool_))
 
 
-def assemble(table: StepTable, found: Explored, packing: Packing, name: str) -> PlanGraph:
+def assemble(table: StepTable, found: Explored, packing: FactPacking, name: str) -> PlanGraph:
     """Return what an exploration found, without the states that lead to no goal."""
     alive = found.is_goal.copy()
     for sources, _, targets in reversed(found.edges):
@@ -164,7 +166,7 @@ def narrowed(graph: PlanGraph, table: StepTable, goal: Tests) -> PlanGraph:
     States that agree on these and have paid the same go on alike, so they become one node.
     """
     used = (op for step in graph.used_steps for op in table.ways(step))
-    packing = Packing(positions_of(read_by(used, goal) & graph.relevant))
+    packing = FactPacking(positions_of(read_by(used, goal) & graph.relevant))
     if packing.positions == graph.packing.positions or not graph.n_nodes:
         return graph
     rows = _selected(graph.rows, graph.packing, packing)
@@ -180,7 +182,7 @@ def narrowed(graph: PlanGraph, table: StepTable, goal: Tests) -> PlanGraph:
     )  # fmt: skip
 
 
-def _selected(rows: Words, old: Packing, new: Packing) -> Words:
+def _selected(rows: Words, old: FactPacking, new: FactPacking) -> Words:
     bits = np.unpackbits(rows.view(np.uint8), axis=1, bitorder="little")
     place = {position: i for i, position in enumerate(old.positions)}
     chosen = np.zeros((len(rows), new.n_words * WORD), dtype=np.uint8)

@@ -15,21 +15,21 @@ import numpy as np
 from hrcplan.bank.construct import assemble, empty_graph, narrowed
 from hrcplan.bank.goals import Goals
 from hrcplan.bank.graph import PlanGraph
-from hrcplan.bank.relevance import relevant
-from hrcplan.bank.rules import Packing, positions_of
-from hrcplan.bank.search import Explored, Limits
-from hrcplan.bank.steps import StepTable
+from hrcplan.bank.search import BuildLimits, Explored
 from hrcplan.pddl.model import Formula
 from hrcplan.planners import kstar, process
 from hrcplan.planners.lowering import lower
+from hrcplan.search.packed_states import FactPacking, positions_of
+from hrcplan.search.relevance import relevant
 from hrcplan.task import Task
 from hrcplan.task.conditions import Tests, meets
+from hrcplan.task.steps import StepTable
 
 LONGEST_S = 86_400.0  # a planner process without a limit of ours
 
 
 def sampled_graph(
-    table: StepTable, goals: Goals, goal: int, n: int, *, limits: Limits
+    table: StepTable, goals: Goals, goal: int, n: int, *, limits: BuildLimits
 ) -> PlanGraph:
     """Return the graph made of up to ``n`` optimal plans of a goal.
 
@@ -39,7 +39,7 @@ def sampled_graph(
         PlannerError: if K* crashes.
     """
     task, steps = step_task(table, goals.formulas[goal])
-    allowed = process.Limits(
+    allowed = process.ProcessLimits(
         min(LONGEST_S, max(0.0, limits.deadline - time.monotonic())),
         memory_bytes=max(limits.mib, 1024) << 20,
         output_bytes=1 << 28,
@@ -74,7 +74,7 @@ def graph_of_plans(
     """Return the graph whose nodes are the states that optimal plans go through."""
     tests, name = goals.tests[goal], goals.names[goal]
     _, needed = relevant(table.ops, tests)
-    packing = Packing(positions_of(needed.facts))
+    packing = FactPacking(positions_of(needed.facts))
     if not plans:
         return empty_graph(name, packing)
     edges: dict[tuple[int, int, int], tuple[int, int]] = {}
@@ -91,7 +91,7 @@ def graph_of_plans(
 
 
 def _explored(
-    packing: Packing, root: tuple[int, int],
+    packing: FactPacking, root: tuple[int, int],
     edges: dict[tuple[int, int, int], tuple[int, int]], goal: Tests,
 ) -> Explored:  # fmt: skip
     nodes = sorted({root, *edges.values()})

@@ -8,9 +8,10 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
+from hrcplan.core.text import nearest
 from hrcplan.errors import InputError, UsageError
 from hrcplan.pddl.model import Formula, Problem, fact_text, number_text
-from hrcplan.pddl.source import Source, decode, nearest
+from hrcplan.pddl.source import SourceText, decode
 from hrcplan.task import Task
 from hrcplan.task.conditions import Test
 
@@ -37,7 +38,7 @@ class SourceFile:
             message = f"cannot read '{path}': {error.strerror or error}"
             raise InputError(message, code="no-file", path=str(path)) from None
 
-    def source(self) -> Source:
+    def source(self) -> SourceText:
         """Return its text, to be read as PDDL."""
         return decode(self.path, self.data)
 

@@ -15,12 +15,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hrcplan.bank.rules import Bools, Ids, Packing, Words
 from hrcplan.pddl.model import Number
+from hrcplan.search.packed_states import Bools, FactPacking, Ids, Words
 
 BIG = float(1 << 62)  # above it counts are Python integers, below it 64-bit ones: both are exact
 
-Counts = NDArray[Any]
+PathCounts = NDArray[Any]
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,7 +43,7 @@ class PlanGraph:
     """
 
     goal: str
-    packing: Packing
+    packing: FactPacking
     rows: Words
     layers: tuple[tuple[Number, int], ...]
     first: Ids
@@ -122,13 +122,13 @@ class PlanGraph:
         return np.repeat(np.arange(len(self.layers), dtype=np.int32), np.diff(starts))
 
     @cached_property
-    def to_go(self) -> Counts:
+    def to_go(self) -> PathCounts:
         """How many ways lead from each node to a goal: int64, or Python integers where large."""
         rough = self._count_to_go(np.float64)
         large = self.n_nodes and rough.max() >= BIG
         return self._count_to_go(np.object_ if large else np.int64)
 
-    def _count_to_go(self, kind: type[np.generic]) -> Counts:
+    def _count_to_go(self, kind: type[np.generic]) -> PathCounts:
         counts = np.zeros(self.n_nodes, dtype=kind)
         if kind is np.object_:
             counts[:] = 0
@@ -142,7 +142,7 @@ class PlanGraph:
         return counts
 
     @cached_property
-    def so_far(self) -> Counts:
+    def so_far(self) -> PathCounts:
         """How many ways lead from the root to each node."""
         kind = self.to_go.dtype.type
         counts = np.zeros(self.n_nodes, dtype=kind)

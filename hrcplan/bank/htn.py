@@ -11,12 +11,20 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
-from hrcplan.bank.chains import Chain, Clique, Leaf, Node, chains_and_cliques, n_added, n_orders
+from hrcplan.bank.chains import (
+    Chain,
+    Clique,
+    Leaf,
+    OrderNode,
+    chains_and_cliques,
+    n_added,
+    n_orders,
+)
 from hrcplan.bank.graph import PlanGraph
 from hrcplan.bank.orders import Layout, kinds_of, order_of
-from hrcplan.bank.rules import positions_of
+from hrcplan.search.packed_states import positions_of
 
-__all__ = ["Chain", "Clique", "Htn", "Kind", "Leaf", "Node", "decompose"]
+__all__ = ["Chain", "Clique", "Htn", "Kind", "Leaf", "OrderNode", "decompose"]
 
 Pick = Callable[[int], int]
 """Chooses one of ``n`` things: returns an index in ``range(n)``."""
@@ -35,7 +43,7 @@ class Kind:
     """
 
     steps: tuple[int, ...]
-    root: Node
+    root: OrderNode
     plans: int
     exact: bool
 
@@ -137,7 +145,7 @@ class Htn:
         return node.step
 
 
-def _available(node: Node, mask: int) -> int:
+def _available(node: OrderNode, mask: int) -> int:
     """Return the bits of what can come next below a node that has something left to do."""
     if isinstance(node, Leaf):
         return node.mask
@@ -150,7 +158,7 @@ def _available(node: Node, mask: int) -> int:
     return found
 
 
-def _one_of(nodes: list[Node], done: int, pick: Pick) -> Node:
+def _one_of(nodes: list[OrderNode], done: int, pick: Pick) -> OrderNode:
     if len(nodes) == 1:
         return nodes[0]
     begun = next((node for node in nodes if node.mask & done), None)

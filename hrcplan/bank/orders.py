@@ -17,10 +17,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hrcplan.bank.graph import PlanGraph
-from hrcplan.bank.rules import Bools, Ids, positions_of
 from hrcplan.bank.walk import Multiset, plans, step_multisets
 from hrcplan.errors import LimitError
 from hrcplan.pddl.model import Number
+from hrcplan.search.packed_states import Bools, Ids, positions_of
 
 MAX_KINDS = 64
 MAX_LISTED = 10_000  # plans that are looked at for kinds where there are too many of these

@@ -17,8 +17,8 @@ from hrcplan.errors import InputError, PddlError
 from hrcplan.pddl.check import domain_in, problem_in
 from hrcplan.pddl.generate import with_goal
 from hrcplan.pddl.model import TRUE, And, Formula, Problem
-from hrcplan.pddl.reader import Group, Word, read
-from hrcplan.pddl.source import Source, read_source
+from hrcplan.pddl.reader import GroupNode, WordNode, read
+from hrcplan.pddl.source import SourceText, read_source
 
 KIND = "ramirez-geffner"
 TEMPLATE, HYPOTHESES = "template.pddl", "hyps.dat"
@@ -28,7 +28,7 @@ _BETWEEN = re.compile(r"\)\s*,\s*")
 
 
 @dataclass(frozen=True)
-class Instance:
+class RecognitionInstance:
     """A whole folder: goals, observed actions, and the index of the true goal.
 
     Actions are ``(name, *objects)`` in lower case; there are none, and the true goal is None, where
@@ -45,7 +45,7 @@ def is_folder(path: Path) -> bool:
     return (path / TEMPLATE).is_file() and (path / HYPOTHESES).is_file()
 
 
-def read_instance(folder: Path) -> Instance:
+def read_instance(folder: Path) -> RecognitionInstance:
     """Return all that a folder holds; its domain is ``domain.pddl`` beside the rest.
 
     Raises:
@@ -57,7 +57,7 @@ def read_instance(folder: Path) -> Instance:
     goals = goals_of(*(SourceFile.read(folder / part) for part in (DOMAIN, TEMPLATE, HYPOTHESES)))
     observed = folder / OBSERVATIONS
     actions = read_actions(read_source(observed).text) if observed.is_file() else ()
-    return Instance(goals, actions, _true_goal(folder / TRUE_HYPOTHESIS, goals))
+    return RecognitionInstance(goals, actions, _true_goal(folder / TRUE_HYPOTHESIS, goals))
 
 
 def read_actions(text: str) -> tuple[tuple[str, ...], ...]:
@@ -84,7 +84,7 @@ def goals_of(domain: SourceFile, template: SourceFile, hypotheses: SourceFile) -
     if not _PLACE.search(frame.text):
         raise InputError(f"no <HYPOTHESIS> in {TEMPLATE}", code="no-goals", path=frame.path)
     text = _PLACE.sub(lambda found: " " * len(found[0]), frame.text)
-    base = problem_in(domain_in(source), Source(frame.path, text))
+    base = problem_in(domain_in(source), SourceText(frame.path, text))
     lines = list(_lines(hypotheses.source()))
     if not lines:
         raise InputError(f"{HYPOTHESES} lists no goal", code="no-goals", path=hypotheses.path)
@@ -93,7 +93,7 @@ def goals_of(domain: SourceFile, template: SourceFile, hypotheses: SourceFile) -
                  (domain, template, hypotheses), KIND, aliases)  # fmt: skip
 
 
-def _lines(source: Source) -> Iterator[tuple[int, str]]:
+def _lines(source: SourceText) -> Iterator[tuple[int, str]]:
     for number, line in enumerate(source.text.splitlines(), start=1):
         if line.strip():
             yield number, line.strip()
@@ -129,14 +129,14 @@ def _parts(formula: Formula) -> frozenset[Formula]:
     return frozenset([formula])
 
 
-def _without_duplicates(source: Source) -> tuple[Source, Mapping[str, tuple[str, ...]]]:
+def _without_duplicates(source: SourceText) -> tuple[SourceText, Mapping[str, tuple[str, ...]]]:
     """Return a domain's text with actions of one name told apart, and the names each was given."""
-    root = read(Source(source.path, source.text))
-    places: dict[str, list[Word]] = {}
+    root = read(SourceText(source.path, source.text))
+    places: dict[str, list[WordNode]] = {}
     for node in root or ():
-        if isinstance(node, Group) and node.head == ":action" and len(node) > 1:
+        if isinstance(node, GroupNode) and node.head == ":action" and len(node) > 1:
             word = node[1]
-            if isinstance(word, Word):
+            if isinstance(word, WordNode):
                 places.setdefault(str(word).lower(), []).append(word)
     taken, text = set(places), source.text
     names: dict[str, list[str]] = {name: [name] for name, words in places.items() if len(words) > 1}
@@ -151,4 +151,4 @@ def _without_duplicates(source: Source) -> tuple[Source, Mapping[str, tuple[str,
             edits.append((word.at, name, given[-1]))
     for at, name, new in sorted(edits, reverse=True):
         text = text[:at] + new + text[at + len(name) :]
-    return Source(source.path, text), {name: tuple(given) for name, given in names.items()}
+    return SourceText(source.path, text), {name: tuple(given) for name, given in names.items()}

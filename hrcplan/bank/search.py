@@ -14,11 +14,11 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from hrcplan.bank.landmarks import Landmark
-from hrcplan.bank.rules import WORD, Bools, Ids, Rules, Words
-from hrcplan.bank.steps import MAX_TIES, Op
 from hrcplan.errors import LimitError
+from hrcplan.search.lm_cut import Landmark
+from hrcplan.search.packed_states import WORD, Bools, Ids, PackedRules, Words
 from hrcplan.task.conditions import Tests
+from hrcplan.task.steps import MAX_TIES, Operator
 
 MAX_MIB = 2048
 SALT = np.uint64(0x9E3779B97F4A7C15)
@@ -28,7 +28,7 @@ Edges = tuple[Ids, NDArray[np.int32], Ids]
 
 
 @dataclass(frozen=True, slots=True)
-class Limits:
+class BuildLimits:
     """What building may use: MiB of arrays, and the time (of ``time.monotonic``) to stop at."""
 
     mib: int = MAX_MIB
@@ -93,8 +93,8 @@ class Explorer:
     """
 
     def __init__(
-        self, rules: Rules, goal: Tests, marks: Sequence[Landmark], bound: int,
-        *, optimal: bool, limits: Limits, name: str, max_ties: int = MAX_TIES,
+        self, rules: PackedRules, goal: Tests, marks: Sequence[Landmark], bound: int,
+        *, optimal: bool, limits: BuildLimits, name: str, max_ties: int = MAX_TIES,
     ) -> None:  # fmt: skip
         self.max_ties = max_ties
         self.rules, self.goal, self.bound, self.optimal = rules, goal, bound, optimal
@@ -225,7 +225,7 @@ class Explorer:
 class Bound:
     """What is still to be paid at least, from the landmarks that were met."""
 
-    def __init__(self, ops: Sequence[Op], marks: Sequence[Landmark]) -> None:
+    def __init__(self, ops: Sequence[Operator], marks: Sequence[Landmark]) -> None:
         self.costs = np.array([mark.cost for mark in marks], dtype=np.int64)
         self.n_words = max(1, -(-len(marks) // WORD))
         self.marks_of = np.zeros((len(ops), self.n_words), dtype=np.uint64)

@@ -10,7 +10,7 @@ from hrcplan.bank.goals import Goals, SourceFile, from_problems
 from hrcplan.errors import InputError
 from hrcplan.pddl import library
 from hrcplan.pddl.check import domain_in, problem_in
-from hrcplan.pddl.reader import Group, read
+from hrcplan.pddl.reader import GroupNode, read
 
 
 def read_goals(domain: str, goals: str | None = None) -> Goals:
@@ -75,4 +75,4 @@ def _shipped(domain: str) -> Iterator[SourceFile]:
 def _is_domain(file: SourceFile) -> bool:
     root = read(file.source())
     heading = root[1] if root is not None and len(root) > 1 else None
-    return isinstance(heading, Group) and heading.head == "domain"
+    return isinstance(heading, GroupNode) and heading.head == "domain"

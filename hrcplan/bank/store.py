@@ -1,4 +1,4 @@
-"""Banks in one file, of the format in ``hrcplan.packed``.
+"""Banks in one file, of the format in ``hrcplan.core.array_file``.
 
 The header holds the sources with their hashes, the PDDL itself, the recipe and the goals.
 
@@ -19,17 +19,17 @@ from typing import Any
 import numpy as np
 
 from hrcplan.bank.audit import fault
-from hrcplan.bank.bank import Bank, Recipe
+from hrcplan.bank.bank import Bank, BuildOptions
 from hrcplan.bank.goals import SourceFile
 from hrcplan.bank.graph import PlanGraph
-from hrcplan.bank.rules import Packing
 from hrcplan.bank.sources import goals_in
-from hrcplan.bank.steps import StepTable
+from hrcplan.core.array_file import Arrays, Format, array
+from hrcplan.core.files import write_atomically
 from hrcplan.errors import InputError, UsageError
-from hrcplan.files import write_atomically
-from hrcplan.packed import Arrays, Format, array
 from hrcplan.pddl import library
 from hrcplan.pddl.model import Number
+from hrcplan.search.packed_states import FactPacking
+from hrcplan.task.steps import StepTable
 
 MAGIC = b"HRCPBANK"
 VERSION = 1
@@ -173,7 +173,7 @@ def _source(entry: Mapping[str, str], folder: Path, shown: str) -> SourceFile:
 # Recipe and graphs.
 
 
-def _recipe_entry(recipe: Recipe) -> dict[str, Any]:
+def _recipe_entry(recipe: BuildOptions) -> dict[str, Any]:
     alternatives = None if recipe.alternatives is None else str(recipe.alternatives)
     return {
         "cost": recipe.cost, "quality": str(recipe.quality), "alternatives": alternatives,
@@ -181,9 +181,9 @@ def _recipe_entry(recipe: Recipe) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _recipe(entry: Mapping[str, Any]) -> Recipe:
+def _recipe(entry: Mapping[str, Any]) -> BuildOptions:
     alternatives = entry["alternatives"]
-    return Recipe(
+    return BuildOptions(
         entry["cost"], Fraction(entry["quality"]),
         None if alternatives is None else Fraction(alternatives), entry["sample"],
     )  # fmt: skip
@@ -203,7 +203,7 @@ def _graph_entry(graph: PlanGraph, arrays: Arrays) -> dict[str, Any]:
 def _graph(entry: Mapping[str, Any], body: memoryview) -> PlanGraph:
     arrays = {name: array(body, entry["arrays"][name], kind) for name, kind in _ARRAYS.items()}
     return PlanGraph(
-        goal=entry["name"], packing=Packing(tuple(entry["positions"])),
+        goal=entry["name"], packing=FactPacking(tuple(entry["positions"])),
         layers=tuple((_number(cost), first) for cost, first in entry["layers"]),
         complete=entry["complete"], **arrays,
     )  # fmt: skip

@@ -11,12 +11,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from hrcplan.bank.goals import Goals
-from hrcplan.bank.landmarks import landmarks
-from hrcplan.bank.relevance import relevant
-from hrcplan.bank.steps import StepTable
 from hrcplan.errors import UsageError
 from hrcplan.pddl.generate import objects_in, renamed, with_copy
 from hrcplan.pddl.model import Formula, Problem
+from hrcplan.search.lm_cut import landmarks
+from hrcplan.search.relevance import relevant
+from hrcplan.task.steps import StepTable
 
 MAX_SWAPS = 3  # objects of a goal that are replaced
 MAX_TRIES = 200  # failed attempts in a row before there seem to be no more

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hrcplan.bank.graph import PlanGraph
-from hrcplan.bank.rules import Bools, Ids
 from hrcplan.errors import LimitError
+from hrcplan.search.packed_states import Bools, Ids
 
 MAX_MULTISETS = 10_000
 MAX_OBSERVED = 20  # steps that the subset test can look at where there are too many multisets

@@ -106,11 +106,11 @@ def build(
     GOALS is a folder of problem files with the same objects and init, or a folder with
     template.pddl and hyps.dat.
     """
-    from hrcplan.bank import Recipe, build_bank, save
+    from hrcplan.bank import BuildOptions, build_bank, save
 
     if target.is_dir() or not target.parent.is_dir():
         raise UsageError(f"cannot write {target}: no such folder, or it is one", path=str(target))
-    recipe = Recipe(bank_cost, quality or Fraction(1), alternatives, sample)
+    recipe = BuildOptions(bank_cost, quality or Fraction(1), alternatives, sample)
     bank = build_bank(
         domain,
         goals,

@@ -87,7 +87,7 @@ def _java() -> str | None:
 
 
 def _cache() -> dict[str, Any]:
-    from hrcplan.files import cache_folder
+    from hrcplan.core.files import cache_folder
 
     folder = cache_folder()
     try:

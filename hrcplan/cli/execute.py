@@ -11,7 +11,7 @@ from hrcplan.cli import output
 from hrcplan.errors import UsageError
 
 if TYPE_CHECKING:
-    from hrcplan.execution.humans import Change
+    from hrcplan.execution.humans import WorldChange
     from hrcplan.pddl.model import Problem
 
 WORLDS = ("simulated",)
@@ -130,7 +130,7 @@ def command(
     return 0 if done.row.success else 1
 
 
-def _change(text: str, problem: Problem) -> Change:
+def _change(text: str, problem: Problem) -> WorldChange:
     from hrcplan.cli.arguments import setting
     from hrcplan.execution.worlds.simulated import FactChange, StateChange
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from hrcplan.bank import PlanGraph, StepTable
-    from hrcplan.bank.htn import Htn, Kind, Node
+    from hrcplan.bank.htn import Htn, Kind, OrderNode
 
 MANY = 1e-4  # a smaller share is written with an exponent
 WIDTH = 72  # a chain of steps stands on one line if that is no longer
@@ -36,7 +36,7 @@ def as_json(graph: PlanGraph, htn: Htn, table: StepTable) -> dict[str, Any]:
     }
 
 
-def _tree(node: Node, table: StepTable) -> dict[str, Any]:
+def _tree(node: OrderNode, table: StepTable) -> dict[str, Any]:
     from hrcplan.bank.htn import Chain, Leaf
 
     if isinstance(node, Leaf):
@@ -83,7 +83,7 @@ def _constraints(n: int) -> str:
     return f"+ {n} order constraint{'' if n == 1 else 's'} that plans do not have"
 
 
-def _lines(node: Node, table: StepTable) -> Iterator[str]:
+def _lines(node: OrderNode, table: StepTable) -> Iterator[str]:
     """Yield a node, then what is below it, each line under the one it belongs to."""
     from hrcplan.bank.htn import Chain, Leaf
 

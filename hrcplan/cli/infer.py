@@ -48,7 +48,7 @@ def command(
     name = method or _default(source)
     found = infer(source, actions, name, **options.get(name, {}))
     if plot is not None:
-        from hrcplan.inference.picture import draw
+        from hrcplan.plots.posterior import draw
 
         output.write_atomically(plot, draw(found, plot.suffix[1:].lower()))
     if output.JSON:
@@ -59,7 +59,7 @@ def command(
 
 
 def _default(source: str) -> str:
-    from hrcplan.inference.methods import BANK_METHOD, GOALS_METHOD
+    from hrcplan.inference.registry import BANK_METHOD, GOALS_METHOD
 
     return GOALS_METHOD if Path(source).is_dir() else BANK_METHOD
 

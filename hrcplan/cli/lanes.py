@@ -6,7 +6,7 @@ from typing import Any
 
 from hrcplan.cli.output import number
 from hrcplan.pddl.model import Number, Problem, number_text
-from hrcplan.planners.answer import Status
+from hrcplan.planners.contract import Status
 from hrcplan.planners.solve import Result
 from hrcplan.plans import Plan, PlannedAction, lane, occupied, seconds_text
 

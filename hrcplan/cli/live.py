@@ -7,13 +7,13 @@ import time
 from dataclasses import dataclass, field
 
 from hrcplan.cli import output
+from hrcplan.core.text import plural
 from hrcplan.execution import events as ev
 from hrcplan.execution.events import Command, Event
-from hrcplan.execution.row import Row
-from hrcplan.execution.run import Run, Running
+from hrcplan.execution.row import Outcome
+from hrcplan.execution.run import Run, RunningAction
 from hrcplan.pddl.conventions import robots
 from hrcplan.pddl.model import Problem, fact_text, number_text
-from hrcplan.pddl.source import plural
 from hrcplan.plans import lane
 
 _BEGUN, _MARK = "▶", {ev.DONE: "✓", ev.FAILED: "✗", ev.CANCELLED: "·"}
@@ -28,7 +28,7 @@ class Live:
     speed: float | None = None
     _cells: dict[str, str] = field(default_factory=dict)
     _notes: list[str] = field(default_factory=list)
-    _running: dict[int, Running] = field(default_factory=dict)
+    _running: dict[int, RunningAction] = field(default_factory=dict)
     _n_plans: int = 0
     _shown_s: float = 0.0
     _is_headed: bool = False
@@ -121,7 +121,7 @@ class Live:
             output.result(f"{'':9}  {names}done".rstrip())
         output.result(f"{when:>9}  {text}".rstrip())
 
-    def finish(self, run: Run, row: Row) -> None:
+    def finish(self, run: Run, row: Outcome) -> None:
         """Print how the run ended and what was counted."""
         why = f" ({run.why})" if run.why else ""
         unit = " s" if self.problem.domain.is_temporal else " steps"

@@ -84,7 +84,7 @@ def command(
 
         output.write_atomically(target, format_plan(found.plan))
     if found.plan is not None and gantt is not None:
-        from hrcplan.gantt import draw
+        from hrcplan.plots.gantt import draw
 
         output.write_atomically(gantt, draw(problem, found.plan, gantt.suffix[1:].lower()))
     _print(problem, found)

@@ -10,7 +10,7 @@ import rich_click as click
 from hrcplan.cli import output
 
 if TYPE_CHECKING:
-    from hrcplan.studies.changed_mind.script import Episode, Told
+    from hrcplan.studies.changed_mind.script import NarratedEpisode, NarratedTurn
 
 
 @click.command("play")
@@ -40,7 +40,7 @@ def command(script: str, methods: tuple[str, ...], show_why: bool) -> int:
     return 0
 
 
-def _side_by_side(played: Sequence[Episode]) -> Any:
+def _side_by_side(played: Sequence[NarratedEpisode]) -> Any:
     """Return a table with a row per turn and a column per method."""
     from rich.table import Table
 
@@ -57,7 +57,7 @@ def _side_by_side(played: Sequence[Episode]) -> Any:
     return made
 
 
-def _cell(turn: Told | None) -> str:
+def _cell(turn: NarratedTurn | None) -> str:
     if turn is None:
         return ""
     action = (turn.action or "waits").strip("()")
@@ -73,7 +73,7 @@ def _believed(goal: str, probability: float, is_right: bool) -> str:
     return f"      [green]{line} ✓[/]" if is_right else f"      {line}"
 
 
-def _reasons(episode: Episode) -> list[str]:
+def _reasons(episode: NarratedEpisode) -> list[str]:
     """Return what a method weighed before each step of the robot."""
     lines = ["", f"{episode.method}: what the robot weighed"]
     for turn in episode.turns:

@@ -24,7 +24,7 @@ from hrcplan.pddl.model import (
 )
 from hrcplan.pddl.semantics import (
     Binding,
-    State,
+    LiftedState,
     Undefined,
     Values,
     bind,
@@ -39,7 +39,7 @@ UNIT_S = 1  # how long a step of a domain without durations lasts
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class BoundAction:
     """A ground action, ready to be carried out; ``agent`` is "" for an action without one."""
 
     schema: Action
@@ -59,13 +59,13 @@ class Undo:
     numbers: Mapping[FluentKey, Number]
 
 
-class Acting:
+class ActionModel:
     """The actions of one problem as they are carried out; remembers what it has looked up."""
 
     def __init__(self, problem: Problem) -> None:
         self.problem = problem
         self._schemas = {action.name: action for action in problem.domain.actions}
-        self._steps: dict[tuple[str, ...], Step] = {}
+        self._steps: dict[tuple[str, ...], BoundAction] = {}
         self._agent_state = agent_state_functions(problem.domain)
         moved = {e.target.name for a in problem.domain.actions for e in a.effects}
         self.static = frozenset(fact for fact in problem.facts if fact[0] not in moved)
@@ -73,24 +73,24 @@ class Acting:
         self._moving = moved.intersection(problem.domain.functions) - told
         self._compares = bool(self._moving) or _compares(problem)
 
-    def initial(self) -> State:
+    def initial(self) -> LiftedState:
         """Return the state that the problem describes."""
         numbers = {k: v for k, v in self.problem.values.items() if k[0] in self._moving}
-        return State(frozenset(self.problem.facts), numbers)
+        return LiftedState(frozenset(self.problem.facts), numbers)
 
-    def changing(self, state: State) -> frozenset[Fact]:
+    def changing(self, state: LiftedState) -> frozenset[Fact]:
         """Return the facts of a state that some action could change."""
         return frozenset(state.facts) - self.static
 
-    def state(self, changing: frozenset[Fact], numbers: Mapping[FluentKey, Number]) -> State:
+    def state(self, changing: frozenset[Fact], numbers: Mapping[FluentKey, Number]) -> LiftedState:
         """Return the state with these changing facts and numbers."""
-        return State(changing | self.static, numbers)
+        return LiftedState(changing | self.static, numbers)
 
-    def is_goal(self, state: State) -> bool:
+    def is_goal(self, state: LiftedState) -> bool:
         """Return whether the goal holds."""
         return holds(self.problem.goal, self._full(state), {}, self.problem)
 
-    def step(self, action: PlannedAction) -> Step | None:
+    def step(self, action: PlannedAction) -> BoundAction | None:
         """Return a planned action as a step, or None if the problem has no such action."""
         key = (action.name, *action.args)
         found = self._steps.get(key)
@@ -102,11 +102,11 @@ class Acting:
             found = self._steps[key] = self._make(schema, binding, action)
         return found
 
-    def _make(self, schema: Action, binding: Binding, action: PlannedAction) -> Step:
+    def _make(self, schema: Action, binding: Binding, action: PlannedAction) -> BoundAction:
         told = self._agent_state | {TOTAL_COST}
         effects = [e for e in schema.effects if e.value is None or e.target.name not in told]
         # A step without duration takes effect when it is finished: only then is its outcome known.
-        return Step(
+        return BoundAction(
             schema,
             binding,
             lane(action.args, self.problem) or "",
@@ -115,12 +115,14 @@ class Acting:
             tuple(e for e in effects if not schema.durative or e.when == "end"),
         )
 
-    def obstacle(self, state: State, step: Step, agent_state: Values | None = None) -> str | None:
+    def obstacle(
+        self, state: LiftedState, step: BoundAction, agent_state: Values | None = None
+    ) -> str | None:
         """Return the first condition that keeps a step from beginning, as ground PDDL, or None.
 
         ``agent_state``: what conditions on agent state are held against; else the problem's values.
         """
-        state = State(state.facts, {**state.values, **(agent_state or {})})
+        state = LiftedState(state.facts, {**state.values, **(agent_state or {})})
         full = self._full(state)
         for condition in step.schema.conditions:
             if condition.when == "start" or not step.schema.durative:
@@ -135,55 +137,57 @@ class Acting:
                     return missing
         return None
 
-    def _unmet(self, formula: Formula, state: State, step: Step) -> str | None:
+    def _unmet(self, formula: Formula, state: LiftedState, step: BoundAction) -> str | None:
         try:
             return unmet(formula, state, step.binding, self.problem)
         except Undefined as error:
             return str(error)
 
-    def influence(self, step: Step, values: Values) -> dict[FluentKey, Number]:
+    def influence(self, step: BoundAction, values: Values) -> dict[FluentKey, Number]:
         """Return the agent-state values after an interaction that has its effect."""
         effects = [e for e in step.schema.effects if e.target.name in self._agent_state]
         if not effects:
             return {}
-        full = State(frozenset(), {**self.problem.values, **values})
+        full = LiftedState(frozenset(), {**self.problem.values, **values})
         return dict(changes(effects, full, step.binding, self.problem).values)
 
-    def begin(self, state: State, step: Step, duration: Number = 0) -> tuple[State, Undo]:
+    def begin(
+        self, state: LiftedState, step: BoundAction, duration: Number = 0
+    ) -> tuple[LiftedState, Undo]:
         """Return the state just after a step has begun, and how to take that back."""
         after = self._changed(state, step, step.at_start, duration)
         before_facts, facts = frozenset(state.facts), frozenset(after.facts)
         old = {k: v for k, v in state.values.items() if after.values.get(k) != v}
         return after, Undo(facts - before_facts, before_facts - facts, old)
 
-    def finish(self, state: State, step: Step, duration: Number = 0) -> State:
+    def finish(self, state: LiftedState, step: BoundAction, duration: Number = 0) -> LiftedState:
         """Return the state just after a step has ended well."""
         return self._changed(state, step, step.at_end, duration)
 
-    def undo(self, state: State, undo: Undo) -> State:
+    def undo(self, state: LiftedState, undo: Undo) -> LiftedState:
         """Return the state as if a step that failed had never begun."""
         facts = frozenset(state.facts) - undo.added | undo.removed
-        return State(facts, {**state.values, **undo.numbers})
+        return LiftedState(facts, {**state.values, **undo.numbers})
 
     def _changed(
-        self, state: State, step: Step, effects: tuple[Effect, ...], duration: Number
-    ) -> State:
+        self, state: LiftedState, step: BoundAction, effects: tuple[Effect, ...], duration: Number
+    ) -> LiftedState:
         if not effects:
             return state
         full = self._full(state)
         if self._compares:
-            full = State(full.facts, {**full.values, (DURATION,): duration})
+            full = LiftedState(full.facts, {**full.values, (DURATION,): duration})
         try:
             return changes(effects, full, step.binding, self.problem).apply(state)
         except Undefined:  # a number that was never given a value stays as it is
             plain = [effect for effect in effects if effect.value is None]
             return changes(plain, full, step.binding, self.problem).apply(state)
 
-    def _full(self, state: State) -> State:
+    def _full(self, state: LiftedState) -> LiftedState:
         """Return the state with the functions that conditions may look at."""
         if not self._compares:
             return state
-        return State(state.facts, {**self.problem.values, **state.values})
+        return LiftedState(state.facts, {**self.problem.values, **state.values})
 
 
 def _compares(problem: Problem) -> bool:

@@ -15,20 +15,20 @@ from hrcplan.execution import events as ev
 from hrcplan.execution.events import Command, Event
 from hrcplan.execution.monitor import Monitor
 from hrcplan.execution.run import Run
-from hrcplan.execution.worlds import World
+from hrcplan.execution.worlds import EventWorld
 
 PATIENCE = 3  # times its duration, after which an action counts as failed
 MAX_STEPS = 100_000  # events of one run; a world that never ends is stopped
 
 
-class Asked(Protocol):
+class PlanProvider(Protocol):
     """Whatever answers a request for a plan."""
 
     def answer(self, ask: ev.AskPlan) -> ev.Planned:
         """Return a plan, or none with the reason."""
 
 
-class Record(Protocol):
+class RunRecord(Protocol):
     """Where events and decisions go before they are acted on."""
 
     def take(self, event: Event) -> Event:
@@ -41,7 +41,7 @@ class Record(Protocol):
         """Return the next event if it is a plan that was recorded before; None if not."""
 
 
-class Nowhere:
+class NullRecord:
     """A record that is not kept."""
 
     def take(self, event: Event) -> Event:
@@ -56,7 +56,7 @@ class Nowhere:
         return None
 
 
-Watch = Callable[[Run, Event, tuple[Command, ...]], None]
+RunWatch = Callable[[Run, Event, tuple[Command, ...]], None]
 
 
 @dataclass
@@ -64,10 +64,10 @@ class Driver:
     """Carries one run out until it is over; ``watch`` is told of every step."""
 
     monitor: Monitor
-    world: World
-    planner: Asked
-    record: Record
-    watch: Watch | None = None
+    world: EventWorld
+    planner: PlanProvider
+    record: RunRecord
+    watch: RunWatch | None = None
 
     def run(self) -> Run:
         """Return the finished run."""

@@ -8,12 +8,12 @@ from pathlib import Path
 
 from hrcplan.agents import profile as profile_named
 from hrcplan.errors import UsageError
-from hrcplan.execution.driver import Asked, Watch
+from hrcplan.execution.driver import PlanProvider, RunWatch
 from hrcplan.execution.events import Command, Event
-from hrcplan.execution.humans import STEADY, Change, nature_for
-from hrcplan.execution.journal import Journal, Setting, Writer, read_journal
+from hrcplan.execution.humans import STEADY, WorldChange, nature_for
+from hrcplan.execution.journal import Journal, RunSetup, Writer, read_journal
 from hrcplan.execution.replanner import DEFAULT_TIMEOUT_S, Replanner
-from hrcplan.execution.row import Row
+from hrcplan.execution.row import Outcome
 from hrcplan.execution.run import Run
 from hrcplan.execution.simulate import Spec, make_engine
 from hrcplan.execution.timeline import Timeline
@@ -25,7 +25,7 @@ from hrcplan.pddl.model import FluentKey, Number, Problem
 class Executed:
     """A finished run: its row, its last state, what happened, and whether it was resumed."""
 
-    row: Row
+    row: Outcome
     run: Run
     timeline: Timeline
     n_resumed: int = 0
@@ -37,7 +37,7 @@ def execute(
     *,
     profile: str = "hrcplan",
     human: str = STEADY,
-    changes: Sequence[Change] = (),
+    changes: Sequence[WorldChange] = (),
     values: Mapping[FluentKey, Number] | None = None,
     model: bool = True,
     planner: str = "auto",
@@ -77,9 +77,9 @@ def execute(
 
 def make_setting(
     problem: Problem, *, profile: str = "hrcplan", human: str = STEADY,
-    changes: Sequence[Change] = (), model: bool = True, planner: str = "auto",
+    changes: Sequence[WorldChange] = (), model: bool = True, planner: str = "auto",
     seed: int | str = 1, replan_limit: int | None = None, timeout_s: float = DEFAULT_TIMEOUT_S,
-) -> Setting:  # fmt: skip
+) -> RunSetup:  # fmt: skip
     """Return everything that a run depends on; what chance decides is drawn here.
 
     Raises:
@@ -89,13 +89,13 @@ def make_setting(
     planners = tuple(planner.split(",")) if not planner.startswith("cmd:") else (planner,)
     engine = make_engine(problem, chosen, model, Replanner(problem, planners, timeout_s))
     nature = nature_for(human, Spec(seed=seed), engine, changes)
-    return Setting(problem, chosen, model, nature, planners)
+    return RunSetup(problem, chosen, model, nature, planners)
 
 
 def carry_out(
-    setting: Setting, *, journal: Path | None = None, resume: bool = False,
-    timeout_s: float = DEFAULT_TIMEOUT_S, watch: Watch | None = None,
-    planner: Asked | None = None,
+    setting: RunSetup, *, journal: Path | None = None, resume: bool = False,
+    timeout_s: float = DEFAULT_TIMEOUT_S, watch: RunWatch | None = None,
+    planner: PlanProvider | None = None,
 ) -> Executed:  # fmt: skip
     """Return the finished run of a setting; a resumed one takes the setting of its journal.
 
@@ -142,7 +142,7 @@ def _known(path: Path | None, resume: bool) -> Journal | None:
     return known
 
 
-def _same_problem(known: Journal, setting: Setting) -> Setting:
+def _same_problem(known: Journal, setting: RunSetup) -> RunSetup:
     found = known.setting()
     ours, theirs = setting.problem, found.problem
     if (ours.domain.name, ours.name) != (theirs.domain.name, theirs.name):

@@ -7,6 +7,7 @@ from dataclasses import replace
 from importlib import import_module
 from typing import Protocol
 
+from hrcplan.core.text import nearest
 from hrcplan.errors import UsageError
 from hrcplan.execution.simulate import RANDOM, Engine, Spec, nature_of
 from hrcplan.execution.worlds.simulated import (
@@ -18,12 +19,11 @@ from hrcplan.execution.worlds.simulated import (
     StateChange,
 )
 from hrcplan.pddl.model import Problem
-from hrcplan.pddl.source import nearest
 
 STEADY = "steady"
 CASES = {STEADY: 0, "case1": 1, "case2": 2}
 OPTIONS = (*CASES, RANDOM, ATTEMPT, *SENSED)
-Change = StateChange | FactChange
+WorldChange = StateChange | FactChange
 
 
 def spec_of(text: str, spec: Spec) -> Spec:
@@ -51,14 +51,16 @@ def spec_of(text: str, spec: Spec) -> Spec:
     return spec
 
 
-class Human(Protocol):
+class NatureSource(Protocol):
     """A human of somebody's own, named as ``module:Class``."""
 
     def nature(self, problem: Problem, seed: object) -> Nature:
         """Return how the world behaves with this human."""
 
 
-def nature_for(text: str, spec: Spec, engine: Engine, changes: Sequence[Change] = ()) -> Nature:
+def nature_for(
+    text: str, spec: Spec, engine: Engine, changes: Sequence[WorldChange] = ()
+) -> Nature:
     """Return the nature that a human brings along, with more changes at given times.
 
     A change of agent state is checked as a sensed value is.
@@ -83,10 +85,10 @@ def nature_for(text: str, spec: Spec, engine: Engine, changes: Sequence[Change] 
     )
 
 
-def _load(text: str) -> Human:
+def _load(text: str) -> NatureSource:
     module, _, name = text.partition(":")
     try:
-        human: Human = getattr(import_module(module), name)()
+        human: NatureSource = getattr(import_module(module), name)()
     except (ImportError, AttributeError, TypeError) as error:
         message = f"human '{text}' cannot be loaded: {error}"
         raise UsageError(message, code="unknown-human") from error

@@ -22,7 +22,7 @@ from hrcplan.agents.profile import profile_of
 from hrcplan.errors import InputError, UsageError
 from hrcplan.execution import events as ev
 from hrcplan.execution.events import Command, Event, from_json, to_json
-from hrcplan.execution.row import Row
+from hrcplan.execution.row import Outcome
 from hrcplan.execution.worlds.simulated import FactChange, Nature, StateChange
 from hrcplan.pddl import check
 from hrcplan.pddl.model import Fact, Problem
@@ -32,7 +32,7 @@ FORMAT = 1
 
 
 @dataclass(frozen=True)
-class Setting:
+class RunSetup:
     """What a run depends on besides what happens in it."""
 
     problem: Problem
@@ -53,14 +53,14 @@ class Setting:
         }
 
 
-def setting_of(table: Mapping[str, Any], path: str) -> Setting:
+def setting_of(table: Mapping[str, Any], path: str) -> RunSetup:
     """Return the setting that the first line of a journal describes.
 
     Raises:
         InputError: if the line does not hold one.
     """
     try:
-        return Setting(
+        return RunSetup(
             _problem(table["domain"], table["problem"]),
             profile_of(table["profile"], path),
             bool(table["sensing"]),
@@ -130,7 +130,7 @@ class Journal:
         """Whether not even the first line was written."""
         return not self.lines
 
-    def setting(self) -> Setting:
+    def setting(self) -> RunSetup:
         """Return what the run depends on.
 
         Raises:
@@ -230,7 +230,7 @@ class Writer:
             return None
         return from_json(event)  # type: ignore[no-any-return]
 
-    def close(self, row: Row) -> None:
+    def close(self, row: Outcome) -> None:
         """Write the row and close the file."""
         self._line({"row": row.to_json()})
         os.fsync(self._file)
@@ -260,7 +260,7 @@ class Writer:
             raise self._refused(error) from None
 
     @classmethod
-    def begin(cls, path: Path, setting: Setting) -> Writer:
+    def begin(cls, path: Path, setting: RunSetup) -> Writer:
         """Return the writer of a new journal whose first line is the setting.
 
         Raises:

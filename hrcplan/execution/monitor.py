@@ -19,7 +19,7 @@ from hrcplan.execution.acting import UNIT_S
 from hrcplan.execution.events import Command, Event
 from hrcplan.execution.observer import Observer, Stepped
 from hrcplan.execution.order import Waits, rest_of, waits
-from hrcplan.execution.run import Phase, Pursuit, Run, Running, plus
+from hrcplan.execution.run import FollowedPlan, Phase, Run, RunningAction, plus
 from hrcplan.pddl.model import Number
 from hrcplan.plans import Plan, PlannedAction
 from hrcplan.validation import objective, validate
@@ -135,7 +135,7 @@ class Monitor(Observer):
         if kind is not None:
             tally = replace(tally, replans=plus(tally.replans, [kind]))
         why = "; ".join(f"{r.kind}: {r.text}" for r in run.reasons)
-        pursuit = Pursuit(plan, self._order(plan))
+        pursuit = FollowedPlan(plan, self._order(plan))
         run = replace(run, phase=Phase.EXECUTING, pursuit=pursuit, tally=tally, reasons=())
         return run, (ev.Adopt(run.t, plan, why),)
 
@@ -196,7 +196,7 @@ class Monitor(Observer):
         duration = planned.duration_s if step.schema.durative else None
         lasts = float(UNIT_S if duration is None else duration)
         state, undo = self.acting.begin(run.state, step, duration or 0)
-        action = Running(run.n_dispatched, index, step, run.t, lasts, undo)
+        action = RunningAction(run.n_dispatched, index, step, run.t, lasts, undo)
         pursuit = replace(run.pursuit, begun={**run.pursuit.begun, index: run.t})
         run = replace(
             run, state=state, running=(*run.running, action), pursuit=pursuit,

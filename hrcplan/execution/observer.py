@@ -12,13 +12,13 @@ from hrcplan.agents import AgentModel, Profile
 from hrcplan.agents.state import LEAST, MOST
 from hrcplan.errors import UsageError
 from hrcplan.execution import events as ev
-from hrcplan.execution.acting import Acting, Step
+from hrcplan.execution.acting import ActionModel, BoundAction
 from hrcplan.execution.events import Command
 from hrcplan.execution.order import Waits
-from hrcplan.execution.run import Phase, Run, Running, plus
+from hrcplan.execution.run import Phase, Run, RunningAction, plus
 from hrcplan.pddl.model import FluentKey, Number, Problem, fact_text, number_text
-from hrcplan.pddl.semantics import State
-from hrcplan.planners.retries import expected_retries
+from hrcplan.pddl.semantics import LiftedState
+from hrcplan.planners.expected_price import expected_retries
 from hrcplan.plans import Plan
 
 Stepped = tuple[Run, tuple[Command, ...]]
@@ -32,14 +32,14 @@ class Observer:
     profile: Profile
     sensing: bool = True
     agents: AgentModel = field(init=False)
-    acting: Acting = field(init=False)
+    acting: ActionModel = field(init=False)
     _priced: Problem = field(init=False, repr=False)
     _orders: dict[Plan, Waits] = field(init=False, default_factory=dict, repr=False)
 
     def __post_init__(self) -> None:
         """Look up what depends on the problem alone."""
         object.__setattr__(self, "agents", AgentModel(self.problem))
-        object.__setattr__(self, "acting", Acting(self.problem))
+        object.__setattr__(self, "acting", ActionModel(self.problem))
         object.__setattr__(self, "_priced", expected_retries(self.problem))
 
     def begin(self) -> Run:
@@ -58,7 +58,7 @@ class Observer:
             return self._done(run, action), ()
         return self._undone(run, action, event.outcome), ()
 
-    def _done(self, run: Run, action: Running) -> Run:
+    def _done(self, run: Run, action: RunningAction) -> Run:
         assert run.pursuit is not None
         pursuit = replace(run.pursuit, ended=run.pursuit.ended | {action.index})
         step, tally = action.step, run.tally
@@ -73,7 +73,7 @@ class Observer:
         )  # fmt: skip
         return self._influenced(run, step)
 
-    def _influenced(self, run: Run, step: Step) -> Run:
+    def _influenced(self, run: Run, step: BoundAction) -> Run:
         """Expect an interaction to have its effect; what is sensed next says whether it had."""
         for key, value in self.acting.influence(step, run.sensed).items():
             if key in self.agents.low:
@@ -82,7 +82,7 @@ class Observer:
                 run = replace(run, sensed={**run.sensed, key: expected}, memory=memory)
         return run
 
-    def _undone(self, run: Run, action: Running, outcome: str) -> Run:
+    def _undone(self, run: Run, action: RunningAction, outcome: str) -> Run:
         """Take a failed or cancelled action back: no effect, the time is used up."""
         agent, tally = action.step.agent, run.tally
         assert run.pursuit is not None
@@ -99,7 +99,7 @@ class Observer:
         text = f"{_shown(action.step)} failed"
         return replace(run, tally=tally, memory=memory).because(ev.FAILURE, text)
 
-    def _suspects(self, run: Run, step: Step) -> Iterable[FluentKey]:
+    def _suspects(self, run: Run, step: BoundAction) -> Iterable[FluentKey]:
         """Return the elements that can have made an action fail: those sensed high, if any."""
         touched = self._touching(step)
         if not self.sensing:
@@ -107,7 +107,7 @@ class Observer:
         high = [key for key in touched if self.agents.failure_probability(key, run.sensed) > 0]
         return high or touched
 
-    def _touching(self, step: Step) -> tuple[FluentKey, ...]:
+    def _touching(self, step: BoundAction) -> tuple[FluentKey, ...]:
         return self.agents.touching(step.schema.name, tuple(step.binding.values()))
 
     def _overdue(self, run: Run, event: ev.Overdue) -> Stepped:
@@ -168,11 +168,11 @@ def _number(seconds: float) -> Number:
     return int(seconds) if seconds == int(seconds) else ev.exact(seconds)  # type: ignore[return-value]
 
 
-def _shown(step: Step) -> str:
+def _shown(step: BoundAction) -> str:
     return fact_text((step.schema.name, *step.binding.values()))
 
 
-def _difference(expected: State, seen: State) -> str:
+def _difference(expected: LiftedState, seen: LiftedState) -> str:
     missing = sorted(frozenset(expected.facts) - frozenset(seen.facts))
     extra = sorted(frozenset(seen.facts) - frozenset(expected.facts))
     words = [f"{fact_text(fact)} does not hold" for fact in missing]

@@ -8,11 +8,11 @@ from dataclasses import replace
 
 from hrcplan.errors import HrcplanError, LimitError, UnsupportedError
 from hrcplan.execution import events as ev
-from hrcplan.execution.acting import Acting
+from hrcplan.execution.acting import ActionModel
 from hrcplan.pddl.model import Problem
 from hrcplan.planners import registry
-from hrcplan.planners.answer import Planner, Status
-from hrcplan.planners.retries import expected_retries
+from hrcplan.planners.contract import Planner, Status
+from hrcplan.planners.expected_price import expected_retries
 from hrcplan.planners.solve import Result, solve
 from hrcplan.task import Task
 from hrcplan.task.regrounding import Groundings
@@ -39,7 +39,7 @@ class Replanner:
         self.planners = list(with_successors(planners))
         self.wall_s: list[float] = []
         self._priced = expected_retries(problem)
-        self._acting = Acting(problem)
+        self._acting = ActionModel(problem)
         self._groundings = Groundings()
         self._known: dict[_Key, ev.Planned] = {}
 

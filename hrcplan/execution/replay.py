@@ -11,7 +11,7 @@ from hrcplan.execution import events as ev
 from hrcplan.execution.events import from_json, to_json
 from hrcplan.execution.journal import Journal
 from hrcplan.execution.monitor import Monitor
-from hrcplan.execution.row import Row, row_of
+from hrcplan.execution.row import Outcome, row_of
 from hrcplan.execution.run import Run
 from hrcplan.validation import validate
 
@@ -31,7 +31,7 @@ class Replayed:
 
     n_events: int
     n_decisions: int
-    row: Row
+    row: Outcome
     difference: Difference | None = None
 
 

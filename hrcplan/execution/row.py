@@ -21,7 +21,7 @@ MEASURES = (
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class Outcome:
     """One run. Humans are all agents that take no commands; actions without agent are the robot's.
 
     ``executed`` counts actions that ended well. ``makespan_s`` is the end of the last action.
@@ -52,7 +52,8 @@ class Row:
     def measures(self) -> dict[str, float]:
         """Return the measures of this run, percentages in [0, 100]; 0 where nothing was done.
 
-        >>> Row(True, "goal reached", executed_human=1, executed_robot=3).measures()["failed_pct"]
+        >>> outcome = Outcome(True, "goal reached", executed_human=1, executed_robot=3)
+        >>> outcome.measures()["failed_pct"]
         0.0
         """
         executed = self.executed_human + self.executed_robot
@@ -75,7 +76,7 @@ class Row:
         return asdict(self)
 
 
-def row_of(run: Run, robots: frozenset[str]) -> Row:
+def row_of(run: Run, robots: frozenset[str]) -> Outcome:
     """Return the row of a run; of an unfinished one as far as it has come."""
     tally = run.tally
 
@@ -85,7 +86,7 @@ def row_of(run: Run, robots: frozenset[str]) -> Row:
 
     assigned, done = split(tally.assigned), split(tally.done)
     failed, cancelled = split(tally.failed), split(tally.cancelled)
-    return Row(
+    return Outcome(
         success=run.ending == ev.GOAL,
         ending=run.ending or "unfinished",
         replans_change=tally.replans.get(ev.CHANGE, 0),
@@ -101,7 +102,7 @@ def row_of(run: Run, robots: frozenset[str]) -> Row:
     )  # fmt: skip
 
 
-def means(rows: Sequence[Row]) -> dict[str, tuple[float, float]]:
+def means(rows: Sequence[Outcome]) -> dict[str, tuple[float, float]]:
     """Return mean and standard error of every measure over runs; (0, 0) without runs."""
     tables = [row.measures() for row in rows]
     return {name: _mean([table[name] for table in tables]) for name in MEASURES}

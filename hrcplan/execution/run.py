@@ -8,10 +8,10 @@ from dataclasses import dataclass, field, replace
 
 from hrcplan.agents.memory import Memory
 from hrcplan.agents.profile import Experience
-from hrcplan.execution.acting import Step, Undo
+from hrcplan.execution.acting import BoundAction, Undo
 from hrcplan.execution.order import Waits
 from hrcplan.pddl.model import FluentKey, Number
-from hrcplan.pddl.semantics import State
+from hrcplan.pddl.semantics import LiftedState
 from hrcplan.plans import Plan
 
 
@@ -26,19 +26,19 @@ class Phase(enum.Enum):
 
 
 @dataclass(frozen=True, slots=True)
-class Running:
+class RunningAction:
     """One dispatched action that has not ended; ``index`` is its place in the plan."""
 
     number: int
     index: int
-    step: Step
+    step: BoundAction
     begun_s: float
     duration_s: float
     undo: Undo
 
 
 @dataclass(frozen=True, slots=True)
-class Pursuit:
+class FollowedPlan:
     """A plan that is being followed: which of its actions have begun, and which have ended."""
 
     plan: Plan
@@ -74,7 +74,7 @@ class Reason:
 
 
 @dataclass(frozen=True, slots=True)
-class Tally:
+class RunCounts:
     """What was counted so far: replans by reason, and actions by outcome and agent."""
 
     replans: Mapping[str, int] = field(default_factory=dict)
@@ -108,19 +108,19 @@ def plus(counts: Mapping[str, int], names: Iterable[str]) -> Mapping[str, int]:
 class Run:
     """Everything the monitor knows; the next one follows from it and one event."""
 
-    state: State
+    state: LiftedState
     phase: Phase = Phase.IDLE
     t: float = 0.0
     sensed: Mapping[FluentKey, Number] = field(default_factory=dict)
     memory: Experience = field(default_factory=Memory)
-    pursuit: Pursuit | None = None
-    running: tuple[Running, ...] = ()
+    pursuit: FollowedPlan | None = None
+    running: tuple[RunningAction, ...] = ()
     n_dispatched: int = 0
     reasons: tuple[Reason, ...] = ()
-    observed: State | None = None
+    observed: LiftedState | None = None
     n_asked: int = 0
     confirmed_s: float | None = None
-    tally: Tally = field(default_factory=Tally)
+    tally: RunCounts = field(default_factory=RunCounts)
     ending: str | None = None
     why: str = ""
 
@@ -129,11 +129,11 @@ class Run:
         """Whether the run has ended."""
         return self.phase is Phase.OVER
 
-    def find(self, number: int) -> Running | None:
+    def find(self, number: int) -> RunningAction | None:
         """Return the running action with this dispatch number."""
         return next((r for r in self.running if r.number == number), None)
 
-    def without(self, action: Running) -> tuple[Running, ...]:
+    def without(self, action: RunningAction) -> tuple[RunningAction, ...]:
         """Return the running actions but one."""
         return tuple(r for r in self.running if r.number != action.number)
 

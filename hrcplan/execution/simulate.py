@@ -12,10 +12,10 @@ from functools import lru_cache
 from hrcplan.agents import Profile, profile
 from hrcplan.errors import UsageError
 from hrcplan.execution import events as ev
-from hrcplan.execution.driver import Asked, Driver, Nowhere, Record, Watch
+from hrcplan.execution.driver import Driver, NullRecord, PlanProvider, RunRecord, RunWatch
 from hrcplan.execution.monitor import Monitor
 from hrcplan.execution.replanner import Replanner
-from hrcplan.execution.row import Row, row_of
+from hrcplan.execution.row import Outcome, row_of
 from hrcplan.execution.run import Run
 from hrcplan.execution.worlds import chance
 from hrcplan.execution.worlds.simulated import (
@@ -30,7 +30,7 @@ from hrcplan.execution.worlds.simulated import (
 )
 from hrcplan.facade import load_problem
 from hrcplan.pddl.model import FluentKey, Number, Problem
-from hrcplan.planners.retries import with_success
+from hrcplan.planners.expected_price import with_success
 
 CASES = (0, 1, 2)
 LEVELS = (5, 10)
@@ -83,20 +83,22 @@ class Engine:
     """What runs of one problem and profile share: monitor, and planner with its cached plans."""
 
     monitor: Monitor
-    planner: Asked
+    planner: PlanProvider
 
-    def run(self, nature: Nature, record: Record | None = None, watch: Watch | None = None) -> Run:
+    def run(
+        self, nature: Nature, record: RunRecord | None = None, watch: RunWatch | None = None
+    ) -> Run:
         """Return one finished run in a simulated world."""
         problem, monitor = self.monitor.problem, self.monitor
         world = SimulatedWorld(problem, nature, monitor.acting, monitor.agents)
-        return Driver(monitor, world, self.planner, record or Nowhere(), watch).run()
+        return Driver(monitor, world, self.planner, record or NullRecord(), watch).run()
 
-    def row(self, run: Run) -> Row:
+    def row(self, run: Run) -> Outcome:
         """Return the row of a run."""
         return row_of(run, self.monitor.agents.robots)
 
 
-def simulate(spec: Spec) -> Row:
+def simulate(spec: Spec) -> Outcome:
     """Return the row of one simulated run.
 
     Raises:
@@ -141,7 +143,7 @@ def _replanner(
 
 
 def make_engine(
-    problem: Problem, chosen: Profile, model: bool = True, planner: Asked | None = None
+    problem: Problem, chosen: Profile, model: bool = True, planner: PlanProvider | None = None
 ) -> Engine:
     """Return the engine for a problem and a profile; ``model`` false leaves sensing unused."""
     return Engine(Monitor(problem, chosen, model), planner or Replanner(problem))

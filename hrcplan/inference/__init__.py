@@ -4,7 +4,7 @@ The short way: ``infer(bank, actions)``. Every belief keeps the protocol of `Bel
 """
 
 from hrcplan.inference.belief import Belief, State, batch
-from hrcplan.inference.changes import Change
+from hrcplan.inference.changes import GoalChange
 from hrcplan.inference.run import Ignored, Inference, infer
 
-__all__ = ["Belief", "Change", "Ignored", "Inference", "State", "batch", "infer"]
+__all__ = ["Belief", "GoalChange", "Ignored", "Inference", "State", "batch", "infer"]

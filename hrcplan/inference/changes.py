@@ -22,7 +22,7 @@ _TINY = 1e-300
 
 
 @dataclass(frozen=True, slots=True)
-class Change:
+class GoalChange:
     """A change of goal just before observation ``at`` (0-based), and how probable it is."""
 
     at: int
@@ -30,7 +30,7 @@ class Change:
 
 
 @dataclass(frozen=True, slots=True)
-class Filtered:
+class FilterState:
     """The filter after some human steps.
 
     ``weights[m, k, g]`` is the probability of rate m, k changes so far (the last entry: it will not
@@ -59,18 +59,18 @@ class ChangeFilter:
     never: float = NEVER
     settles: float = SETTLES
 
-    def start(self) -> Filtered:
+    def start(self) -> FilterState:
         """Return the prior: goals and mistake rates uniform, no change yet."""
         weights = np.zeros((self.n_rates, MAX_CHANGES + 2, self.n_goals))
         weights[:, 0] = (1 - self._never) / (self.n_rates * self.n_goals)
         weights[:, -1] = self._never / (self.n_rates * self.n_goals)
-        return Filtered(weights, weights)
+        return FilterState(weights, weights)
 
     @property
     def _never(self) -> float:
         return self.never if self.n_goals > 1 else 1.0
 
-    def step(self, before: Filtered, likelihood: Floats) -> Filtered:
+    def step(self, before: FilterState, likelihood: Floats) -> FilterState:
         """Return the filter after a human step with this likelihood, by rate and goal."""
         weights, unchanged = before.weights, before.unchanged
         if before.likelihood is not None:
@@ -80,7 +80,7 @@ class ChangeFilter:
         weights /= total
         unchanged = unchanged * likelihood[:, None, :] / total
         declared = 1 - float(unchanged.sum()) > DECLARED
-        return Filtered(
+        return FilterState(
             weights, weights if declared else unchanged, likelihood, before.n_declared + declared
         )
 
@@ -101,12 +101,12 @@ class ChangeFilter:
             found[:, -2] += moving[:, -1]
         return found
 
-    def goals(self, filtered: Filtered) -> Floats:
+    def goals(self, filtered: FilterState) -> Floats:
         """Return the probability of each goal."""
         found: Floats = filtered.weights.sum(axis=(0, 1))
         return found
 
-    def changes(self, steps: Sequence[tuple[int, Filtered]]) -> tuple[Change, ...]:
+    def changes(self, steps: Sequence[tuple[int, FilterState]]) -> tuple[GoalChange, ...]:
         """Return the changes that are probable once everything was seen, in order of time.
 
         Args:
@@ -114,18 +114,18 @@ class ChangeFilter:
         """
         places = [at for at, _ in steps]
         left = self._smoothed([filtered for _, filtered in steps])
-        found: list[Change] = []
+        found: list[GoalChange] = []
         while len(left) and left.max() > 0:
             peak = int(left.argmax())
             near = slice(max(0, peak - SPREAD), peak + SPREAD + 1)
             mass = float(left[near].sum())
             if mass <= DECLARED:
                 break
-            found.append(Change(places[peak], min(1.0, mass)))
+            found.append(GoalChange(places[peak], min(1.0, mass)))
             left[near] = 0
         return tuple(sorted(found, key=lambda change: change.at))
 
-    def _smoothed(self, steps: Sequence[Filtered]) -> Floats:
+    def _smoothed(self, steps: Sequence[FilterState]) -> Floats:
         """Return for each human step the probability, given all, that a change precedes it."""
         found = np.zeros(len(steps))
         if not steps or self.n_goals < 2:

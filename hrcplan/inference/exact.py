@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hrcplan.bank import Bank
+from hrcplan.bank.progress import Evidence, Progress, ProgressTracker
 from hrcplan.inference.belief import Floats, normalized
-from hrcplan.inference.track import Evidence, Track, Tracker
 
 MISTAKE_RATE = 0.01
 UNEXPLAINED = "no goal explains this step"
@@ -17,10 +17,10 @@ IMPOSSIBLE = "nobody can do this step here"
 
 
 @dataclass(frozen=True, slots=True)
-class Counted:
-    """The state of `Exact`: where everything stands, and the log score of each goal."""
+class ExactState:
+    """The state of `ExactBelief`: where everything stands, and the log score of each goal."""
 
-    track: Track
+    track: Progress
     scores: Floats
     ignored: str | None = None
 
@@ -30,7 +30,7 @@ class Counted:
         return self.track.world
 
 
-class Exact:
+class ExactBelief:
     """Bayes over plans that are all equally likely, with a rate of mistakes.
 
     A step that goes on with a share s of a goal's plans has likelihood (1 - p) s; a mistake p,
@@ -38,14 +38,14 @@ class Exact:
     explains a step, the belief stays.
 
     >>> from hrcplan.bank import build_bank
-    >>> belief = Exact(build_bank("kitchen", only=["pasta-bean", "pasta-tomato"]))
+    >>> belief = ExactBelief(build_bank("kitchen", only=["pasta-bean", "pasta-tomato"]))
     >>> step = belief.tracker.bank.table.find(("get", "beans"))
     >>> belief.posterior(belief.observe(belief.start(), step)).round(3).tolist()
     [0.996, 0.004]
     """
 
     def __init__(self, bank: Bank, mistake_rate: float = MISTAKE_RATE) -> None:
-        self.tracker = Tracker(bank)
+        self.tracker = ProgressTracker(bank)
         self.mistake_rate = mistake_rate
         self._right, self._wrong = math.log1p(-mistake_rate), math.log(mistake_rate)
         n_most = self.tracker.joint.n_labels
@@ -57,21 +57,21 @@ class Exact:
         """The goals' names, in order."""
         return self.tracker.bank.names
 
-    def start(self) -> Counted:
+    def start(self) -> ExactState:
         """Return the uniform belief in the initial state."""
-        return Counted(self.tracker.start, np.zeros(len(self.names)))
+        return ExactState(self.tracker.start, np.zeros(len(self.names)))
 
-    def observe(self, state: Counted, step: int, *, robot: bool = False) -> Counted:
+    def observe(self, state: ExactState, step: int, *, robot: bool = False) -> ExactState:
         """Return the belief after one more step; the robot's own steps are no evidence."""
         followed = self.tracker.follow(state.track, step)
         if followed is None:
             return replace(state, ignored=IMPOSSIBLE)
         moved, seen = followed
         if robot:
-            return Counted(moved, state.scores)
+            return ExactState(moved, state.scores)
         if not len(seen.goals):
-            return Counted(moved, state.scores, UNEXPLAINED)
-        return Counted(moved, state.scores + self.log_likelihood(seen))
+            return ExactState(moved, state.scores, UNEXPLAINED)
+        return ExactState(moved, state.scores + self.log_likelihood(seen))
 
     def log_likelihood(self, seen: Evidence) -> Floats:
         """Return the log likelihood of a step under each goal."""
@@ -79,6 +79,6 @@ class Exact:
         found[seen.goals] = self._right + seen.log_shares
         return found
 
-    def posterior(self, state: Counted) -> Floats:
+    def posterior(self, state: ExactState) -> Floats:
         """Return the probability of each goal, in order."""
         return normalized(state.scores)

@@ -8,9 +8,9 @@ from typing import Protocol
 import numpy as np
 
 from hrcplan.bank import Bank
+from hrcplan.bank.progress import Evidence, Progress, ProgressTracker
 from hrcplan.inference.belief import Floats, weights_to_posterior
 from hrcplan.inference.exact import IMPOSSIBLE
-from hrcplan.inference.track import Evidence, Track, Tracker
 
 STAY = 0.9
 EPSILON = 0.01
@@ -20,7 +20,7 @@ RATIO = 3.0
 class Likelihood(Protocol):
     """How likely a human step is under each goal."""
 
-    def __call__(self, tracker: Tracker, step: int, seen: Evidence) -> Floats:
+    def __call__(self, tracker: ProgressTracker, step: int, seen: Evidence) -> Floats:
         """Return the likelihood by goal."""
         ...
 
@@ -34,7 +34,7 @@ class Needed:
 
     epsilon: float = EPSILON
 
-    def __call__(self, tracker: Tracker, step: int, seen: Evidence) -> Floats:
+    def __call__(self, tracker: ProgressTracker, step: int, seen: Evidence) -> Floats:
         """Return the likelihood by goal."""
         needs = tracker.joint.needs
         sizes = needs.sum(axis=1)
@@ -52,7 +52,7 @@ class Attractor:
 
     ratio: float = RATIO
 
-    def __call__(self, tracker: Tracker, step: int, seen: Evidence) -> Floats:
+    def __call__(self, tracker: ProgressTracker, step: int, seen: Evidence) -> Floats:
         """Return the likelihood by goal."""
         needs = tracker.joint.needs
         weights = np.where(needs, self.ratio, 1.0)
@@ -66,7 +66,7 @@ class Next:
 
     epsilon: float = EPSILON
 
-    def __call__(self, tracker: Tracker, step: int, seen: Evidence) -> Floats:
+    def __call__(self, tracker: ProgressTracker, step: int, seen: Evidence) -> Floats:
         """Return the likelihood by goal."""
         found: Floats = self.epsilon / np.maximum(1, seen.n_doable - seen.n_next)
         found[seen.goals] = (1 - self.epsilon) / seen.n_next[seen.goals]
@@ -75,9 +75,9 @@ class Next:
 
 @dataclass(frozen=True, slots=True)
 class Weighted:
-    """The state of `Recursive`: where everything stands, and the probability of each goal."""
+    """The state of `RecursiveBelief`: where everything stands, and the probability of each goal."""
 
-    track: Track
+    track: Progress
     weights: Floats
     n_human: int = 0
     ignored: str | None = None
@@ -88,7 +88,7 @@ class Weighted:
         return self.track.world
 
 
-class Recursive:
+class RecursiveBelief:
     """Bayes' rule after each human step, with a goal that stays with probability ``stay``.
 
     Args:
@@ -100,7 +100,7 @@ class Recursive:
     def __init__(
         self, bank: Bank, stay: float = STAY, likelihood: Likelihood | None = None
     ) -> None:
-        self.tracker = Tracker(bank)
+        self.tracker = ProgressTracker(bank)
         self.stay = stay if len(bank.names) > 1 else 1.0
         self.likelihood = likelihood or Needed()
 

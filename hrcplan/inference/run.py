@@ -11,15 +11,15 @@ from typing import Any
 from hrcplan.bank import Bank, Goals, StepTable, build
 from hrcplan.bank.ramirez_geffner import OBSERVATIONS, is_folder, read_actions, read_instance
 from hrcplan.errors import InputError, LimitError
-from hrcplan.inference.changes import Change
-from hrcplan.inference.methods import BANK_METHOD, GOALS_METHOD, METHODS, takes_goals
-from hrcplan.inference.resolve import Resolver
+from hrcplan.inference.changes import GoalChange
+from hrcplan.inference.observations import Resolver
+from hrcplan.inference.registry import BANK_METHOD, GOALS_METHOD, METHODS, takes_goals
 from hrcplan.pddl.source import read_text
 
 BUILD_S = 20.0  # for plan graphs of a folder that is no bank
 _TIMES = re.compile(r"^\s*[\d.]+\s*:|\[[\d.]+\]", re.MULTILINE)
 
-Words = tuple[str, ...]
+ObservedWords = tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +48,7 @@ class Inference:
     goals: tuple[str, ...]
     actions: tuple[str, ...]
     posterior: tuple[tuple[float, ...], ...]
-    changes: tuple[Change, ...]
+    changes: tuple[GoalChange, ...]
     ignored: tuple[Ignored, ...]
     method: str
     note: str | None = None
@@ -67,7 +67,7 @@ class Inference:
 
 def infer(
     source: str | Path | Bank | Goals,
-    actions: str | Path | Sequence[Words] | None = None,
+    actions: str | Path | Sequence[ObservedWords] | None = None,
     method: str | None = None,
     **options: Any,
 ) -> Inference:
@@ -105,7 +105,9 @@ def belief_table(belief: Any, goals: Goals) -> StepTable:
     return StepTable(goals.task) if tracker is None else tracker.bank.table
 
 
-def run(belief: Any, resolver: Resolver, observed: Sequence[Words], method: str) -> Inference:
+def run(
+    belief: Any, resolver: Resolver, observed: Sequence[ObservedWords], method: str
+) -> Inference:
     """Return what a belief makes of observed actions, one after the other."""
     states = [belief.start()]
     ignored: list[Ignored] = []
@@ -127,14 +129,16 @@ def run(belief: Any, resolver: Resolver, observed: Sequence[Words], method: str)
         tuple(belief.names),
         tuple(f"({' '.join(words)})" for words in observed),
         tuple(tuple(belief.posterior(state).tolist()) for state in states),
-        tuple(Change(told[c.at][0], c.probability) for c in found_changes),
+        tuple(GoalChange(told[c.at][0], c.probability) for c in found_changes),
         tuple(ignored),
         method,
         getattr(states[-1], "note", None) or getattr(belief, "note", None),
     )
 
 
-def _load(source: str | Path | Bank | Goals) -> tuple[Bank | Goals, tuple[Words, ...] | None]:
+def _load(
+    source: str | Path | Bank | Goals,
+) -> tuple[Bank | Goals, tuple[ObservedWords, ...] | None]:
     """Return bank or goals, and the actions that are beside them."""
     if isinstance(source, (Bank, Goals)):
         return source, None
@@ -152,8 +156,8 @@ def _load(source: str | Path | Bank | Goals) -> tuple[Bank | Goals, tuple[Words,
 
 
 def _observed(
-    actions: str | Path | Sequence[Words] | None, beside: tuple[Words, ...] | None
-) -> tuple[Words, ...]:
+    actions: str | Path | Sequence[ObservedWords] | None, beside: tuple[ObservedWords, ...] | None
+) -> tuple[ObservedWords, ...]:
     if actions is None:
         if beside is None:
             hint = "a file with one action a line"

@@ -8,30 +8,30 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hrcplan.bank import Bank
+from hrcplan.bank.progress import Evidence, Progress, ProgressTracker
 from hrcplan.inference.belief import Floats, weights_to_posterior
 from hrcplan.inference.changes import (
     HAZARD,
     NEVER,
     SETTLES,
-    Change,
     ChangeFilter,
-    Filtered,
+    FilterState,
+    GoalChange,
 )
 from hrcplan.inference.exact import IMPOSSIBLE
-from hrcplan.inference.track import Evidence, Track, Tracker
 
 MISTAKE_RATES = (0.002, 0.1)
 
 
 @dataclass(frozen=True, slots=True)
-class Watched:
-    """The state of `Switching`: where everything stands, and the filter.
+class SwitchingState:
+    """The state of `SwitchingBelief`: where everything stands, and the filter.
 
     ``is_human`` says whether the last observation was a human step that told something.
     """
 
-    track: Track
-    filtered: Filtered
+    track: Progress
+    filtered: FilterState
     is_human: bool = False
     ignored: str | None = None
 
@@ -46,7 +46,7 @@ class Watched:
         return self.filtered.n_declared
 
 
-class Switching:
+class SwitchingBelief:
     """The posterior of the present goal; see DESIGN, "Beliefs".
 
     A step of the goal has likelihood (1 - p) over the number of steps that could come next in its
@@ -65,7 +65,7 @@ class Switching:
         mistake_rates: Sequence[float] = MISTAKE_RATES, never: float = NEVER,
         settles: float = SETTLES,
     ) -> None:  # fmt: skip
-        self.tracker = Tracker(bank)
+        self.tracker = ProgressTracker(bank)
         self.filter = ChangeFilter(len(bank.names), len(mistake_rates), hazard, never, settles)
         self.rates = np.array(mistake_rates)[:, None]
 
@@ -74,20 +74,20 @@ class Switching:
         """The goals' names, in order."""
         return self.tracker.bank.names
 
-    def start(self) -> Watched:
+    def start(self) -> SwitchingState:
         """Return the uniform belief in the initial state."""
-        return Watched(self.tracker.start, self.filter.start())
+        return SwitchingState(self.tracker.start, self.filter.start())
 
-    def observe(self, state: Watched, step: int, *, robot: bool = False) -> Watched:
+    def observe(self, state: SwitchingState, step: int, *, robot: bool = False) -> SwitchingState:
         """Return the belief after one more step; the robot's own steps are no evidence."""
         followed = self.tracker.follow(state.track, step)
         if followed is None:
             return replace(state, is_human=False, ignored=IMPOSSIBLE)
         moved, seen = followed
         if robot:
-            return Watched(moved, state.filtered)
+            return SwitchingState(moved, state.filtered)
         filtered = self.filter.step(state.filtered, self.likelihood(seen))
-        return Watched(moved, filtered, is_human=True)
+        return SwitchingState(moved, filtered, is_human=True)
 
     def likelihood(self, seen: Evidence) -> Floats:
         """Return the likelihood of a step, by mistake rate and goal."""
@@ -95,11 +95,11 @@ class Switching:
         found[:, seen.goals] = (1 - self.rates) / seen.n_next[seen.goals]
         return found
 
-    def posterior(self, state: Watched) -> Floats:
+    def posterior(self, state: SwitchingState) -> Floats:
         """Return the probability of each goal, in order."""
         return weights_to_posterior(self.filter.goals(state.filtered))
 
-    def changes(self, states: Sequence[Watched]) -> tuple[Change, ...]:
+    def changes(self, states: Sequence[SwitchingState]) -> tuple[GoalChange, ...]:
         """Return the changes that are probable once everything was seen.
 
         Args:

@@ -5,14 +5,15 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Iterator
 
+from hrcplan.core.text import nearest, nearest_name, quote
 from hrcplan.pddl.effects import read_effects
 from hrcplan.pddl.formulas import read_conditions, read_expression
 from hrcplan.pddl.model import DURATION, Action, Constant, Expr
 from hrcplan.pddl.parentheses import ACTIONS, PARTS
-from hrcplan.pddl.reader import Group, Node, Word
+from hrcplan.pddl.reader import GroupNode, ParseNode, WordNode
 from hrcplan.pddl.scope import Scope
 from hrcplan.pddl.semantics import Undefined, evaluate
-from hrcplan.pddl.source import SECTION_SIMILARITY, Source, nearest, nearest_name, quote
+from hrcplan.pddl.source import SECTION_SIMILARITY, SourceText
 from hrcplan.pddl.typed_lists import read_params
 
 _CLOSE = SECTION_SIMILARITY
@@ -20,11 +21,11 @@ _CLASSICAL = (":parameters", ":precondition", ":effect")
 _DURATIVE = (":parameters", ":duration", ":condition", ":effect")
 
 
-def read_actions(root: Group, scope: Scope) -> Iterator[tuple[Group, Action]]:
+def read_actions(root: GroupNode, scope: Scope) -> Iterator[tuple[GroupNode, Action]]:
     """Yield the actions of a domain with their trees; of two with one name the first."""
     seen: set[str] = set()
     for node in root[2:]:
-        if not isinstance(node, Group) or node.head not in ACTIONS:
+        if not isinstance(node, GroupNode) or node.head not in ACTIONS:
             continue
         action = _action(node, scope)
         if action is None:
@@ -37,9 +38,9 @@ def read_actions(root: Group, scope: Scope) -> Iterator[tuple[Group, Action]]:
             yield node, action
 
 
-def _action(node: Group, scope: Scope) -> Action | None:
+def _action(node: GroupNode, scope: Scope) -> Action | None:
     source = scope.source
-    if len(node) < 2 or not isinstance(node[1], Word) or node[1].startswith(":"):
+    if len(node) < 2 or not isinstance(node[1], WordNode) or node[1].startswith(":"):
         source.error(node.at, "no-name", "the action has no name")
         return None
     durative = node.head == ":durative-action"
@@ -51,7 +52,9 @@ def _action(node: Group, scope: Scope) -> Action | None:
         source.use(":durative-actions", node.at)
     condition = parts.get(":condition" if durative else ":precondition")
     effect = parts.get(":effect")
-    if effect is None or (isinstance(effect, Group) and effect[1:] == [] and effect.head in "and"):
+    if effect is None or (
+        isinstance(effect, GroupNode) and effect[1:] == [] and effect.head in "and"
+    ):
         source.warn(node.at, "no-effect", f"action {quote(node[1])} has no effect")
     return Action(
         name=str(node[1]),
@@ -65,17 +68,17 @@ def _action(node: Group, scope: Scope) -> Action | None:
     )
 
 
-def _parts(node: Group, source: Source, durative: bool) -> dict[str, Node]:
+def _parts(node: GroupNode, source: SourceText, durative: bool) -> dict[str, ParseNode]:
     known = _DURATIVE if durative else _CLASSICAL
-    found: dict[str, Node] = {}
+    found: dict[str, ParseNode] = {}
     rest = deque(node[2:])
     while rest:
         key = rest.popleft()
-        if isinstance(key, Group) or not (key[0] == ":" or nearest_name(key, known, _CLOSE)):
+        if isinstance(key, GroupNode) or not (key[0] == ":" or nearest_name(key, known, _CLOSE)):
             source.error(key.at, "stray-word", "a keyword such as :effect is expected here")
             continue
         name = _known_part(key, known, source)
-        if not rest or (isinstance(rest[0], Word) and rest[0].startswith(":")):
+        if not rest or (isinstance(rest[0], WordNode) and rest[0].startswith(":")):
             source.error(key.at, "missing-part", f"nothing follows {quote(key)}")
             continue
         value = rest.popleft()
@@ -86,7 +89,7 @@ def _parts(node: Group, source: Source, durative: bool) -> dict[str, Node]:
     return found
 
 
-def _known_part(key: Word, known: tuple[str, ...], source: Source) -> str | None:
+def _known_part(key: WordNode, known: tuple[str, ...], source: SourceText) -> str | None:
     """Return the part that a keyword names; a misspelt one is reported, yet understood."""
     if key in known:
         return str(key)
@@ -99,16 +102,18 @@ def _known_part(key: Word, known: tuple[str, ...], source: Source) -> str | None
     return nearest_name(key, known, _CLOSE)
 
 
-def _durations(node: Node | None, scope: Scope, action: Group) -> Iterator[tuple[str, Expr]]:
-    constraints = node[1:] if isinstance(node, Group) and node.head == "and" else [node]
+def _durations(
+    node: ParseNode | None, scope: Scope, action: GroupNode
+) -> Iterator[tuple[str, Expr]]:
+    constraints = node[1:] if isinstance(node, GroupNode) and node.head == "and" else [node]
     if node is None or not constraints:
         at = action.at if node is None else node.at
         scope.source.error(at, "no-duration", "a durative action needs a :duration")
         return
     for part in constraints:
         assert part is not None
-        inner = part[2] if _is_timed(part) and isinstance(part, Group) else part
-        if not _is_constraint(inner) or not isinstance(inner, Group):
+        inner = part[2] if _is_timed(part) and isinstance(part, GroupNode) else part
+        if not _is_constraint(inner) or not isinstance(inner, GroupNode):
             scope.source.error(part.at, "bad-duration", "(= ?duration …) is expected here")
             continue
         if inner.head != "=":
@@ -118,20 +123,20 @@ def _durations(node: Node | None, scope: Scope, action: Group) -> Iterator[tuple
         yield str(inner.head), value
 
 
-def _is_timed(node: Node) -> bool:
-    return isinstance(node, Group) and len(node) == 3 and node.head == "at"
+def _is_timed(node: ParseNode) -> bool:
+    return isinstance(node, GroupNode) and len(node) == 3 and node.head == "at"
 
 
-def _is_constraint(node: Node) -> bool:
+def _is_constraint(node: ParseNode) -> bool:
     return (
-        isinstance(node, Group)
+        isinstance(node, GroupNode)
         and len(node) == 3
         and node.head in ("=", "<=", ">=")
         and node[1] == DURATION
     )
 
 
-def _check_constant(node: Group, duration: Expr, source: Source) -> None:
+def _check_constant(node: GroupNode, duration: Expr, source: SourceText) -> None:
     """Report a duration that is below zero whatever the problem says."""
     try:
         value = evaluate(duration, {}, {})

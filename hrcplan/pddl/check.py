@@ -10,13 +10,14 @@ from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+from hrcplan.core.text import nearest, quote
 from hrcplan.errors import Diagnostic, InputError, PddlError
 from hrcplan.pddl import library
 from hrcplan.pddl.domain import read_domain
 from hrcplan.pddl.model import Domain, Note, Problem
 from hrcplan.pddl.problem import named_domain, read_problem
-from hrcplan.pddl.reader import Group, read
-from hrcplan.pddl.source import Source, in_order, nearest, quote, read_source
+from hrcplan.pddl.reader import GroupNode, read
+from hrcplan.pddl.source import SourceText, in_order, read_source
 
 _PROBLEM_SECTIONS = frozenset([":domain", ":objects", ":init", ":goal", ":metric"])
 
@@ -25,8 +26,8 @@ _PROBLEM_SECTIONS = frozenset([":domain", ":objects", ":init", ":goal", ":metric
 class _File:
     """One file on its way through the check."""
 
-    source: Source
-    root: Group | None
+    source: SourceText
+    root: GroupNode | None
     kind: str
     domain: Domain | None = None
     problem: Problem | None = None
@@ -94,7 +95,7 @@ def load_domain(path: str | Path) -> Domain:
     return domain_in(read_source(path))
 
 
-def domain_in(source: Source) -> Domain:
+def domain_in(source: SourceText) -> Domain:
     """Return the domain in a text.
 
     Raises:
@@ -118,7 +119,7 @@ def load_problem(domain: Domain, path: str | Path) -> Problem:
     return problem_in(domain, read_source(path))
 
 
-def problem_in(domain: Domain, source: Source) -> Problem:
+def problem_in(domain: Domain, source: SourceText) -> Problem:
     """Return the problem in a text, read against its domain.
 
     Raises:
@@ -134,7 +135,7 @@ def problem_in(domain: Domain, source: Source) -> Problem:
     return file.problem
 
 
-def _raise_errors(source: Source) -> None:
+def _raise_errors(source: SourceText) -> None:
     if source.has_errors:
         raise PddlError(in_order(source.diagnostics))
 
@@ -148,12 +149,12 @@ def _open(path: str | Path) -> _File:
     try:
         return _read(read_source(path))
     except InputError as error:
-        source = Source(str(path), "")
+        source = SourceText(str(path), "")
         source.error(0, error.code, error.message, error.hint)
         return _File(source, None, "unknown")
 
 
-def _read(source: Source) -> _File:
+def _read(source: SourceText) -> _File:
     """Return a file with its tree; a domain is read at once, a problem waits for its domain."""
     root = read(source)
     kind = "unknown" if root is None else _kind(root)
@@ -163,13 +164,13 @@ def _read(source: Source) -> _File:
     return file
 
 
-def _kind(root: Group) -> str:
+def _kind(root: GroupNode) -> str:
     """Return ``domain`` or ``problem``: what the file says, else what its sections suggest."""
     heading = root[1] if len(root) > 1 else None
-    head = heading.head if isinstance(heading, Group) else ""
+    head = heading.head if isinstance(heading, GroupNode) else ""
     if head in ("domain", "problem"):
         return str(head)
-    sections = {node.head for node in root if isinstance(node, Group)}
+    sections = {node.head for node in root if isinstance(node, GroupNode)}
     return "domain" if sections.isdisjoint(_PROBLEM_SECTIONS) else "problem"
 
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from hrcplan.core.text import quote
 from hrcplan.pddl.model import (
     TOTAL_COST,
     Action,
@@ -18,8 +19,8 @@ from hrcplan.pddl.model import (
     Problem,
     functions_in,
 )
-from hrcplan.pddl.reader import Group, Node
-from hrcplan.pddl.source import Source, quote
+from hrcplan.pddl.reader import GroupNode, ParseNode
+from hrcplan.pddl.source import SourceText
 
 AGENT = "agent"
 ROBOT = "robot"
@@ -33,7 +34,14 @@ def robots(problem: Problem) -> frozenset[str]:
     return marked or frozenset({ROBOT}.intersection(problem.agents))
 
 
-def check_domain(domain: Domain, actions: Sequence[tuple[Group, Action]], source: Source) -> None:
+def people(problem: Problem) -> frozenset[str]:
+    """Return the agents that take no commands: all that are not robots."""
+    return frozenset(problem.agents) - robots(problem)
+
+
+def check_domain(
+    domain: Domain, actions: Sequence[tuple[GroupNode, Action]], source: SourceText
+) -> None:
     """Warn about actions without an agent, and about changes that no interaction makes."""
     if AGENT not in domain.types:
         return
@@ -50,7 +58,7 @@ def check_domain(domain: Domain, actions: Sequence[tuple[Group, Action]], source
                 source.warn(at, "agent-state-change", message, hint)
 
 
-def check_problem(problem: Problem, at: int, source: Source) -> None:
+def check_problem(problem: Problem, at: int, source: SourceText) -> None:
     """Warn, at the offset of ``:init``, if agents are there and none of them is the robot."""
     if problem.agents and not robots(problem):
         message = f"no agent is marked ({CONTROLLABLE} …) and none is called '{ROBOT}'"
@@ -85,21 +93,21 @@ def _is_odd_change(effect: Effect, states: frozenset[str]) -> bool:
     return changes and effect.kind not in _INTERACTIONS
 
 
-def _place(node: Node, effect: Effect) -> int | None:
+def _place(node: ParseNode, effect: Effect) -> int | None:
     """Return the offset of the first tree below ``node`` that changes what the effect does."""
     found = (
         group.at
         for group in _groups(node)
         if group.head == effect.kind
         and len(group) > 1
-        and isinstance(group[1], Group)
+        and isinstance(group[1], GroupNode)
         and group[1].head == effect.target.name
     )
     return next(found, None)
 
 
-def _groups(node: Node) -> Iterator[Group]:
-    if isinstance(node, Group):
+def _groups(node: ParseNode) -> Iterator[GroupNode]:
+    if isinstance(node, GroupNode):
         yield node
         for part in node:
             yield from _groups(part)

@@ -5,15 +5,16 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 
+from hrcplan.core.text import nearest, nearest_name, quote
 from hrcplan.pddl import conventions
 from hrcplan.pddl.actions import read_actions
+from hrcplan.pddl.annotations import read_notes
 from hrcplan.pddl.model import OBJECT, Domain, Signature
-from hrcplan.pddl.notes import read_notes
 from hrcplan.pddl.parentheses import ACTIONS
-from hrcplan.pddl.reader import Group, Node, Word
+from hrcplan.pddl.reader import GroupNode, ParseNode, WordNode
 from hrcplan.pddl.requirements import check_requirements, read_requirements
 from hrcplan.pddl.scope import Scope
-from hrcplan.pddl.source import SECTION_SIMILARITY, Source, nearest, nearest_name, quote
+from hrcplan.pddl.source import SECTION_SIMILARITY, SourceText
 from hrcplan.pddl.typed_lists import Entry, params_of, read_typed
 
 _UNSUPPORTED = {
@@ -26,7 +27,7 @@ _UNSUPPORTED = {
 _SECTIONS = (":requirements", ":types", ":constants", ":predicates", ":functions", *ACTIONS)
 
 
-def read_domain(root: Group, source: Source) -> Domain:
+def read_domain(root: GroupNode, source: SourceText) -> Domain:
     """Return the domain that a ``(define (domain …) …)`` tree describes."""
     name = declared_name(root, "domain", source)
     sections = dict(sections_of(root, source, _SECTIONS))
@@ -53,7 +54,9 @@ def read_domain(root: Group, source: Source) -> Domain:
     return domain
 
 
-def sections_of(root: Group, source: Source, known: Sequence[str]) -> Iterator[tuple[str, Group]]:
+def sections_of(
+    root: GroupNode, source: SourceText, known: Sequence[str]
+) -> Iterator[tuple[str, GroupNode]]:
     """Yield the sections of a file by name, reporting unknown, unsupported and repeated ones.
 
     A misspelt section is reported and then read as the one that was meant.
@@ -61,7 +64,7 @@ def sections_of(root: Group, source: Source, known: Sequence[str]) -> Iterator[t
     seen: set[str] = set()
     for node in root[2:]:
         name = _section_name(node, source, known)
-        if name is None or isinstance(node, Word):
+        if name is None or isinstance(node, WordNode):
             continue
         if name in seen and name not in ACTIONS:
             source.error(node.at, "repeated-section", f"a second {name} section")
@@ -70,9 +73,9 @@ def sections_of(root: Group, source: Source, known: Sequence[str]) -> Iterator[t
             yield name, node
 
 
-def _section_name(node: Node, source: Source, known: Sequence[str]) -> str | None:
-    name = node.head if isinstance(node, Group) else ""
-    if isinstance(node, Word) or not name:
+def _section_name(node: ParseNode, source: SourceText, known: Sequence[str]) -> str | None:
+    name = node.head if isinstance(node, GroupNode) else ""
+    if isinstance(node, WordNode) or not name:
         source.error(node.at, "stray-word", "a section such as (:init …) is expected here")
     elif name in known:
         return name
@@ -90,24 +93,24 @@ def _section_name(node: Node, source: Source, known: Sequence[str]) -> str | Non
     return None
 
 
-def _renamed(word: Node, name: str) -> Word:
-    renamed = Word(name)
+def _renamed(word: ParseNode, name: str) -> WordNode:
+    renamed = WordNode(name)
     renamed.at = word.at
     return renamed
 
 
-def declared_name(root: Group, kind: str, source: Source) -> str:
+def declared_name(root: GroupNode, kind: str, source: SourceText) -> str:
     """Return the NAME of ``(domain NAME)`` or ``(problem NAME)``."""
     node = root[1] if len(root) > 1 else root
-    name = node[1] if isinstance(node, Group) and len(node) == 2 and node.head == kind else None
-    if isinstance(name, Word):
+    name = node[1] if isinstance(node, GroupNode) and len(node) == 2 and node.head == kind else None
+    if isinstance(name, WordNode):
         return str(name)
     source.error(node.at, "no-name", f"({kind} NAME) is expected here")
     return ""
 
 
 def read_objects(
-    section: Group | None, source: Source, types: Collection[str], known: Mapping[str, str]
+    section: GroupNode | None, source: SourceText, types: Collection[str], known: Mapping[str, str]
 ) -> dict[str, str]:
     """Return the objects of an ``:objects`` or ``:constants`` section with their types."""
     found: dict[str, str] = {}
@@ -123,7 +126,7 @@ def read_objects(
     return found
 
 
-def _types(section: Group | None, source: Source) -> dict[str, tuple[str, ...]]:
+def _types(section: GroupNode | None, source: SourceText) -> dict[str, tuple[str, ...]]:
     nodes = section[1:] if section else []
     found: dict[str, tuple[str, ...]] = {}
     entries = list(read_typed(nodes, source, _declared(nodes)))
@@ -136,13 +139,13 @@ def _types(section: Group | None, source: Source) -> dict[str, tuple[str, ...]]:
     return found
 
 
-def _declared(nodes: Sequence[Node]) -> set[str]:
+def _declared(nodes: Sequence[ParseNode]) -> set[str]:
     """Return the names that a typed list declares, without reporting its faults twice."""
-    return {str(name) for name, _ in read_typed(nodes, Source("", ""))}
+    return {str(name) for name, _ in read_typed(nodes, SourceText("", ""))}
 
 
 def _report_cycles(
-    types: dict[str, tuple[str, ...]], entries: Sequence[Entry], source: Source
+    types: dict[str, tuple[str, ...]], entries: Sequence[Entry], source: SourceText
 ) -> None:
     """Report the types that are left when those with only settled types above are taken away."""
     settled: set[str] = set()
@@ -178,15 +181,15 @@ def _is_own_ancestor(name: str, types: dict[str, tuple[str, ...]]) -> bool:
 
 
 def _signatures(
-    section: Group | None, source: Source, types: Collection[str], kind: str
+    section: GroupNode | None, source: SourceText, types: Collection[str], kind: str
 ) -> dict[str, Signature]:
     found: dict[str, Signature] = {}
     for node in _without_result_types(section, source):
-        if not isinstance(node, Group) or not node.head:
+        if not isinstance(node, GroupNode) or not node.head:
             source.error(node.at, f"bad-{kind}", f"a {kind} such as (name ?x - type) is expected")
             continue
         name = node[0]
-        assert isinstance(name, Word)
+        assert isinstance(name, WordNode)
         params = params_of(node[1:], source, types)
         if name in found:
             source.error(name.at, f"duplicate-{kind}", f"{kind} {quote(name)} is declared twice")
@@ -195,7 +198,7 @@ def _signatures(
     return found
 
 
-def _without_result_types(section: Group | None, source: Source) -> Iterator[Node]:
+def _without_result_types(section: GroupNode | None, source: SourceText) -> Iterator[ParseNode]:
     """Yield declarations, skipping the ``- number`` that may follow functions."""
     nodes = iter(section[1:] if section else ())
     for node in nodes:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
+from hrcplan.core.text import quote
 from hrcplan.pddl.formulas import (
     COMPARISONS,
     has_parts,
@@ -16,18 +17,17 @@ from hrcplan.pddl.formulas import (
     time_of,
 )
 from hrcplan.pddl.model import TOTAL_COST, TRUE, And, Effect
-from hrcplan.pddl.reader import Group, Node
+from hrcplan.pddl.reader import GroupNode, ParseNode
 from hrcplan.pddl.scope import Scope
-from hrcplan.pddl.source import quote
 from hrcplan.pddl.typed_lists import read_params
 
 ASSIGNMENTS = frozenset(["assign", "increase", "decrease", "scale-up", "scale-down"])
 _NO_EFFECTS = COMPARISONS | {"or", "imply", "exists", "not", "over"}
 
 
-def read_effects(node: Node, scope: Scope, when: str | None) -> Iterator[Effect]:
+def read_effects(node: ParseNode, scope: Scope, when: str | None) -> Iterator[Effect]:
     """Yield the effects of an action; ``when`` is None where a durative one must still say it."""
-    if not isinstance(node, Group) or (node and not node.head):
+    if not isinstance(node, GroupNode) or (node and not node.head):
         scope.source.error(node.at, "not-an-effect", "an effect such as (p ?x) is expected here")
         return
     timed = time_of(node) if when is None else None
@@ -54,7 +54,7 @@ def read_effects(node: Node, scope: Scope, when: str | None) -> Iterator[Effect]
             yield from _literal(node, scope, when)
 
 
-def _report_no_time(node: Group, scope: Scope) -> None:
+def _report_no_time(node: GroupNode, scope: Scope) -> None:
     if node.head in ASSIGNMENTS and _mentions(node, "#t"):
         scope.source.error(node.at, "unsupported", "continuous effects (#t) are not supported")
     else:
@@ -62,13 +62,13 @@ def _report_no_time(node: Group, scope: Scope) -> None:
         scope.source.error(node.at, "no-time", message)
 
 
-def _mentions(node: Node, word: str) -> bool:
-    if isinstance(node, Group):
+def _mentions(node: ParseNode, word: str) -> bool:
+    if isinstance(node, GroupNode):
         return any(_mentions(part, word) for part in node)
     return node == word
 
 
-def _for_all(node: Group, scope: Scope, when: str | None) -> Iterator[Effect]:
+def _for_all(node: GroupNode, scope: Scope, when: str | None) -> Iterator[Effect]:
     if not has_parts(node, 2, scope):
         return
     scope.source.use(":conditional-effects", node.at)
@@ -77,7 +77,7 @@ def _for_all(node: Group, scope: Scope, when: str | None) -> Iterator[Effect]:
         yield replace(effect, params=params + effect.params)
 
 
-def _conditional(node: Group, scope: Scope, when: str | None) -> Iterator[Effect]:
+def _conditional(node: GroupNode, scope: Scope, when: str | None) -> Iterator[Effect]:
     if not has_parts(node, 2, scope):
         return
     scope.source.use(":conditional-effects", node.at)
@@ -96,12 +96,12 @@ def _conditional(node: Group, scope: Scope, when: str | None) -> Iterator[Effect
         yield replace(effect, given=both)
 
 
-def _literal(node: Group, scope: Scope, when: str) -> Iterator[Effect]:
-    inner: Node = node
+def _literal(node: GroupNode, scope: Scope, when: str) -> Iterator[Effect]:
+    inner: ParseNode = node
     if node.head == "not" and len(node) == 2:
         inner = node[1]
-    if not isinstance(inner, Group) or not inner.head or inner.head in _NO_EFFECTS:
-        word = f"{quote(inner.head)} cannot be an effect" if isinstance(inner, Group) else ""
+    if not isinstance(inner, GroupNode) or not inner.head or inner.head in _NO_EFFECTS:
+        word = f"{quote(inner.head)} cannot be an effect" if isinstance(inner, GroupNode) else ""
         message = word or "'not' takes one predicate in an effect"
         scope.source.error(inner.at, "not-an-effect", message)
         return
@@ -110,7 +110,7 @@ def _literal(node: Group, scope: Scope, when: str) -> Iterator[Effect]:
         yield Effect(when, "add" if inner is node else "delete", atom)
 
 
-def _assignment(node: Group, scope: Scope, when: str) -> Iterator[Effect]:
+def _assignment(node: GroupNode, scope: Scope, when: str) -> Iterator[Effect]:
     if not has_parts(node, 2, scope):
         return
     value = read_expression(node[2], scope)

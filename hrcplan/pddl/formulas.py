@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from hrcplan.core.text import plural, quote
 from hrcplan.pddl.model import (
     DURATION,
     TRUE,
@@ -21,9 +22,8 @@ from hrcplan.pddl.model import (
     Or,
     Quantified,
 )
-from hrcplan.pddl.reader import Group, Node, Word
+from hrcplan.pddl.reader import GroupNode, ParseNode, WordNode
 from hrcplan.pddl.scope import Scope, looks_numeric, to_number
-from hrcplan.pddl.source import plural, quote
 from hrcplan.pddl.typed_lists import read_params
 
 COMPARISONS = frozenset(["<", "<=", "=", ">=", ">"])
@@ -46,9 +46,9 @@ UNSUPPORTED = {
 _TIMES = {("at", "start"): "start", ("at", "end"): "end", ("over", "all"): "all"}
 
 
-def read_formula(node: Node, scope: Scope) -> Formula:
+def read_formula(node: ParseNode, scope: Scope) -> Formula:
     """Return the condition that a tree stands for; a faulty part becomes ``TRUE``."""
-    if isinstance(node, Word) or (node and not node.head):
+    if isinstance(node, WordNode) or (node and not node.head):
         scope.source.error(node.at, "not-a-condition", "a condition such as (p ?x) is expected")
         return TRUE
     match node.head:
@@ -70,7 +70,7 @@ def read_formula(node: Node, scope: Scope) -> Formula:
     return read_atom(node, scope) or TRUE
 
 
-def read_atom(node: Group, scope: Scope) -> Atom | None:
+def read_atom(node: GroupNode, scope: Scope) -> Atom | None:
     """Return a predicate with its arguments, or None if anything about it is wrong."""
     if is_unsupported(node, scope):
         return None
@@ -79,7 +79,7 @@ def read_atom(node: Group, scope: Scope) -> Atom | None:
         scope.source.error(node.at, "unexpected-time", message)
         return None
     head = node[0]
-    assert isinstance(head, Word)
+    assert isinstance(head, WordNode)
     signature = scope.signature(head, "predicate")
     if signature is None:
         _check_terms(node, scope)
@@ -88,7 +88,7 @@ def read_atom(node: Group, scope: Scope) -> Atom | None:
     return None if args is None else Atom(str(head), args)
 
 
-def is_unsupported(node: Group, scope: Scope) -> bool:
+def is_unsupported(node: GroupNode, scope: Scope) -> bool:
     """Report a construct that hrcplan does not know, unless its word is a predicate here."""
     if node.head not in UNSUPPORTED or node.head in scope.domain.predicates:
         return False
@@ -96,38 +96,38 @@ def is_unsupported(node: Group, scope: Scope) -> bool:
     return True
 
 
-def read_conditions(node: Node, scope: Scope, durative: bool) -> Iterator[Condition]:
+def read_conditions(node: ParseNode, scope: Scope, durative: bool) -> Iterator[Condition]:
     """Yield the conditions of an action; those of a durative one say ``at`` or ``over`` when."""
     if not durative:
         yield Condition("start", read_formula(node, scope))
-    elif isinstance(node, Group) and node.head == "and":
+    elif isinstance(node, GroupNode) and node.head == "and":
         for part in node[1:]:
             yield from read_conditions(part, scope, durative)
-    elif isinstance(node, Group) and node.head == "forall" and len(node) == 3:
+    elif isinstance(node, GroupNode) and node.head == "forall" and len(node) == 3:
         scope.source.use(":universal-preconditions", node.at)
         params = read_params(node[1], scope)
         for inner in read_conditions(node[2], scope.binding(params), durative):
             yield Condition(inner.when, Quantified(True, params, inner.formula))
     elif (timed := time_of(node)) is not None:
         yield Condition(timed[0], read_formula(timed[1], scope))
-    elif not (isinstance(node, Group) and (not node or is_unsupported(node, scope))):
+    elif not (isinstance(node, GroupNode) and (not node or is_unsupported(node, scope))):
         message = "a durative condition needs (at start …), (over all …) or (at end …)"
         scope.source.error(node.at, "no-time", message)
 
 
-def time_of(node: Node) -> tuple[str, Node] | None:
+def time_of(node: ParseNode) -> tuple[str, ParseNode] | None:
     """Return ``start``, ``end`` or ``all`` and what holds then; None if the node says neither."""
-    if not isinstance(node, Group) or len(node) != 3:
+    if not isinstance(node, GroupNode) or len(node) != 3:
         return None
     first, second, body = node
-    if isinstance(first, Word) and isinstance(second, Word) and (first, second) in _TIMES:
+    if isinstance(first, WordNode) and isinstance(second, WordNode) and (first, second) in _TIMES:
         return _TIMES[first, second], body
     return None
 
 
-def read_expression(node: Node, scope: Scope) -> Expr:
+def read_expression(node: ParseNode, scope: Scope) -> Expr:
     """Return a numeric expression; a faulty part becomes 0."""
-    if isinstance(node, Word):
+    if isinstance(node, WordNode):
         return _number_or_name(node, scope)
     if node.head in ARITHMETIC and node.head:
         return _arithmetic(node, scope)
@@ -139,17 +139,17 @@ def read_expression(node: Node, scope: Scope) -> Expr:
     return Constant(0)
 
 
-def read_function(node: Node, scope: Scope) -> Function | None:
+def read_function(node: ParseNode, scope: Scope) -> Function | None:
     """Return a function with its arguments, or None if anything about it is wrong.
 
     A bare word stands for a function without arguments.
     """
-    if isinstance(node, Word):
-        alone = Group(node.at)
+    if isinstance(node, WordNode):
+        alone = GroupNode(node.at)
         alone.append(node)
         node = alone
     head = node[0] if node else node
-    if not isinstance(head, Word):
+    if not isinstance(head, WordNode):
         scope.source.error(node.at, "not-a-function", "a function such as (f ?x) is expected here")
         return None
     if is_unsupported(node, scope):
@@ -162,16 +162,16 @@ def read_function(node: Node, scope: Scope) -> Function | None:
     return None if args is None else Function(str(head), args)
 
 
-def _arithmetic(node: Group, scope: Scope) -> Expr:
+def _arithmetic(node: GroupNode, scope: Scope) -> Expr:
     parts = tuple(read_expression(part, scope) for part in node[1:])
     if not parts:
         scope.source.error(node.at, "wrong-arity", f"{quote(node.head)} needs operands")
-    elif node.head == "/" and any(isinstance(n, Word) and to_number(n) == 0 for n in node[2:]):
+    elif node.head == "/" and any(isinstance(n, WordNode) and to_number(n) == 0 for n in node[2:]):
         scope.source.error(node.at, "bad-number", "division by zero")
     return Arithmetic(str(node.head), parts)
 
 
-def has_parts(node: Group, n_parts: int, scope: Scope) -> bool:
+def has_parts(node: GroupNode, n_parts: int, scope: Scope) -> bool:
     """Whether a group has ``n_parts`` elements after its head; if not, that is an error."""
     if len(node) == n_parts + 1:
         return True
@@ -180,7 +180,7 @@ def has_parts(node: Group, n_parts: int, scope: Scope) -> bool:
     return False
 
 
-def _number_or_name(word: Word, scope: Scope) -> Expr:
+def _number_or_name(word: WordNode, scope: Scope) -> Expr:
     value = to_number(word)
     if value is not None:
         return Constant(value)
@@ -199,7 +199,7 @@ def _number_or_name(word: Word, scope: Scope) -> Expr:
     return Constant(0)
 
 
-def _negation(node: Group, scope: Scope) -> Formula:
+def _negation(node: GroupNode, scope: Scope) -> Formula:
     if not has_parts(node, 1, scope):
         return TRUE
     body = read_formula(node[1], scope)
@@ -208,14 +208,14 @@ def _negation(node: Group, scope: Scope) -> Formula:
     return Not(body)
 
 
-def _implication(node: Group, scope: Scope) -> Formula:
+def _implication(node: GroupNode, scope: Scope) -> Formula:
     if not has_parts(node, 2, scope):
         return TRUE
     scope.source.use(":disjunctive-preconditions", node.at)
     return Or((Not(read_formula(node[1], scope)), read_formula(node[2], scope)))
 
 
-def _quantified(node: Group, scope: Scope) -> Formula:
+def _quantified(node: GroupNode, scope: Scope) -> Formula:
     if not has_parts(node, 2, scope):
         return TRUE
     universal = node.head == "forall"
@@ -225,29 +225,29 @@ def _quantified(node: Group, scope: Scope) -> Formula:
     return Quantified(universal, params, read_formula(node[2], scope.binding(params)))
 
 
-def _comparison(node: Group, scope: Scope) -> Formula:
+def _comparison(node: GroupNode, scope: Scope) -> Formula:
     if not has_parts(node, 2, scope):
         return TRUE
     left, right = node[1], node[2]
     if node.head == "=" and _is_term(left, scope) and _is_term(right, scope):
         scope.source.use(":equality", node.at)
         for term in (left, right):
-            assert isinstance(term, Word)
+            assert isinstance(term, WordNode)
             scope.types_of(term)
         return Equal(str(left), str(right))
     scope.source.use(":numeric-fluents", node.at)
     return Compare(str(node.head), read_expression(left, scope), read_expression(right, scope))
 
 
-def _is_term(node: Node, scope: Scope) -> bool:
+def _is_term(node: ParseNode, scope: Scope) -> bool:
     """Whether a word can only be a variable or object, known or not."""
-    if not isinstance(node, Word) or node == DURATION:
+    if not isinstance(node, WordNode) or node == DURATION:
         return False
     return node in scope.objects or not (looks_numeric(node) or node in scope.domain.functions)
 
 
-def _check_terms(node: Group, scope: Scope) -> None:
+def _check_terms(node: GroupNode, scope: Scope) -> None:
     """Look at the arguments of an unknown name: they may hold faults of their own."""
     for term in node[1:]:
-        if isinstance(term, Word):
+        if isinstance(term, WordNode):
             scope.types_of(term)

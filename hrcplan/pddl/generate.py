@@ -10,7 +10,7 @@ from hrcplan.pddl.formulas import read_formula
 from hrcplan.pddl.model import And, Atom, Equal, Fact, Formula, Not, Or, Problem, Quantified
 from hrcplan.pddl.reader import read_nodes
 from hrcplan.pddl.scope import Scope
-from hrcplan.pddl.source import Source, in_order
+from hrcplan.pddl.source import SourceText, in_order
 
 
 def with_goal(problem: Problem, goal: str, name: str) -> Problem:
@@ -19,7 +19,7 @@ def with_goal(problem: Problem, goal: str, name: str) -> Problem:
     Raises:
         PddlError: with every fault of the goal; its path is ``<goal>``.
     """
-    source = Source("<goal>", goal)
+    source = SourceText("<goal>", goal)
     nodes = read_nodes(source)
     if len(nodes) != 1:
         at = nodes[1].at if nodes else 0

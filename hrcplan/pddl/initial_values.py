@@ -12,6 +12,7 @@ from functools import cached_property
 from itertools import islice, product
 from math import prod
 
+from hrcplan.core.text import quote
 from hrcplan.pddl.joins import FactIndex, Join, conjuncts, needed_atoms
 from hrcplan.pddl.model import (
     DURATION,
@@ -37,8 +38,16 @@ from hrcplan.pddl.model import (
     formula_functions,
     functions_in,
 )
-from hrcplan.pddl.semantics import Binding, State, Undefined, evaluate, ground_key, holds, instances
-from hrcplan.pddl.source import Source, quote
+from hrcplan.pddl.semantics import (
+    Binding,
+    LiftedState,
+    Undefined,
+    evaluate,
+    ground_key,
+    holds,
+    instances,
+)
+from hrcplan.pddl.source import SourceText
 
 MAX_BINDINGS = 20_000  # looked at per action; beyond that a gap is found when the task is grounded
 MAX_REPORTS = 20
@@ -46,7 +55,7 @@ _SPECIAL = frozenset([DURATION, TOTAL_COST, TOTAL_TIME])
 
 
 def check_values(
-    problem: Problem, at: int, places: Mapping[FluentKey, int], source: Source
+    problem: Problem, at: int, places: Mapping[FluentKey, int], source: SourceText
 ) -> None:
     """Report functions without a value, and durations below zero.
 
@@ -91,8 +100,8 @@ class _Checker:
         return FactIndex(fact for fact in self.problem.facts if fact[0] not in self.changed)
 
     @cached_property
-    def state(self) -> State:
-        return State(self.static.facts, self.problem.values)
+    def state(self) -> LiftedState:
+        return LiftedState(self.static.facts, self.problem.values)
 
     def unset(self) -> Iterator[tuple[FluentKey, str]]:
         """Yield functions without a value, and who needs them; some more than once."""

@@ -18,7 +18,7 @@ from hrcplan.pddl.model import (
     formula_functions,
 )
 
-Binding = dict[str, str]
+JoinBinding = dict[str, str]
 
 
 class FactIndex:
@@ -64,7 +64,7 @@ class Join:
 
     def bindings(
         self, index: FactIndex, first: tuple[int, Fact] | None = None
-    ) -> Iterator[Binding]:
+    ) -> Iterator[JoinBinding]:
         """Yield every binding whose atoms are all in ``index``.
 
         With ``first = (i, fact)`` only those that match atom ``i`` with that fact.
@@ -79,8 +79,8 @@ class Join:
             yield from self._extend(binding, rest, index)
 
     def _extend(
-        self, binding: Binding, atoms: tuple[Atom, ...], index: FactIndex
-    ) -> Iterator[Binding]:
+        self, binding: JoinBinding, atoms: tuple[Atom, ...], index: FactIndex
+    ) -> Iterator[JoinBinding]:
         if not atoms:
             yield from self._free(binding)
             return
@@ -92,7 +92,7 @@ class Join:
             if wider is not None:
                 yield from self._extend(wider, rest, index)
 
-    def _free(self, binding: Binding) -> Iterator[Binding]:
+    def _free(self, binding: JoinBinding) -> Iterator[JoinBinding]:
         missing = next((p.name for p in self.action.params if p.name not in binding), None)
         if missing is None:
             yield binding
@@ -100,7 +100,7 @@ class Join:
         for value in self._objects[missing]:
             yield from self._free({**binding, missing: value})
 
-    def _match(self, atom: Atom, fact: Fact, binding: Binding) -> Binding | None:
+    def _match(self, atom: Atom, fact: Fact, binding: JoinBinding) -> JoinBinding | None:
         """Return the binding with the variables of an atom bound to a fact; None if it differs."""
         wider = binding
         for position, term in enumerate(atom.args, start=1):

@@ -9,8 +9,8 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+from hrcplan.core.text import nearest
 from hrcplan.errors import InputError
-from hrcplan.pddl.source import nearest
 
 _PACKAGE = Path(__file__).resolve().parent.parent
 _HEADING = 100_000  # characters: comments may come first

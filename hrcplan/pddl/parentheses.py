@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from hrcplan.pddl.source import Source
+from hrcplan.pddl.source import SourceText
 
 Token = tuple[str, int]
 """A parenthesis or a word, and its offset."""
@@ -87,7 +87,7 @@ class _Open:
         return self.size > (self.head in _ONE) + 2 * (self.head in _TWO)
 
 
-def mend(tokens: Sequence[Token], source: Source) -> list[Token]:
+def mend(tokens: Sequence[Token], source: SourceText) -> list[Token]:
     """Return the tokens with every ``(`` closed and no ``)`` too many; faults go to ``source``."""
     mended: list[Token] = []
     around: list[_Open] = []  # groups that are open across landmarks
@@ -134,7 +134,7 @@ def _landmarks(tokens: Sequence[Token]) -> Iterator[tuple[int, int, int]]:
 class _Repair:
     """One stretch that does not come out even, token by token."""
 
-    def __init__(self, stretch: _Stretch, around: Sequence[_Open], source: Source) -> None:
+    def __init__(self, stretch: _Stretch, around: Sequence[_Open], source: SourceText) -> None:
         self.stretch = stretch
         self.around = around
         self.source = source

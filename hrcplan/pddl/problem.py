@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from hrcplan.core.text import nearest, quote
+from hrcplan.pddl.annotations import refuse_notes
 from hrcplan.pddl.conventions import check_problem
 from hrcplan.pddl.domain import declared_name, read_objects, sections_of
 from hrcplan.pddl.formulas import read_atom, read_expression, read_formula, read_function
@@ -17,25 +19,24 @@ from hrcplan.pddl.model import (
     Number,
     Problem,
 )
-from hrcplan.pddl.notes import refuse_notes
-from hrcplan.pddl.reader import Group, Node, Word
+from hrcplan.pddl.reader import GroupNode, ParseNode, WordNode
 from hrcplan.pddl.requirements import check_requirements, read_requirements
 from hrcplan.pddl.scope import Scope, to_number
-from hrcplan.pddl.source import Source, nearest, quote
+from hrcplan.pddl.source import SourceText
 
 _SECTIONS = (":domain", ":requirements", ":objects", ":init", ":goal", ":metric")
 _LOGIC = frozenset(["and", "or", "imply", "forall", "exists", "when"])
 
 
-def named_domain(root: Group) -> Word | None:
+def named_domain(root: GroupNode) -> WordNode | None:
     """Return the domain's name that a problem tree gives, or None if it gives none."""
     for node in root:
-        if isinstance(node, Group) and node.head == ":domain" and len(node) == 2:
-            return node[1] if isinstance(node[1], Word) else None
+        if isinstance(node, GroupNode) and node.head == ":domain" and len(node) == 2:
+            return node[1] if isinstance(node[1], WordNode) else None
     return None
 
 
-def read_problem(root: Group, source: Source, domain: Domain) -> Problem:
+def read_problem(root: GroupNode, source: SourceText, domain: Domain) -> Problem:
     """Return the problem that a ``(define (problem …) …)`` tree describes."""
     name = declared_name(root, "problem", source)
     sections = dict(sections_of(root, source, _SECTIONS))
@@ -68,7 +69,7 @@ def read_problem(root: Group, source: Source, domain: Domain) -> Problem:
     return problem
 
 
-def _check_domain(root: Group, source: Source, domain: Domain) -> None:
+def _check_domain(root: GroupNode, source: SourceText, domain: Domain) -> None:
     name = named_domain(root)
     if name is None:
         source.error(root.at, "no-domain", "the problem does not say its (:domain NAME)")
@@ -86,9 +87,9 @@ class _Init:
         self.values: dict[FluentKey, Number] = {}
         self.places: dict[FluentKey, int] = {}
 
-    def take(self, node: Node) -> None:
+    def take(self, node: ParseNode) -> None:
         source = self.scope.source
-        if isinstance(node, Word) or not node.head or node.head in _LOGIC:
+        if isinstance(node, WordNode) or not node.head or node.head in _LOGIC:
             source.error(node.at, "not-a-fact", "a fact such as (p a b) is expected here")
         elif node.head == "=":
             self._value(node)
@@ -99,7 +100,7 @@ class _Init:
         else:
             self._fact(node)
 
-    def _fact(self, node: Group) -> None:
+    def _fact(self, node: GroupNode) -> None:
         atom = read_atom(node, self.scope)
         if atom is not None:
             fact = (atom.name, *atom.args)
@@ -108,23 +109,23 @@ class _Init:
                 self.scope.source.warn(node.at, "duplicate-fact", message)
             self.facts.add(fact)
 
-    def _negated(self, node: Group) -> None:
+    def _negated(self, node: GroupNode) -> None:
         inner = node[1] if len(node) == 2 else None
-        if isinstance(inner, Group) and inner.head:
+        if isinstance(inner, GroupNode) and inner.head:
             read_atom(inner, self.scope)
         else:
             self.scope.source.error(node.at, "not-a-fact", "(not (p a b)) is expected here")
 
-    def _value(self, node: Group) -> None:
+    def _value(self, node: GroupNode) -> None:
         source = self.scope.source
         if len(node) != 3:
             source.error(node.at, "not-a-fact", "(= (f a) NUMBER) is expected here")
             return
         function = read_function(node[1], self.scope)
         spelled = node[2]
-        value = to_number(spelled) if isinstance(spelled, Word) else None
+        value = to_number(spelled) if isinstance(spelled, WordNode) else None
         if value is None:
-            word = quote(spelled) if isinstance(spelled, Word) else "a group"
+            word = quote(spelled) if isinstance(spelled, WordNode) else "a group"
             source.error(spelled.at, "bad-number", f"{word} is not a number")
         elif function is not None:
             self._set((function.name, *function.args), value, node.at)
@@ -139,11 +140,13 @@ class _Init:
         self.places[key] = at
 
 
-def _is_time(word: Node, what: Node) -> bool:
-    return isinstance(word, Word) and to_number(word) is not None and isinstance(what, Group)
+def _is_time(word: ParseNode, what: ParseNode) -> bool:
+    return (
+        isinstance(word, WordNode) and to_number(word) is not None and isinstance(what, GroupNode)
+    )
 
 
-def _goal(section: Group | None, root: Group, scope: Scope) -> Formula:
+def _goal(section: GroupNode | None, root: GroupNode, scope: Scope) -> Formula:
     if section is None or len(section) < 2:
         at = root if section is None else section
         scope.source.error(at.at, "no-goal", "the problem has no goal", "add (:goal (and …))")
@@ -154,7 +157,7 @@ def _goal(section: Group | None, root: Group, scope: Scope) -> Formula:
     return read_formula(section[1], scope)
 
 
-def _metric(section: Group | None, scope: Scope) -> tuple[Expr | None, bool]:
+def _metric(section: GroupNode | None, scope: Scope) -> tuple[Expr | None, bool]:
     if section is None:
         return None, False
     if len(section) != 3 or section[1] not in ("minimize", "maximize"):

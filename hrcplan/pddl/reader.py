@@ -10,21 +10,21 @@ import re
 from collections.abc import Iterable, Iterator
 
 from hrcplan.pddl.parentheses import Token, mend
-from hrcplan.pddl.source import Source
+from hrcplan.pddl.source import SourceText
 
 MAX_DEPTH = 150  # whatever walks a formula recursively is safe below this
 _TOKEN = re.compile(r"[()]|[^\s();]+|;[^\r\n]*")
 _NOTE = re.compile(r";+[ \t]*hrcplan:[ \t]*([^\r\n;]*)", re.IGNORECASE)
 
 
-class Word(str):
+class WordNode(str):
     """A lower-cased word and the offset of its first character."""
 
     __slots__ = ("at",)
     at: int
 
 
-class Group(list["Node"]):
+class GroupNode(list["ParseNode"]):
     """A parenthesised list and the offset of its opening parenthesis."""
 
     __slots__ = ("at",)
@@ -35,16 +35,16 @@ class Group(list["Node"]):
     @property
     def head(self) -> str:
         """The first element if it is a word, else the empty string."""
-        return self[0] if self and isinstance(self[0], Word) else ""
+        return self[0] if self and isinstance(self[0], WordNode) else ""
 
 
-Node = Word | Group
+ParseNode = WordNode | GroupNode
 
 
-def read(source: Source) -> Group | None:
+def read(source: SourceText) -> GroupNode | None:
     """Return the one ``(define …)`` group of a file, or None; faults go into ``source``."""
     nodes = read_nodes(source)
-    groups = [node for node in nodes if isinstance(node, Group)]
+    groups = [node for node in nodes if isinstance(node, GroupNode)]
     root = next((group for group in groups if group.head == "define"), None)
     outside = next((node for node in nodes if node is not root), None)
     if outside is not None:
@@ -55,20 +55,20 @@ def read(source: Source) -> Group | None:
     return root
 
 
-def read_nodes(source: Source) -> list[Node]:
+def read_nodes(source: SourceText) -> list[ParseNode]:
     """Return everything that a text holds side by side; faults go into ``source``."""
     return _build(mend(_tokens(source.text), source), source)
 
 
-def notes(source: Source) -> Iterator[tuple[int, str]]:
+def notes(source: SourceText) -> Iterator[tuple[int, str]]:
     """Yield offset and text of every ``;; hrcplan: …`` comment."""
     for match in _NOTE.finditer(source.text):
         yield match.start(), match.group(1).strip()
 
 
-def word_at(text: str, at: int) -> Word:
+def word_at(text: str, at: int) -> WordNode:
     """Return a Word that stands at offset ``at``."""
-    word = Word(text.lower())
+    word = WordNode(text.lower())
     word.at = at
     return word
 
@@ -78,9 +78,9 @@ def _tokens(text: str) -> list[Token]:
     return [token for token in found if token[0][0] != ";"]
 
 
-def _build(tokens: Iterable[Token], source: Source) -> list[Node]:
+def _build(tokens: Iterable[Token], source: SourceText) -> list[ParseNode]:
     """Return the trees of balanced tokens; a group below the deepest level becomes ``()``."""
-    top = Group(0)
+    top = GroupNode(0)
     stack = [top]
     skipped = 0  # how deep we are in a group that is left out
     too_deep: int | None = None
@@ -89,10 +89,10 @@ def _build(tokens: Iterable[Token], source: Source) -> list[Node]:
             if skipped or len(stack) > MAX_DEPTH:
                 too_deep = at if too_deep is None else too_deep
                 if not skipped:
-                    stack[-1].append(Group(at))
+                    stack[-1].append(GroupNode(at))
                 skipped += 1
                 continue
-            group = Group(at)
+            group = GroupNode(at)
             stack[-1].append(group)
             stack.append(group)
         elif token != ")":

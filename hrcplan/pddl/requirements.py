@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from hrcplan.pddl.reader import Group, Word
-from hrcplan.pddl.source import Source, nearest, quote
+from hrcplan.core.text import nearest, quote
+from hrcplan.pddl.reader import GroupNode, WordNode
+from hrcplan.pddl.source import SourceText
 
 _QUANTIFIED = (":existential-preconditions", ":universal-preconditions")
 _ADL = (":negative-preconditions", ":disjunctive-preconditions", ":equality", *_QUANTIFIED)
@@ -35,11 +36,11 @@ REQUIREMENTS = frozenset(
 )
 
 
-def read_requirements(section: Group | None, source: Source) -> tuple[str, ...]:
+def read_requirements(section: GroupNode | None, source: SourceText) -> tuple[str, ...]:
     """Return the flags of a ``:requirements`` section; an unknown one is a warning."""
     flags: list[str] = []
     for node in section[1:] if section else ():
-        if not isinstance(node, Word):
+        if not isinstance(node, WordNode):
             source.error(node.at, "not-a-name", "a requirement flag is expected here")
             continue
         if node not in REQUIREMENTS:
@@ -49,7 +50,7 @@ def read_requirements(section: Group | None, source: Source) -> tuple[str, ...]:
     return tuple(flags)
 
 
-def check_requirements(flags: Sequence[str], source: Source) -> None:
+def check_requirements(flags: Sequence[str], source: SourceText) -> None:
     """Warn about every requirement that the file uses and ``flags`` do not name.
 
     Without any flag nothing is said: then the file leaves it to the planner.

@@ -10,9 +10,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
+from hrcplan.core.text import plural, quote
 from hrcplan.pddl.model import OBJECT, TOTAL_TIME, Domain, Number, Param, Signature
-from hrcplan.pddl.reader import Group, Word
-from hrcplan.pddl.source import Source, plural, quote
+from hrcplan.pddl.reader import GroupNode, WordNode
+from hrcplan.pddl.source import SourceText
 
 _NUMBER = re.compile(r"[+-]?([0-9]{1,150}(\.[0-9]{0,30})?|\.[0-9]{1,30})(e[+-]?[0-9]{1,2})?")
 
@@ -25,7 +26,7 @@ class Scope:
     action, ``total-time`` in a metric.
     """
 
-    source: Source
+    source: SourceText
     domain: Domain
     objects: Mapping[str, str]
     variables: Mapping[str, tuple[str, ...]]
@@ -40,7 +41,7 @@ class Scope:
         """Return this scope with a further special value."""
         return replace(self, numbers=self.numbers | {number})
 
-    def types_of(self, term: Word) -> tuple[str, ...] | None:
+    def types_of(self, term: WordNode) -> tuple[str, ...] | None:
         """Return the types of a variable or object; None, with an error, if it is unknown."""
         if term.startswith("?"):
             if term not in self.variables:
@@ -53,11 +54,11 @@ class Scope:
             return None
         return (self.objects[term],)
 
-    def arguments(self, group: Group, signature: Signature) -> tuple[str, ...] | None:
+    def arguments(self, group: GroupNode, signature: Signature) -> tuple[str, ...] | None:
         """Return the arguments of ``group``; None, with errors, if they do not fit."""
-        terms = [term for term in group[1:] if isinstance(term, Word)]
+        terms = [term for term in group[1:] if isinstance(term, WordNode)]
         if len(terms) < len(group) - 1:
-            inner = next(t for t in group[1:] if isinstance(t, Group))
+            inner = next(t for t in group[1:] if isinstance(t, GroupNode))
             self.source.error(inner.at, "not-a-term", "a variable or object is expected here")
             return None
         if len(terms) != len(signature.params):
@@ -68,7 +69,7 @@ class Scope:
         fits = [self._fits(t, p) for t, p in zip(terms, signature.params, strict=True)]
         return tuple(map(str, terms)) if all(fits) else None
 
-    def _fits(self, term: Word, param: Param) -> bool:
+    def _fits(self, term: WordNode, param: Param) -> bool:
         types = self.types_of(term)
         if types is None:
             return False
@@ -84,7 +85,7 @@ class Scope:
         """Whether all types are known: one that is not has been reported where it is named."""
         return all(t == OBJECT or t in self.domain.types for t in types)
 
-    def signature(self, word: Word, kind: str) -> Signature | None:
+    def signature(self, word: WordNode, kind: str) -> Signature | None:
         """Return the declared predicate or function; None, with an error, if there is none."""
         is_predicate = kind == "predicate"
         known, other = self.domain.predicates, self.domain.functions

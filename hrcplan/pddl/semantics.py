@@ -46,7 +46,7 @@ class Undefined(ArithmeticError):  # noqa: N818  # a value that is missing, caug
 
 
 @dataclass(frozen=True, slots=True)
-class State:
+class LiftedState:
     """Facts that hold, and the values of functions."""
 
     facts: Set[Fact]
@@ -103,7 +103,7 @@ _COMPARE = {
 }
 
 
-def holds(formula: Formula, state: State, binding: Binding, problem: Problem) -> bool:
+def holds(formula: Formula, state: LiftedState, binding: Binding, problem: Problem) -> bool:
     """Return whether a condition is true in a state.
 
     Raises:
@@ -130,7 +130,7 @@ def holds(formula: Formula, state: State, binding: Binding, problem: Problem) ->
             )
 
 
-def unmet(formula: Formula, state: State, binding: Binding, problem: Problem) -> str | None:
+def unmet(formula: Formula, state: LiftedState, binding: Binding, problem: Problem) -> str | None:
     """Return the first part of a condition that is false, as ground PDDL; None if all hold."""
     if isinstance(formula, And):
         parts = (unmet(part, state, binding, problem) for part in formula.parts)
@@ -205,19 +205,23 @@ def bind(action: Action, args: Sequence[str], problem: Problem) -> Binding | str
 
 
 @dataclass(frozen=True, slots=True)
-class Changes:
+class StateUpdate:
     """What effects do at one instant: facts deleted, then facts added, and new values."""
 
     adds: frozenset[Fact]
     deletes: frozenset[Fact]
     values: Mapping[FluentKey, Number]
 
-    def apply(self, state: State) -> State:
+    def apply(self, state: LiftedState) -> LiftedState:
         """Return the state after the changes; an add wins over a delete of the same fact."""
-        return State((state.facts - self.deletes) | self.adds, {**state.values, **self.values})
+        return LiftedState(
+            (state.facts - self.deletes) | self.adds, {**state.values, **self.values}
+        )
 
 
-def changes(effects: Sequence[Effect], state: State, binding: Binding, problem: Problem) -> Changes:
+def changes(
+    effects: Sequence[Effect], state: LiftedState, binding: Binding, problem: Problem
+) -> StateUpdate:
     """Return what ``effects`` change in ``state``; all of them read the state before.
 
     Raises:
@@ -237,7 +241,7 @@ def changes(effects: Sequence[Effect], state: State, binding: Binding, problem: 
                 amount = evaluate(effect.value, state.values, inner)
                 before = values.get(key, state.values.get(key))
                 values[key] = assigned(effect.kind, key, before, amount)
-    return Changes(frozenset(adds), frozenset(deletes), values)
+    return StateUpdate(frozenset(adds), frozenset(deletes), values)
 
 
 def assigned(kind: str, key: FluentKey, before: Number | None, amount: Number) -> Number:

@@ -8,10 +8,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from hrcplan.core.text import cut, nearest
 from hrcplan.errors import Diagnostic, InputError
 
 MAX_BYTES = 64 << 20  # also ends the reading of what never ends
-MAX_QUOTE = 60  # characters of a file that a message repeats at a time
 MAX_MESSAGE = 160  # a message and its hint are each cut here, whatever they repeat
 MAX_FAULTS = 1000  # errors, and as many warnings: beyond that the file is something else
 MAX_HINTS = 100  # a file of nonsense is not worth a search among its names for every word
@@ -22,7 +22,7 @@ _BOM = b"\xef\xbb\xbf"
 
 
 @dataclass(slots=True)
-class Source:
+class SourceText:
     """A file's text, the faults found in it so far, and the requirements that it uses."""
 
     path: str
@@ -35,7 +35,7 @@ class Source:
     def position(self, at: int) -> tuple[int, int]:
         r"""Return the 1-based (line, column) of the character at offset ``at``.
 
-        >>> Source("x", "ab\ncd").position(4)
+        >>> SourceText("x", "ab\ncd").position(4)
         (2, 2)
         """
         line = self._line(at)
@@ -75,9 +75,9 @@ class Source:
         if count == MAX_FAULTS:
             code, message, hint = "too-many", f"there are more {severity}s than are shown", None
         line, column = self.position(at)
-        hint = None if hint is None else _cut(hint, MAX_MESSAGE)
+        hint = None if hint is None else cut(hint, MAX_MESSAGE)
         self.diagnostics.append(
-            Diagnostic(self.path, line, column, severity, code, _cut(message, MAX_MESSAGE), hint)
+            Diagnostic(self.path, line, column, severity, code, cut(message, MAX_MESSAGE), hint)
         )
 
     @property
@@ -86,53 +86,7 @@ class Source:
         return "error" in self._counts
 
 
-def quote(text: str) -> str:
-    r"""Return ``text`` in quotes, shortened, and harmless to a terminal.
-
-    >>> quote("wp1"), quote("a\x1b[31m")
-    ("'wp1'", "'a\\x1b[31m'")
-    """
-    shown = _cut(text, MAX_QUOTE)
-    return f"'{shown}'" if shown.isprintable() else f"'{ascii(shown)[1:-1]}'"
-
-
-def plural(n: int, word: str) -> str:
-    """Return ``n`` and the word, with an ``s`` unless there is one.
-
-    >>> plural(1, "part"), plural(2, "part")
-    ('1 part', '2 parts')
-    """
-    return f"{n} {word}" if n == 1 else f"{n} {word}s"
-
-
-def _cut(text: str, limit: int) -> str:
-    return text if len(text) <= limit else f"{text[: limit - 1]}…"
-
-
-def nearest_name(word: str, known: Iterable[str], similarity: float = 0.6) -> str | None:
-    """Return the known name that is most like ``word``, or None if none is close."""
-    from rapidfuzz import distance, process
-
-    found = process.extractOne(
-        word[:MAX_QUOTE],
-        [name for name in known if name != word],
-        scorer=distance.OSA.normalized_similarity,
-        score_cutoff=similarity,
-    )
-    return None if found is None else str(found[0])
-
-
-def nearest(word: str, known: Iterable[str]) -> str | None:
-    """Return a "did you mean" hint for ``word``, or None if nothing known is close.
-
-    >>> nearest("motivaton", ["motivation", "capacity"])
-    "did you mean 'motivation'?"
-    """
-    name = nearest_name(word, known)
-    return None if name is None else f"did you mean {quote(name)}?"
-
-
-def read_source(path: str | Path) -> Source:
+def read_source(path: str | Path) -> SourceText:
     """Return the text of a file as a Source; see ``decode`` for what is not UTF-8 text.
 
     Raises:
@@ -169,7 +123,7 @@ def read_text(path: str | Path) -> str:
     return source.text
 
 
-def decode(path: str, data: bytes) -> Source:
+def decode(path: str, data: bytes) -> SourceText:
     """Return ``data`` as a Source.
 
     A few bytes that are not UTF-8 are one error, and the rest is read all the same; UTF-16 and
@@ -179,9 +133,9 @@ def decode(path: str, data: bytes) -> Source:
     if b"\0" in data or data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         return _not_text(path, data)
     try:
-        return Source(path, data.decode())
+        return SourceText(path, data.decode())
     except UnicodeDecodeError as error:
-        source = Source(path, data.decode(errors="replace"))
+        source = SourceText(path, data.decode(errors="replace"))
         at = len(data[: error.start].decode())
         message = f"byte 0x{data[error.start]:02x} is not UTF-8"
         source.error(at, "not-utf-8", message, "save the file as UTF-8 text")
@@ -190,13 +144,13 @@ def decode(path: str, data: bytes) -> Source:
         return source
 
 
-def _not_text(path: str, data: bytes) -> Source:
+def _not_text(path: str, data: bytes) -> SourceText:
     if data[:2] in (b"\xff\xfe", b"\xfe\xff") or data.count(0) * 4 > len(data):
-        source = Source(path, "")
+        source = SourceText(path, "")
         source.error(0, "utf-16", "the file is UTF-16, not UTF-8", "save the file as UTF-8 text")
         return source
     before = data[: data.index(0)].decode(errors="replace")
-    source = Source(path, before)
+    source = SourceText(path, before)
     source.error(len(before), "binary", "the file holds a NUL byte: it is not text")
     source.text = ""
     return source

@@ -4,26 +4,27 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
 
+from hrcplan.core.text import quote
 from hrcplan.pddl.model import OBJECT, Param
-from hrcplan.pddl.reader import Group, Node, Word
+from hrcplan.pddl.reader import GroupNode, ParseNode, WordNode
 from hrcplan.pddl.scope import Scope
-from hrcplan.pddl.source import Source, quote
+from hrcplan.pddl.source import SourceText
 
-Entry = tuple[Word, tuple[str, ...]]
+Entry = tuple[WordNode, tuple[str, ...]]
 """A name and the names of its types."""
 
 
 def read_typed(
-    nodes: Sequence[Node], source: Source, types: Collection[str] | None = None
+    nodes: Sequence[ParseNode], source: SourceText, types: Collection[str] | None = None
 ) -> Iterator[Entry]:
     """Yield every name of a typed list with its types (``object`` where none is given).
 
     A type that is not among ``types`` is an error, unless ``types`` is None.
     """
-    waiting: list[Word] = []
+    waiting: list[WordNode] = []
     rest = iter(nodes)
     for node in rest:
-        if isinstance(node, Group):
+        if isinstance(node, GroupNode):
             source.error(node.at, "not-a-name", "a name is expected here, not a group")
         elif node != "-":
             waiting.append(node)
@@ -41,20 +42,20 @@ def read_typed(
         yield name, (OBJECT,)
 
 
-def _type_words(node: Node | None, dash: Word, source: Source) -> list[Word]:
+def _type_words(node: ParseNode | None, dash: WordNode, source: SourceText) -> list[WordNode]:
     if node is None or node == "-":
         source.error(dash.at, "bad-typed-list", "a type is missing after this '-'")
         return []
-    if isinstance(node, Word):
+    if isinstance(node, WordNode):
         return [node]
-    words = [word for word in node[1:] if isinstance(word, Word)]
+    words = [word for word in node[1:] if isinstance(word, WordNode)]
     if node.head == "either" and words and len(words) == len(node) - 1:
         return words
     source.error(node.at, "bad-typed-list", "a type or (either …) is expected here")
     return []
 
 
-def check_types(words: Sequence[Word], known: Collection[str], source: Source) -> None:
+def check_types(words: Sequence[WordNode], known: Collection[str], source: SourceText) -> None:
     """Report every word that names no declared type."""
     for word in words:
         if word != OBJECT and word not in known:
@@ -62,15 +63,17 @@ def check_types(words: Sequence[Word], known: Collection[str], source: Source) -
             source.unknown(word.at, "unknown-type", message, word, [*known, OBJECT])
 
 
-def read_params(node: Node, scope: Scope) -> tuple[Param, ...]:
+def read_params(node: ParseNode, scope: Scope) -> tuple[Param, ...]:
     """Return the parameters in a group such as ``(?a - agent ?w)``."""
-    if isinstance(node, Word):
+    if isinstance(node, WordNode):
         scope.source.error(node.at, "not-a-list", "a parameter list in parentheses is expected")
         return ()
     return params_of(node, scope.source, scope.domain.types)
 
 
-def params_of(nodes: Sequence[Node], source: Source, types: Collection[str]) -> tuple[Param, ...]:
+def params_of(
+    nodes: Sequence[ParseNode], source: SourceText, types: Collection[str]
+) -> tuple[Param, ...]:
     """Return parameters; a name without ``?``, repeated, or of an unknown type is an error.
 
     A faulty parameter keeps its place, so that arguments are still counted right.

@@ -16,8 +16,8 @@ from tempfile import TemporaryDirectory
 from hrcplan.errors import MissingPlannerError, PlanFormatError, PlannerError, UsageError
 from hrcplan.pddl.model import Number, Problem
 from hrcplan.pddl.write import domain_text, problem_text
-from hrcplan.planners.answer import Answer, Card, Request, Status
-from hrcplan.planners.process import Ended, Finished, Limits, run
+from hrcplan.planners.contract import Answer, Capabilities, Request, Status
+from hrcplan.planners.process import FinishedProcess, ProcessEnd, ProcessLimits, run
 from hrcplan.plans import Plan, PlannedAction, parse_plan
 from hrcplan.validation import objective, validate
 
@@ -30,7 +30,7 @@ _LINE = re.compile(
 _CRASHED = (1, 2, 126, 127)  # other exit codes are a planner's way to say why it has no plan
 
 
-class Command:
+class CommandPlanner:
     """A command line with ``{domain}`` and ``{problem}``, perhaps ``{plan}`` and ``{timeout}``."""
 
     def __init__(self, command: str) -> None:
@@ -41,7 +41,7 @@ class Command:
         if not all(any(part in w for w in self._words) for part in ("{domain}", "{problem}")):
             hint = "for example cmd:popf {domain} {problem}"
             raise UsageError(f"cmd:{command} needs {{domain}} and {{problem}}", hint=hint)
-        self.card = Card(
+        self.card = Capabilities(
             f"cmd:{command}",
             "a program of your own",
             temporal=True,
@@ -72,7 +72,7 @@ class Command:
             cwd = Path(folder)
             (cwd / "domain.pddl").write_text(domain_text(problem.domain))
             (cwd / "problem.pddl").write_text(problem_text(problem))
-            limits = Limits(request.time_left_s, request.memory_bytes)
+            limits = ProcessLimits(request.time_left_s, request.memory_bytes)
             finished = run(list(self._argv(cwd, limits.time_s)), cwd=cwd, limits=limits)
             files = sorted(cwd.glob("plan*"), key=lambda f: f.stat().st_mtime_ns)
             texts = [finished.stdout, *(f.read_text(errors="replace") for f in files)]
@@ -89,9 +89,9 @@ class Command:
             is_file = Path(word).is_file() and (position > 0 or "/" in word)
             yield str(Path(word).absolute()) if is_file else word
 
-    def _answer(self, problem: Problem, finished: Finished, plans: list[Plan]) -> Answer:
+    def _answer(self, problem: Problem, finished: FinishedProcess, plans: list[Plan]) -> Answer:
         name = self.card.name
-        if finished.ended is Ended.MISSING:
+        if finished.ended is ProcessEnd.MISSING:
             raise MissingPlannerError(f"{name} cannot be started: {finished.stderr.strip()}")
         if not plans and finished.code == 0 and validate(problem, Plan()).valid:
             plans = [Plan()]
@@ -99,7 +99,7 @@ class Command:
             return Answer(Status.SOLVED, best_of(problem, plans))
         lines = [ln for ln in (finished.stdout + finished.stderr).splitlines() if ln.strip()]
         last = " / ".join(lines[-3:])[-300:]
-        if finished.ended is not Ended.EXITED:
+        if finished.ended is not ProcessEnd.EXITED:
             return Answer(Status.UNSOLVED, note=f"stopped: {finished.ended.value}")
         if finished.code is None or finished.code < 0 or finished.code in _CRASHED:
             raise PlannerError(f"{name} ended with exit code {finished.code}: {last}")

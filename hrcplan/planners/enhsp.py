@@ -21,9 +21,9 @@ from hrcplan.pddl.dialect import with_binary_sums, with_effects
 from hrcplan.pddl.model import TOTAL_COST, TRUE, Effect, Function, Number, Problem, functions_in
 from hrcplan.pddl.scope import to_number
 from hrcplan.pddl.write import decimal_text, domain_text, problem_text
-from hrcplan.planners.answer import Answer, Card, Request, Status
+from hrcplan.planners.contract import Answer, Capabilities, Request, Status
 from hrcplan.planners.lowering import Lowered, lower
-from hrcplan.planners.process import Ended, Finished, Limits, run
+from hrcplan.planners.process import FinishedProcess, ProcessEnd, ProcessLimits, run
 from hrcplan.plans import parse_plan
 
 _JAR = "ENHSP/enhsp.jar"
@@ -53,7 +53,7 @@ class Enhsp:
     """
 
     def __init__(self) -> None:
-        self.card = Card(
+        self.card = Capabilities(
             "enhsp",
             "A* with h-max for numeric problems; greedy search if any plan will do",
             numeric=True,
@@ -156,17 +156,21 @@ def _attempt(request: Request, given: _Input, search: tuple[str, ...], time_s: f
         (cwd / "problem.pddl").write_text(given.problem)
         argv = [str(java), "-XX:+UseSerialGC", f"-Xmx{heap >> 20}m", "-jar", str(jar)]
         argv += ["-o", "domain.pddl", "-f", "problem.pddl", "-sp", "plan", "-npm", *search]
-        finished = run(argv, cwd=cwd, limits=Limits(time_s, request.memory_bytes))
+        finished = run(argv, cwd=cwd, limits=ProcessLimits(time_s, request.memory_bytes))
         plan = cwd / "plan"
         text = plan.read_text() if plan.exists() else None
     return _answer(request, given, search, finished, text)
 
 
 def _answer(
-    request: Request, given: _Input, search: tuple[str, ...], finished: Finished, text: str | None
+    request: Request,
+    given: _Input,
+    search: tuple[str, ...],
+    finished: FinishedProcess,
+    text: str | None,
 ) -> Answer:
     output = finished.stdout + finished.stderr
-    if finished.ended is not Ended.EXITED:
+    if finished.ended is not ProcessEnd.EXITED:
         return Answer(Status.UNSOLVED, note=f"stopped: {finished.ended.value}")
     if "OutOfMemoryError" in output:
         return Answer(Status.UNSOLVED, note="out of memory")

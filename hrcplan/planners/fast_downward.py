@@ -12,9 +12,9 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from hrcplan.errors import MissingPlannerError, PlannerError, UnsupportedError
-from hrcplan.planners.answer import Answer, Card, Request, Status
+from hrcplan.planners.contract import Answer, Capabilities, Request, Status
 from hrcplan.planners.lowering import Lowered, lower
-from hrcplan.planners.process import Ended, Finished, Limits, run
+from hrcplan.planners.process import FinishedProcess, ProcessEnd, ProcessLimits, run
 
 # One supervised program instead of two: translate, then search.
 _SCRIPT = """
@@ -39,7 +39,7 @@ class FastDownward:
     """
 
     def __init__(self) -> None:
-        self.card = Card(
+        self.card = Capabilities(
             "fast-downward",
             "A* with LM-cut: proven cheapest sequential plans",
             metric="cost",
@@ -78,7 +78,7 @@ class FastDownward:
             cwd = Path(folder)
             (cwd / "domain.pddl").write_text(lowered.domain_text)
             (cwd / "problem.pddl").write_text(lowered.problem_text)
-            limits = Limits(request.time_left_s, request.memory_bytes)
+            limits = ProcessLimits(request.time_left_s, request.memory_bytes)
             argv = ["/bin/sh", "-c", _SCRIPT, sys.executable, str(binary), search]
             finished = run(argv, cwd=cwd, limits=limits)
             plan = cwd / "plan"
@@ -102,9 +102,11 @@ def _proof(lowered: Lowered, n_goals: int) -> str:
     return "astar(hmax())" if lowered.conditional else "astar(lmcut())"
 
 
-def _answer(request: Request, lowered: Lowered, finished: Finished, text: str | None) -> Answer:
+def _answer(
+    request: Request, lowered: Lowered, finished: FinishedProcess, text: str | None
+) -> Answer:
     """Return what the exit code means (fast-downward.org, "Exit codes")."""
-    if finished.ended is not Ended.EXITED:
+    if finished.ended is not ProcessEnd.EXITED:
         return Answer(Status.UNSOLVED, note=f"stopped: {finished.ended.value}")
     code = finished.code
     if code in (0, 1, 2, 3) and text is not None:

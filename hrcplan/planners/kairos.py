@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 from hrcplan.errors import LimitError, MissingPlannerError, PlannerError, UnsupportedError
 from hrcplan.pddl.model import TOTAL_COST, Function, Number
 from hrcplan.pddl.write import domain_text, problem_text
-from hrcplan.planners.answer import Answer, Card, Request, Status
+from hrcplan.planners.contract import Answer, Capabilities, Request, Status
 from hrcplan.planners.lowering import Lowered, lower
 from hrcplan.plans import Plan, parse_plan
 from hrcplan.validation import Report, objective, validate
@@ -39,7 +39,7 @@ class Kairos:
 
     def __init__(self, presets: tuple[str, ...] | None = None) -> None:
         self._presets = presets
-        self.card = Card(
+        self.card = Capabilities(
             "kairos",
             "anytime portfolio for temporal, numeric and weighted problems",
             temporal=True,

@@ -15,7 +15,7 @@ from tempfile import TemporaryDirectory
 
 from hrcplan.errors import LimitError, MissingPlannerError, PlannerError, UnsupportedError
 from hrcplan.planners.lowering import Lowered
-from hrcplan.planners.process import Ended, Finished, Limits, run
+from hrcplan.planners.process import FinishedProcess, ProcessEnd, ProcessLimits, run
 from hrcplan.task import GroundAction
 
 # As its own front end calls it: symmetries off the time limit, all orders of a plan listed.
@@ -46,7 +46,7 @@ def missing() -> str | None:
 
 
 def list_plans(
-    lowered: Lowered, limits: Limits, *, n: int | None = None, quality: float | None = 1.0
+    lowered: Lowered, limits: ProcessLimits, *, n: int | None = None, quality: float | None = 1.0
 ) -> Listed:
     """Return the cheapest plans of a lowered task.
 
@@ -91,8 +91,10 @@ def list_plans(
     return Listed(found, n is None or len(found) < n)
 
 
-def _plans(lowered: Lowered, path: Path, finished: Finished) -> Iterator[tuple[GroundAction, ...]]:
-    if finished.ended in (Ended.TIMEOUT, Ended.MEMORY, Ended.OUTPUT):
+def _plans(
+    lowered: Lowered, path: Path, finished: FinishedProcess
+) -> Iterator[tuple[GroundAction, ...]]:
+    if finished.ended in (ProcessEnd.TIMEOUT, ProcessEnd.MEMORY, ProcessEnd.OUTPUT):
         message = f"K* reached its limit ({finished.ended.value}) before it had listed the plans"
         raise LimitError(message, code=finished.ended.value, hint="a smaller --sample")
     if finished.code == _UNSOLVABLE:

@@ -16,7 +16,7 @@ from math import lcm
 from hrcplan.errors import PlanFormatError, UnsupportedError
 from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, Number
 from hrcplan.pddl.write import decimal_text
-from hrcplan.planners.one_instant import unsure_changes
+from hrcplan.planners.instantaneous import unsure_changes
 from hrcplan.plans import Plan, PlannedAction, parse_plan
 from hrcplan.task import GroundAction, Task
 from hrcplan.task.conditions import Test

@@ -26,7 +26,7 @@ _CHUNK = 1 << 16
 
 
 @dataclass(frozen=True)
-class Limits:
+class ProcessLimits:
     """What a program may use.
 
     Attributes:
@@ -50,7 +50,7 @@ class Limits:
             raise ValueError(f"not a limit: {self!r}")
 
 
-class Ended(enum.Enum):
+class ProcessEnd(enum.Enum):
     """Why a program is no longer running."""
 
     EXITED = "exited"  # by itself or by a signal that was not ours
@@ -61,7 +61,7 @@ class Ended(enum.Enum):
 
 
 @dataclass(frozen=True)
-class Finished:
+class FinishedProcess:
     """How a program ended and what it wrote.
 
     Attributes:
@@ -72,7 +72,7 @@ class Finished:
         wall_s: Wall-clock seconds of the whole call, clearing up included.
     """
 
-    ended: Ended
+    ended: ProcessEnd
     code: int | None
     stdout: str
     stderr: str
@@ -80,8 +80,8 @@ class Finished:
 
 
 def run(
-    argv: Sequence[str], *, cwd: Path, limits: Limits, env: Mapping[str, str] | None = None
-) -> Finished:
+    argv: Sequence[str], *, cwd: Path, limits: ProcessLimits, env: Mapping[str, str] | None = None
+) -> FinishedProcess:
     r"""Return how a program ended, once it and everything it started is gone.
 
     At a limit the whole tree gets SIGTERM, and SIGKILL 0.3 s later (memory: SIGKILL at once).
@@ -101,20 +101,20 @@ def run(
         KeyboardInterrupt: after the tree was ended, if this process is interrupted meanwhile.
 
     Example:
-        >>> run(["echo", "found a plan"], cwd=Path("/"), limits=Limits(time_s=5)).stdout
+        >>> run(["echo", "found a plan"], cwd=Path("/"), limits=ProcessLimits(time_s=5)).stdout
         'found a plan\n'
-        >>> run(["sleep", "60"], cwd=Path("/"), limits=Limits(time_s=0.1)).ended
-        <Ended.TIMEOUT: 'timeout'>
+        >>> run(["sleep", "60"], cwd=Path("/"), limits=ProcessLimits(time_s=0.1)).ended
+        <ProcessEnd.TIMEOUT: 'timeout'>
     """
     started_s = time.monotonic()
     with _guarded(_job(argv, limits, env), cwd) as (guard, report):
         output, answer = _collect(guard, report, limits.output_bytes)
     ended, code, message = _verdict(output, answer)
     stdout, stderr = (bytes(kept).decode("utf-8", "replace") for kept in output.streams.values())
-    return Finished(ended, code, stdout, stderr + message, time.monotonic() - started_s)
+    return FinishedProcess(ended, code, stdout, stderr + message, time.monotonic() - started_s)
 
 
-def _job(argv: Sequence[str], limits: Limits, env: Mapping[str, str] | None) -> bytes:
+def _job(argv: Sequence[str], limits: ProcessLimits, env: Mapping[str, str] | None) -> bytes:
     """Return the message to the guard: bytes as the operating system wants them."""
     if not argv:
         raise ValueError("no program to run")
@@ -207,12 +207,12 @@ def _collect(guard: subprocess.Popen[bytes], report: int, limit: int) -> tuple[_
     return output, b""
 
 
-def _verdict(output: _Output, answer: bytes) -> tuple[Ended, int | None, str]:
+def _verdict(output: _Output, answer: bytes) -> tuple[ProcessEnd, int | None, str]:
     """Return what ended the program, its exit code, and a remark for its standard error."""
     if output.is_over:
-        return Ended.OUTPUT, None, ""
+        return ProcessEnd.OUTPUT, None, ""
     if not answer:
         # Somebody killed the guard; the kernel then kills the program, too.
-        return Ended.EXITED, -signal.SIGKILL, "hrcplan: the supervisor process was lost\n"
+        return ProcessEnd.EXITED, -signal.SIGKILL, "hrcplan: the supervisor process was lost\n"
     reason, code, message = marshal.loads(answer)
-    return Ended(reason), code, message
+    return ProcessEnd(reason), code, message

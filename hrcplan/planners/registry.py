@@ -6,20 +6,20 @@ from collections.abc import Iterator
 from importlib import import_module
 from importlib.metadata import EntryPoint, entry_points
 
+from hrcplan.core.text import nearest
 from hrcplan.errors import MissingPlannerError, UsageError
-from hrcplan.pddl.source import nearest
-from hrcplan.planners.answer import Planner
+from hrcplan.planners.contract import Planner
 
 GROUP = "hrcplan.planners"
 BUILT_IN = {
     "fast-downward": "hrcplan.planners.fast_downward:FastDownward",
-    "exact": "hrcplan.planners.exact:Exact",
+    "exact": "hrcplan.planners.exact:ExactPlanner",
     "kairos": "hrcplan.planners.kairos:Kairos",
     "enhsp": "hrcplan.planners.enhsp:Enhsp",
 }
 _PREFIXES = {
     "up": "hrcplan.planners.up:UnifiedPlanning",
-    "cmd": "hrcplan.planners.command:Command",
+    "cmd": "hrcplan.planners.command:CommandPlanner",
 }
 
 
@@ -64,7 +64,7 @@ def _load(name: str, place: str, *args: str) -> Planner:
         message = f"planner '{name}' cannot be loaded from {place}: {error}"
         raise MissingPlannerError(message, hint="is its package installed?") from error
     if not all(hasattr(kind, part) for part in ("missing", "solve")):
-        hint = "it needs card, missing() and solve(request): see hrcplan/planners/answer.py"
+        hint = "it needs card, missing() and solve(request): see hrcplan/planners/contract.py"
         raise UsageError(f"{place} is no planner", code="not-a-planner", hint=hint)
     planner: Planner = kind(*args)
     return planner

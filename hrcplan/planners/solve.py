@@ -17,7 +17,7 @@ from hrcplan.errors import (
 from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, Number, Problem, number_text
 from hrcplan.pddl.semantics import evaluate
 from hrcplan.planners import registry
-from hrcplan.planners.answer import Answer, Card, Planner, Request, Status
+from hrcplan.planners.contract import Answer, Capabilities, Planner, Request, Status
 from hrcplan.planners.lanes import schedule
 from hrcplan.plans import EPSILON_S, Plan
 from hrcplan.task import Task
@@ -161,7 +161,7 @@ def _loaded(name: str) -> Iterator[Planner]:
         return
 
 
-def _unable(card: Card, request: Request) -> str | None:
+def _unable(card: Capabilities, request: Request) -> str | None:
     domain = request.problem.domain
     if domain.is_temporal and not card.temporal:
         return "it plans without time"
@@ -181,18 +181,18 @@ def _is_numeric(request: Request) -> bool:
         return True
 
 
-def _rank(card: Card, request: Request) -> tuple[bool, bool]:
+def _rank(card: Capabilities, request: Request) -> tuple[bool, bool]:
     """Return a sort key: provers of this metric first, or the quick ones if any plan will do."""
     if request.any_plan:
         return (card.name != "kairos", False)
     return (not _proves(card, request), card.metric == "none")
 
 
-def _proves(card: Card, request: Request) -> bool:
+def _proves(card: Capabilities, request: Request) -> bool:
     return card.proves and (card.metric == "cost+time" or not request.weighs_time)
 
 
-def _merit(card: Card, request: Request) -> str:
+def _merit(card: Capabilities, request: Request) -> str:
     if request.any_plan:
         return "any plan is enough" if card.name == "kairos" else "it can hold this task"
     if _proves(card, request):

@@ -25,10 +25,10 @@ from hrcplan.errors import (
 from hrcplan.pddl.dialect import with_effects
 from hrcplan.pddl.model import TOTAL_COST, Function, Problem
 from hrcplan.pddl.write import domain_text, problem_text
-from hrcplan.planners.answer import Answer, Card, Request, Status
+from hrcplan.planners.contract import Answer, Capabilities, Request, Status
 from hrcplan.planners.lowering import Lowered, lower
-from hrcplan.planners.process import Ended, Finished, Limits, run
-from hrcplan.planners.up_table import Build, Table, table
+from hrcplan.planners.process import FinishedProcess, ProcessEnd, ProcessLimits, run
+from hrcplan.planners.up_table import Build, UpTable, table
 from hrcplan.plans import parse_plan
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ class UnifiedPlanning:
 
     def __init__(self, engine: str) -> None:
         self._engine = engine
-        self.card = Card(
+        self.card = Capabilities(
             f"up:{engine}",
             "an engine of unified-planning",
             temporal=True,
@@ -79,15 +79,15 @@ class UnifiedPlanning:
             "timeout_s": max(0.1, request.time_left_s - _MARGIN_S),
             "forms": [form.given for form in forms],
         }
-        finished, reply = _call(job, Limits(request.time_left_s, request.memory_bytes))
+        finished, reply = _call(job, ProcessLimits(request.time_left_s, request.memory_bytes))
         return self._answer(forms, finished, reply)
 
     def _answer(
-        self, forms: list[_Form], finished: Finished, reply: Mapping[str, Any] | None
+        self, forms: list[_Form], finished: FinishedProcess, reply: Mapping[str, Any] | None
     ) -> Answer:
         name = self.card.name
         if reply is None:
-            if finished.ended is not Ended.EXITED:
+            if finished.ended is not ProcessEnd.EXITED:
                 return Answer(Status.UNSOLVED, note=f"stopped: {finished.ended.value}")
             last = " / ".join((finished.stdout + finished.stderr).strip().splitlines()[-3:])
             raise PlannerError(f"{name} ended with exit code {finished.code}: {last[-300:]}")
@@ -113,7 +113,7 @@ class UnifiedPlanning:
 class _Form:
     """One way to put the task. ``exact``: cheapest here means cheapest by the problem's metric."""
 
-    given: list[str] | Table
+    given: list[str] | UpTable
     lowered: Lowered | None
     exact: bool
 
@@ -148,7 +148,9 @@ def _without_costs(problem: Problem) -> Problem:
     return replace(problem, domain=kept, metric=None, maximize=False)
 
 
-def _call(job: Mapping[str, Any], limits: Limits) -> tuple[Finished, Mapping[str, Any] | None]:
+def _call(
+    job: Mapping[str, Any], limits: ProcessLimits
+) -> tuple[FinishedProcess, Mapping[str, Any] | None]:
     """Run a child with a job; its reply is None if it did not get that far."""
     package = str(Path(__file__).resolve().parents[2])
     path = os.pathsep.join(filter(None, [package, os.environ.get("PYTHONPATH")]))
@@ -169,7 +171,7 @@ def engines(timeout_s: float = 30) -> Mapping[str, str | None]:
     Raises:
         PlannerError: if unified-planning cannot be imported in time.
     """
-    finished, reply = _call({"list": True}, Limits(timeout_s))
+    finished, reply = _call({"list": True}, ProcessLimits(timeout_s))
     if reply is None:
         raise PlannerError(f"unified-planning does not start: {finished.stderr[-300:]}")
     return dict(reply)
@@ -272,7 +274,7 @@ def _solve(job: Mapping[str, Any]) -> dict[str, Any]:
     return {"unsupported": "; ".join(dict.fromkeys(faults))}
 
 
-def _build(given: list[str] | Table) -> Any:
+def _build(given: list[str] | UpTable) -> Any:
     from unified_planning import model
 
     return _read(*given) if isinstance(given, list) else Build(model, given).problem

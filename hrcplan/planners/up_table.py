@@ -9,15 +9,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+from hrcplan.planners.instantaneous import unsure_changes
 from hrcplan.planners.lowering import Lowered
-from hrcplan.planners.one_instant import unsure_changes
 from hrcplan.task import Task
 from hrcplan.task.conditions import Test
 
-Table = Mapping[str, Any]
+UpTable = Mapping[str, Any]
 
 
-def table(task: Task, lowered: Lowered, *, costs: bool) -> Table:
+def table(task: Task, lowered: Lowered, *, costs: bool) -> UpTable:
     """Return what ``build`` needs, as JSON can carry it; without costs for planners without."""
     return {
         "name": task.problem.name,
@@ -46,7 +46,7 @@ def _unsure(action: Any) -> Iterable[Any]:
 class Build:
     """Builds a problem out of a table with the classes of ``unified_planning.model``."""
 
-    def __init__(self, model: Any, given: Table) -> None:
+    def __init__(self, model: Any, given: UpTable) -> None:
         self._problem = model.Problem(given["name"])
         self._expressions = self._problem.environment.expression_manager
         fluents = [self._problem.add_fluent(name, default_initial_value=False)
@@ -70,7 +70,7 @@ class Build:
         """The ``unified_planning.model.Problem``."""
         return self._problem
 
-    def _fill(self, action: Any, row: Table) -> None:
+    def _fill(self, action: Any, row: UpTable) -> None:
         for literal in self._parts(row["tests"]):
             action.add_precondition(literal)
         for tests, adds, deletes in row["changes"]:

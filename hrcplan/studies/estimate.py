@@ -15,7 +15,7 @@ CONFIDENT = 1.96
 
 
 @dataclass(frozen=True, slots=True)
-class Estimate:
+class MeanEstimate:
     """A mean over ``n`` independent values, and its standard error."""
 
     mean: float
@@ -30,42 +30,42 @@ class Estimate:
     @property
     def is_below_zero(self) -> bool:
         """Whether the mean is smaller than 0 with 95 % confidence."""
-        return Estimate(-self.mean, self.se, self.n).is_above_zero
+        return MeanEstimate(-self.mean, self.se, self.n).is_above_zero
 
     def se_of(self, n: int) -> float:
         """Return the standard error that a mean over ``n`` values would have."""
         return self.se * math.sqrt(self.n / n)
 
 
-def estimate(values: Iterable[float]) -> Estimate:
+def estimate(values: Iterable[float]) -> MeanEstimate:
     """Return mean and standard error; zeros without values.
 
     >>> estimate([1, 3])
-    Estimate(mean=2.0, se=1.0, n=2)
+    MeanEstimate(mean=2.0, se=1.0, n=2)
     """
     numbers = [float(value) for value in values]
     n = len(numbers)
     if n == 0:
-        return Estimate(0.0, 0.0, 0)
+        return MeanEstimate(0.0, 0.0, 0)
     mean = math.fsum(numbers) / n
     variance = math.fsum((x - mean) ** 2 for x in numbers) / (n - 1) if n > 1 else 0.0
-    return Estimate(mean, math.sqrt(variance / n), n)
+    return MeanEstimate(mean, math.sqrt(variance / n), n)
 
 
-def difference(ours: Mapping[int, float], theirs: Mapping[int, float]) -> Estimate:
+def difference(ours: Mapping[int, float], theirs: Mapping[int, float]) -> MeanEstimate:
     """Return the mean of ours minus theirs over the runs that both have.
 
     >>> difference({0: 5, 1: 7, 2: 9}, {0: 4, 1: 6})
-    Estimate(mean=1.0, se=0.0, n=2)
+    MeanEstimate(mean=1.0, se=0.0, n=2)
     """
     return estimate(ours[run] - theirs[run] for run in sorted(ours.keys() & theirs.keys()))
 
 
-def estimate_by(values: Iterable[tuple[Hashable, float]]) -> Estimate:
+def estimate_by(values: Iterable[tuple[Hashable, float]]) -> MeanEstimate:
     """Return the mean over units of their mean values: values of one unit do not count twice.
 
     >>> estimate_by([("a", 1), ("a", 3), ("b", 4)])
-    Estimate(mean=3.0, se=1.0, n=2)
+    MeanEstimate(mean=3.0, se=1.0, n=2)
     """
     found: dict[Hashable, list[float]] = {}
     for unit, value in values:
@@ -99,7 +99,7 @@ class Interval:
 
 
 N_RESAMPLED = 2000
-Counts = npt.NDArray[np.float64]
+ResampleCounts = npt.NDArray[np.float64]
 
 
 def two_way_bootstrap(values: Sequence[tuple[Hashable, Hashable, float]]) -> Interval:
@@ -135,7 +135,7 @@ def two_way_bootstrap(values: Sequence[tuple[Hashable, Hashable, float]]) -> Int
 
 
 @lru_cache(maxsize=16)
-def _drawn(n_rows: int, n_columns: int) -> tuple[Counts, Counts]:
+def _drawn(n_rows: int, n_columns: int) -> tuple[ResampleCounts, ResampleCounts]:
     """Return how often each row and each column is drawn, a line per sample."""
     rng = np.random.default_rng(0)
     rows, columns = (

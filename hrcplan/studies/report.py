@@ -7,12 +7,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from hrcplan.core.files import write_atomically
 from hrcplan.errors import InputError
-from hrcplan.files import write_atomically
 from hrcplan.studies import page
-from hrcplan.studies.estimate import Estimate, estimate, estimate_by
+from hrcplan.studies.estimate import MeanEstimate, estimate, estimate_by
 from hrcplan.studies.store import FILE, Store
-from hrcplan.studies.study import Cell, Row, Study, find
+from hrcplan.studies.study import Cell, Study, StudyRow, find
 
 JSON_FILE, PAGE_FILE = "report.json", "report.html"
 
@@ -56,23 +56,23 @@ def _study(about: dict[str, Any], folder: Path) -> Study:
 
 
 def cells_of(
-    rows: Sequence[Row], keys: Sequence[str], order: Sequence[Cell]
-) -> dict[Cell, list[Row]]:
+    rows: Sequence[StudyRow], keys: Sequence[str], order: Sequence[Cell]
+) -> dict[Cell, list[StudyRow]]:
     """Return rows by their cell: known cells in their order, then others as they come."""
-    found: dict[Cell, list[Row]] = {cell: [] for cell in order}
+    found: dict[Cell, list[StudyRow]] = {cell: [] for cell in order}
     for row in rows:
         found.setdefault(tuple(row[key] for key in keys), []).append(row)  # type: ignore[misc]
     return found
 
 
 def estimates(
-    rows: Sequence[Row], names: Sequence[str], unit: Sequence[str] = ()
-) -> dict[str, Estimate]:
+    rows: Sequence[StudyRow], names: Sequence[str], unit: Sequence[str] = ()
+) -> dict[str, MeanEstimate]:
     """Return the estimate of each named column over rows, or over units of them.
 
     Rows without a value are left out.
     """
-    found: dict[str, Estimate] = {}
+    found: dict[str, MeanEstimate] = {}
     for name in names:
         had = [row for row in rows if row.get(name) is not None]
         values = [float(row[name] or 0) for row in had]
@@ -81,7 +81,7 @@ def estimates(
     return found
 
 
-def _summary(study: Study, cell: Cell, rows: Sequence[Row]) -> dict[str, Any]:
+def _summary(study: Study, cell: Cell, rows: Sequence[StudyRow]) -> dict[str, Any]:
     return {
         "cell": dict(zip(study.tables[0].keys, cell, strict=True)),
         "n": len(rows),
@@ -90,7 +90,7 @@ def _summary(study: Study, cell: Cell, rows: Sequence[Row]) -> dict[str, Any]:
     }
 
 
-def _figures(found: dict[str, Estimate]) -> dict[str, dict[str, float | None]]:
+def _figures(found: dict[str, MeanEstimate]) -> dict[str, dict[str, float | None]]:
     """Return means and standard errors; both are None where no row has a value."""
     return {
         name: {"mean": e.mean if e.n else None, "se": e.se if e.n else None}

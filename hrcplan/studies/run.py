@@ -13,10 +13,10 @@ from pathlib import Path
 from hrcplan import __version__
 from hrcplan.errors import UsageError
 from hrcplan.studies.store import Store
-from hrcplan.studies.study import Episode, Options, Row, Say, Seed, Study, episodes, find
+from hrcplan.studies.study import Episode, Say, Seed, Study, StudyOptions, StudyRow, episodes, find
 
 _CHUNK = 32  # episodes a worker does before its rows are written: what a kill can lose
-Progress = Callable[[int, int], None]
+ReportProgress = Callable[[int, int], None]
 
 
 def run_study(
@@ -28,7 +28,7 @@ def run_study(
     jobs: int = 1,
     limit: int | None = None,
     options: Mapping[str, str | None] | None = None,
-    progress: Progress | None = None,
+    progress: ReportProgress | None = None,
     say: Say = lambda text: None,
 ) -> int:
     """Run what a study has no rows of yet, and return how many are new.
@@ -75,8 +75,8 @@ def run_study(
 
 
 def _results(
-    name: str, options: Options, seed: int, left: list[Episode], jobs: int
-) -> Iterator[list[tuple[Episode, Row]]]:
+    name: str, options: StudyOptions, seed: int, left: list[Episode], jobs: int
+) -> Iterator[list[tuple[Episode, StudyRow]]]:
     """Yield rows in the order of the episodes, whoever was first."""
     chunks = [left[i : i + _CHUNK] for i in range(0, len(left), _CHUNK)]
     if jobs == 1 or len(chunks) < 2:
@@ -101,13 +101,13 @@ def _end_with(parent: int) -> None:
 
 
 def _rows(
-    name: str, options: Options, seed: int, chunk: list[Episode]
-) -> list[tuple[Episode, Row]]:
+    name: str, options: StudyOptions, seed: int, chunk: list[Episode]
+) -> list[tuple[Episode, StudyRow]]:
     study = find(name)
     return [(episode, _row(study, options, seed, episode)) for episode in chunk]
 
 
-def _row(study: Study, options: Options, seed: int, episode: Episode) -> Row:
+def _row(study: Study, options: StudyOptions, seed: int, episode: Episode) -> StudyRow:
     table = study.table(episode.table)
     try:
         return table.episode(options, episode.cell, Seed(seed, episode.run))

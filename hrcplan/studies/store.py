@@ -18,7 +18,7 @@ from types import TracebackType
 from typing import Any
 
 from hrcplan.errors import InputError, UsageError
-from hrcplan.studies.study import Episode, Row, Table
+from hrcplan.studies.study import Episode, StudyRow, StudyTable
 
 FILE, CLOCK = "rows.sqlite", "clock.sqlite"
 _ABOUT = "about"
@@ -35,7 +35,7 @@ class Store:
         self._has_clock = False
 
     @classmethod
-    def to_write(cls, folder: Path, about: dict[str, Any], tables: Iterable[Table]) -> Store:
+    def to_write(cls, folder: Path, about: dict[str, Any], tables: Iterable[StudyTable]) -> Store:
         """Return the store of a folder, made if there is none, for one writer at a time.
 
         ``about`` is everything that the rows depend on.
@@ -100,7 +100,7 @@ class Store:
             os.close(self._lock)
             self._lock = None
 
-    def _prepare(self, about: dict[str, Any], tables: Iterable[Table]) -> None:
+    def _prepare(self, about: dict[str, Any], tables: Iterable[StudyTable]) -> None:
         with self._connection as connection:
             columns = "(key text primary key, value) without rowid"
             connection.execute(f"create table if not exists {_ABOUT} {columns}")
@@ -137,7 +137,7 @@ class Store:
             raise InputError(f"not a file of rows: {error}", code="bad-rows", path=path) from None
         return {key: json.loads(value) for key, value in pairs}
 
-    def missing(self, tables: Iterable[Table], wanted: Iterable[Episode]) -> list[Episode]:
+    def missing(self, tables: Iterable[StudyTable], wanted: Iterable[Episode]) -> list[Episode]:
         """Return the episodes that have no row yet, in their order."""
         known = {
             Episode(table.name, tuple(cell), run)
@@ -148,7 +148,7 @@ class Store:
         }
         return [episode for episode in wanted if episode not in known]
 
-    def add(self, table: Table, rows: Sequence[tuple[Episode, Row]]) -> None:
+    def add(self, table: StudyTable, rows: Sequence[tuple[Episode, StudyRow]]) -> None:
         """Add rows in one transaction; those that are there already stay."""
         with self._connection as connection:
             if table.clocked:
@@ -158,7 +158,7 @@ class Store:
             connection.executemany(*_insert(into, rows, table.columns))
             connection.execute(f"pragma main.user_version = {_GROWN}")
 
-    def rows(self, table: Table) -> list[Row]:
+    def rows(self, table: StudyTable) -> list[StudyRow]:
         """Return all rows of a table, keys and run included, in the order of cells and runs."""
         more = ""
         if table.clocked and self._has_clock:
@@ -213,7 +213,7 @@ def _told(folder: Path) -> Iterator[None]:
 
 
 def _insert(
-    into: str, rows: Sequence[tuple[Episode, Row]], columns: Sequence[str]
+    into: str, rows: Sequence[tuple[Episode, StudyRow]], columns: Sequence[str]
 ) -> tuple[str, list[tuple[Any, ...]]]:
     """Return a statement that adds the named columns of rows, and its values."""
     values = [(*e.cell, e.run, *(row[name] for name in columns)) for e, row in rows]
@@ -221,7 +221,7 @@ def _insert(
     return f"{into} values ({', '.join('?' * width)})", values
 
 
-def _create(table: Table, file: str = "") -> str:
+def _create(table: StudyTable, file: str = "") -> str:
     """Return the statement that makes a table; without rowid, so it is sorted by its key."""
     keys = (*table.keys, "run")
     named = table.clocked if file else table.columns

@@ -10,13 +10,13 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import islice
 
+from hrcplan.core.text import nearest
 from hrcplan.errors import UsageError
-from hrcplan.pddl.source import nearest
 
-Value = int | float | str | None
-Row = dict[str, Value]
+CellValue = int | float | str | None
+StudyRow = dict[str, CellValue]
 Cell = tuple[str | int | float, ...]
-Options = Mapping[str, str]
+StudyOptions = Mapping[str, str]
 Say = Callable[[str], None]
 
 STUDIES = {
@@ -44,7 +44,7 @@ class Seed(str):
 
 
 @dataclass(frozen=True, slots=True)
-class Table:
+class StudyTable:
     """Episodes of one kind: each is a cell and the number of a run.
 
     ``cells`` lists the cells; ``episode`` returns the row of one episode from options, cell and
@@ -56,8 +56,8 @@ class Table:
     name: str
     keys: tuple[str, ...]
     columns: tuple[str, ...]
-    cells: Callable[[Options], Sequence[Cell]]
-    episode: Callable[[Options, Cell, Seed], Row]
+    cells: Callable[[StudyOptions], Sequence[Cell]]
+    episode: Callable[[StudyOptions, Cell, Seed], StudyRow]
     at_most: int | None = None
     clocked: tuple[str, ...] = ()
 
@@ -89,7 +89,7 @@ class Findings:
     sections: Sequence[Section]
 
 
-Rows = Mapping[str, Sequence[Row]]
+StudyRows = Mapping[str, Sequence[StudyRow]]
 """The rows of every table, by its name, in the order of cells and runs."""
 
 
@@ -106,17 +106,17 @@ class Study:
 
     name: str
     title: str
-    tables: tuple[Table, ...]
+    tables: tuple[StudyTable, ...]
     measures: tuple[str, ...]
-    findings: Callable[[Options, Rows], Findings]
-    inputs: Callable[[Options], str]
+    findings: Callable[[StudyOptions, StudyRows], Findings]
+    inputs: Callable[[StudyOptions], str]
     details: tuple[str, ...] = ()
-    options: Options = field(default_factory=dict)
-    runs: Callable[[Options], int] = lambda options: 1000
-    prepare: Callable[[Options, int, Say], None] = lambda options, jobs, say: None
+    options: StudyOptions = field(default_factory=dict)
+    runs: Callable[[StudyOptions], int] = lambda options: 1000
+    prepare: Callable[[StudyOptions, int, Say], None] = lambda options, jobs, say: None
     unit: tuple[str, ...] = ()
 
-    def table(self, name: str) -> Table:
+    def table(self, name: str) -> StudyTable:
         """Return a table by its name."""
         return next(table for table in self.tables if table.name == name)
 
@@ -169,7 +169,7 @@ def _own(module: str, name: str) -> Study:
 
 
 def episodes(
-    study: Study, options: Options, runs: int, limit: int | None = None
+    study: Study, options: StudyOptions, runs: int, limit: int | None = None
 ) -> Iterator[Episode]:
     """Yield the episodes of a study in their fixed order.
 

@@ -29,11 +29,11 @@ from hrcplan.task.conditions import (
     single_bits,
 )
 from hrcplan.task.numbers import grounded
-from hrcplan.task.reachable import Instance
+from hrcplan.task.reachable import SchemaInstance
 
 
 @dataclass(frozen=True, slots=True)
-class Change:
+class BitEffect:
     """Facts deleted and then added where one of ``tests`` holds in the state before."""
 
     adds: int
@@ -65,8 +65,8 @@ class GroundAction:
     start: tuple[Test, ...]
     over: tuple[Test, ...]
     end: tuple[Test, ...]
-    at_start: tuple[Change, ...]
-    at_end: tuple[Change, ...]
+    at_start: tuple[BitEffect, ...]
+    at_end: tuple[BitEffect, ...]
     conditional: bool
     values: Mapping[FluentKey, Number]
 
@@ -75,7 +75,7 @@ class GroundAction:
 
 
 def ground_actions(
-    grounder: Grounder, found: Iterable[Instance], reached: Reached
+    grounder: Grounder, found: Iterable[SchemaInstance], reached: Reached
 ) -> tuple[GroundAction, ...]:
     """Return the ground actions of instances: those that can run and change something.
 
@@ -103,7 +103,7 @@ class _Builder:
     reached: Reached
 
     def build(
-        self, index: int, instance: Instance, chosen: Mapping[FluentKey, Number]
+        self, index: int, instance: SchemaInstance, chosen: Mapping[FluentKey, Number]
     ) -> GroundAction | None:
         """Return the ground action, or None if it can never run or never changes anything."""
         values = timed(instance, {**self.grounder.problem.values, **chosen} if chosen
@@ -140,7 +140,7 @@ class _Builder:
             values=chosen,
         )
 
-    def _who(self, instance: Instance) -> tuple[str | None, tuple[str, ...]]:
+    def _who(self, instance: SchemaInstance) -> tuple[str | None, tuple[str, ...]]:
         """Return the agent, and the step: the action without its agent."""
         agents = self.grounder.problem.agents
         place = next((i for i, arg in enumerate(instance.args) if arg in agents), None)
@@ -150,7 +150,11 @@ class _Builder:
         return instance.args[place], (instance.action.name, *rest)
 
     def _conditions(
-        self, instance: Instance, when: str, values: Values, given: Mapping[FluentKey, Number] = {}
+        self,
+        instance: SchemaInstance,
+        when: str,
+        values: Values,
+        given: Mapping[FluentKey, Number] = {},
     ) -> Tests:
         """Return the conditions of one phase, and that changing functions have these values."""
         found = self.grounder.conditions(instance.action, when, instance.binding, values)
@@ -161,11 +165,11 @@ class _Builder:
         return all_of([found, *(((bit, bit),) for bit in bits)])
 
     def _changes(
-        self, instance: Instance, when: str, values: Values
-    ) -> tuple[tuple[Change, ...], Values]:
+        self, instance: SchemaInstance, when: str, values: Values
+    ) -> tuple[tuple[BitEffect, ...], Values]:
         """Return the changes of one instant, and the function values after it."""
         adds = deletes = 0
-        conditional: list[Change] = []
+        conditional: list[BitEffect] = []
         for effect in instance.action.effects:
             if effect.when != when or effect.value is not None:
                 continue
@@ -177,7 +181,7 @@ class _Builder:
                 if tests == ALWAYS:
                     adds, deletes = adds | added, deletes | deleted
                 elif tests and bit:
-                    conditional.append(Change(added, deleted, tests))
+                    conditional.append(BitEffect(added, deleted, tests))
         after = dict[FluentKey, Number]()
         for move in moves(self.grounder, instance, when, values) if self.reached else ():
             after[move.key] = move.value
@@ -186,15 +190,15 @@ class _Builder:
             if move.tests == ALWAYS:
                 adds, deletes = adds | new, deletes | old
             else:
-                conditional.append(Change(new, old, move.tests))
-        sure = (Change(adds, deletes & ~adds),) if adds | deletes else ()
+                conditional.append(BitEffect(new, old, move.tests))
+        sure = (BitEffect(adds, deletes & ~adds),) if adds | deletes else ()
         return (*sure, *conditional), {**values, **after} if after else values
 
     def _values_of(self, key: FluentKey) -> int:
         """Return the bits of all values of a changing function."""
         return sum(self.grounder.bit(value_fact(key, value)) for value in self.reached[key])
 
-    def _costs(self, instance: Instance, values: Values, later: Values) -> tuple[Expr, ...]:
+    def _costs(self, instance: SchemaInstance, values: Values, later: Values) -> tuple[Expr, ...]:
         """Return what the action adds to total-cost, over ground functions that never change.
 
         Raises:
@@ -222,7 +226,7 @@ class _Builder:
         return {key: Constant(values[key]) for key in self.reached if key in values}
 
 
-def _net(changes: Sequence[Change]) -> tuple[int, int]:
+def _net(changes: Sequence[BitEffect]) -> tuple[int, int]:
     """Return adds and deletes of the unconditional changes, one after the other."""
     if len(changes) == 1 and changes[0].tests == ALWAYS:
         return changes[0].adds, changes[0].deletes
@@ -234,7 +238,7 @@ def _net(changes: Sequence[Change]) -> tuple[int, int]:
     return adds, deletes
 
 
-def _before(tests: Tests, changes: Sequence[Change]) -> Tests:
+def _before(tests: Tests, changes: Sequence[BitEffect]) -> Tests:
     """Return what must hold before changes of one instant for ``tests`` to hold after them."""
     touched = 0
     for change in changes:
@@ -250,7 +254,7 @@ def _before(tests: Tests, changes: Sequence[Change]) -> Tests:
     )  # fmt: skip
 
 
-def _bit_before(bit: int, wanted: bool, changes: Sequence[Change]) -> Tests:
+def _bit_before(bit: int, wanted: bool, changes: Sequence[BitEffect]) -> Tests:
     """Return what must hold before changes for one fact to hold, or not to hold, after them."""
     added = any_of(change.tests for change in changes if change.adds & bit)
     deleted = any_of(change.tests for change in changes if change.deletes & bit)

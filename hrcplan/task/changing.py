@@ -30,7 +30,7 @@ from hrcplan.pddl.semantics import (
 )
 from hrcplan.task.conditions import ALWAYS, NEVER, Grounder, Tests
 from hrcplan.task.numbers import numeric_effects
-from hrcplan.task.reachable import Instance
+from hrcplan.task.reachable import SchemaInstance
 
 MAX_VALUES = 16
 Reached = Mapping[FluentKey, Collection[Number]]
@@ -44,7 +44,7 @@ def value_fact(key: FluentKey, value: Number) -> Fact:
 
 
 @dataclass(frozen=True, slots=True)
-class Move:
+class ValueMove:
     """A function takes a new value where one of ``tests`` holds."""
 
     key: FluentKey
@@ -52,14 +52,16 @@ class Move:
     tests: Tests
 
 
-def moves(grounder: Grounder, instance: Instance, when: str, values: Values) -> list[Move]:
+def moves(
+    grounder: Grounder, instance: SchemaInstance, when: str, values: Values
+) -> list[ValueMove]:
     """Return what the effects of one instant do to functions that had ``values`` before it.
 
     Raises:
         UnsupportedError: if that cannot be said without knowing the state.
         Undefined: if an effect needs a function without a value.
     """
-    action, found = instance.action, dict[FluentKey, Move]()
+    action, found = instance.action, dict[FluentKey, ValueMove]()
     for effect in numeric_effects(action, when):
         assert effect.value is not None
         for inner in instances(effect.params, instance.binding, grounder.problem):
@@ -73,11 +75,11 @@ def moves(grounder: Grounder, instance: Instance, when: str, values: Values) -> 
                 raise UnsupportedError(message, hint="enhsp and kairos plan with such numbers")
             before = values.get(key) if last is None else last.value
             amount = evaluate(effect.value, values, inner)
-            found[key] = Move(key, assigned(effect.kind, key, before, amount), tests)
+            found[key] = ValueMove(key, assigned(effect.kind, key, before, amount), tests)
     return list(found.values())
 
 
-def timed(instance: Instance, values: Values) -> Values:
+def timed(instance: SchemaInstance, values: Values) -> Values:
     """Return function values, with the instance's ``?duration`` if that is fixed.
 
     Raises:
@@ -89,7 +91,7 @@ def timed(instance: Instance, values: Values) -> Values:
     return {**values, (DURATION,): evaluate(fixed[0], values, instance.binding)}
 
 
-def reached_values(grounder: Grounder, found: Sequence[Instance]) -> Reached:
+def reached_values(grounder: Grounder, found: Sequence[SchemaInstance]) -> Reached:
     """Return every value that each function which an instance changes can reach.
 
     Raises:
@@ -112,7 +114,9 @@ def reached_values(grounder: Grounder, found: Sequence[Instance]) -> Reached:
     return {key: tuple(sorted(values)) for key, values in reached.items()}
 
 
-def _spread(grounder: Grounder, mover: Instance, reached: dict[FluentKey, set[Number]]) -> bool:
+def _spread(
+    grounder: Grounder, mover: SchemaInstance, reached: dict[FluentKey, set[Number]]
+) -> bool:
     """Add the values that one instance leads to; return whether any is new."""
     size = sum(map(len, reached.values()))
     for chosen in list(combinations(keys_read(grounder, mover, reached), reached)):
@@ -125,7 +129,9 @@ def _spread(grounder: Grounder, mover: Instance, reached: dict[FluentKey, set[Nu
     return sum(map(len, reached.values())) > size
 
 
-def _possible_moves(grounder: Grounder, mover: Instance, values: Values) -> Iterator[Move]:
+def _possible_moves(
+    grounder: Grounder, mover: SchemaInstance, values: Values
+) -> Iterator[ValueMove]:
     if not grounder.conditions(mover.action, "start", mover.binding, values):
         return
     at_start = moves(grounder, mover, "start", values)
@@ -146,7 +152,7 @@ def combinations(
 
 
 def keys_read(
-    grounder: Grounder, instance: Instance, reached: Reached, phase: str | None = None
+    grounder: Grounder, instance: SchemaInstance, reached: Reached, phase: str | None = None
 ) -> frozenset[FluentKey]:
     """Return the changing functions that an instance looks at, in one phase or in any.
 

@@ -20,7 +20,15 @@ from hrcplan.pddl.model import (
     Problem,
     Quantified,
 )
-from hrcplan.pddl.semantics import Binding, State, Undefined, Values, ground_key, holds, instances
+from hrcplan.pddl.semantics import (
+    Binding,
+    LiftedState,
+    Undefined,
+    Values,
+    ground_key,
+    holds,
+    instances,
+)
 
 MAX_ALTERNATIVES = 256
 
@@ -85,7 +93,7 @@ class Grounder:
                 return self.tests(body, binding, values, not positive)
             case Equal() | Compare():
                 try:
-                    truth = holds(formula, State(frozenset(), values), binding, self.problem)
+                    truth = holds(formula, LiftedState(frozenset(), values), binding, self.problem)
                 except Undefined:
                     return NEVER
                 return _known(truth == positive)

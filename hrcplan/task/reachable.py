@@ -13,23 +13,23 @@ from math import inf
 from typing import NamedTuple
 
 from hrcplan.errors import LimitError
-from hrcplan.pddl.joins import Binding, FactIndex, Join, conjuncts, lifted_names, needed_atoms
+from hrcplan.pddl.joins import FactIndex, Join, JoinBinding, conjuncts, lifted_names, needed_atoms
 from hrcplan.pddl.model import DURATION, Action, Atom, Domain, Fact, Formula, Problem
-from hrcplan.pddl.semantics import State, Undefined, ground_key, holds, instances
+from hrcplan.pddl.semantics import LiftedState, Undefined, ground_key, holds, instances
 
 MAX_GROUND_ACTIONS = 200_000
 _CHECK = 256  # ground actions between two looks at the clock
 
 
-class Instance(NamedTuple):
+class SchemaInstance(NamedTuple):
     """An action schema, and the objects that its parameters are bound to."""
 
     action: Action
     args: tuple[str, ...]
-    binding: Binding
+    binding: JoinBinding
 
 
-def reachable(problem: Problem, deadline: float = inf) -> tuple[list[Instance], set[Fact]]:
+def reachable(problem: Problem, deadline: float = inf) -> tuple[list[SchemaInstance], set[Fact]]:
     """Return the reachable instances, by schema and then by objects, and the reachable facts.
 
     Every fact is taken in once and joined with those before it (semi-naive evaluation).
@@ -53,8 +53,8 @@ class _Search:
         self.problem = problem
         self.deadline = deadline
         self.index = FactIndex()
-        self.found: dict[tuple[str, tuple[str, ...]], Instance] = {}
-        self._start = State(problem.facts, problem.values)
+        self.found: dict[tuple[str, tuple[str, ...]], SchemaInstance] = {}
+        self._start = LiftedState(problem.facts, problem.values)
         self._rules = [_Rule(action, problem) for action in problem.domain.actions]
         self._users: dict[str, list[tuple[_Rule, int]]] = defaultdict(list)
         for rule in self._rules:
@@ -72,13 +72,13 @@ class _Search:
                 for rule, position in self._users[fact[0]]:
                     self._take(rule, rule.join.bindings(self.index, (position, fact)))
 
-    def _take(self, rule: _Rule, bindings: Iterator[Binding]) -> None:
+    def _take(self, rule: _Rule, bindings: Iterator[JoinBinding]) -> None:
         for binding in bindings:
             args = tuple([binding[name] for name in rule.names])
             key = rule.action.name, args
             if key in self.found or not self._can_hold(rule.fixed, binding):
                 continue
-            self.found[key] = Instance(rule.action, args, binding)
+            self.found[key] = SchemaInstance(rule.action, args, binding)
             self._check()
             for params, atom in rule.adds:
                 for inner in instances(params, binding, self.problem):
@@ -92,7 +92,7 @@ class _Search:
         if n_found % _CHECK == 0 and time.monotonic() > self.deadline:
             raise LimitError(f"no time for more than {n_found} ground actions", hint=hint)
 
-    def _can_hold(self, fixed: tuple[Formula, ...], binding: Binding) -> bool:
+    def _can_hold(self, fixed: tuple[Formula, ...], binding: JoinBinding) -> bool:
         try:
             return all(holds(part, self._start, binding, self.problem) for part in fixed)
         except Undefined:

@@ -29,7 +29,15 @@ from hrcplan.pddl.model import (
     formula_functions,
     functions_in,
 )
-from hrcplan.pddl.semantics import Binding, State, Undefined, Values, evaluate, ground_key, holds
+from hrcplan.pddl.semantics import (
+    Binding,
+    LiftedState,
+    Undefined,
+    Values,
+    evaluate,
+    ground_key,
+    holds,
+)
 from hrcplan.task.actions import GroundAction
 from hrcplan.task.changing import Reached, value_fact
 from hrcplan.task.numbers import divisors, grounded, numeric_effects
@@ -162,7 +170,7 @@ def _parts(action: Action) -> Iterator[Formula]:
 
 def _is_true(comparison: Formula, values: Values, binding: Binding, problem: Problem) -> bool:
     try:
-        return holds(comparison, State(frozenset(), values), binding, problem)
+        return holds(comparison, LiftedState(frozenset(), values), binding, problem)
     except Undefined:
         return False
 

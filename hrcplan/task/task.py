@@ -19,12 +19,12 @@ from hrcplan.pddl.model import (
     formula_functions,
 )
 from hrcplan.pddl.semantics import evaluate, ground_key, instances, mentions
-from hrcplan.task.actions import Change, GroundAction, ground_actions
+from hrcplan.task.actions import BitEffect, GroundAction, ground_actions
 from hrcplan.task.changing import Reached, combinations, reached_values, value_fact
 from hrcplan.task.conditions import Grounder, Test, Tests, all_of, any_of, meets, positions
 from hrcplan.task.lookup import lookup
 from hrcplan.task.numbers import check_supported, divisors, exact, functions_read, numeric_effects
-from hrcplan.task.reachable import Instance, reachable
+from hrcplan.task.reachable import SchemaInstance, reachable
 
 
 class Task:
@@ -230,7 +230,7 @@ class Task:
         return [a.index for a in self.actions if (a.name, *a.args) == wanted]
 
 
-def _fluents(problem: Problem, found: Iterable[Instance], facts: Set[Fact]) -> list[Fact]:
+def _fluents(problem: Problem, found: Iterable[SchemaInstance], facts: Set[Fact]) -> list[Fact]:
     """Return the reachable facts that do not hold all the time."""
     deleted: set[Fact] = set()
     for instance in found:
@@ -256,7 +256,7 @@ def _goal(grounder: Grounder, reached: Reached) -> Tests:
     return any_of(found)
 
 
-def _apply(state: int, changes: tuple[Change, ...]) -> int:
+def _apply(state: int, changes: tuple[BitEffect, ...]) -> int:
     adds = deletes = 0
     for change in changes:
         if meets(state, change.tests):

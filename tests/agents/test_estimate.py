@@ -4,7 +4,7 @@ from itertools import product
 
 import pytest
 
-from hrcplan.agents.estimate import Cause, Estimate, Prior
+from hrcplan.agents.estimate import AgentStateEstimate, Cause, Prior
 from hrcplan.agents.profile import profile
 from hrcplan.agents.state import AgentModel
 from hrcplan.facade import load_problem
@@ -17,8 +17,8 @@ HERE, THERE, NOWHERE = (A, B), (A, C), ()
 Seen = tuple[tuple[FluentKey, ...], bool]
 
 
-def after(seen: tuple[Seen, ...], prior: Prior = PRIOR) -> Estimate:
-    found = Estimate.begin(prior)
+def after(seen: tuple[Seen, ...], prior: Prior = PRIOR) -> AgentStateEstimate:
+    found = AgentStateEstimate.begin(prior)
     for touched, failure in seen:
         found = found.failed(touched) if failure else found.went_well(touched)
     return found
@@ -75,19 +75,19 @@ def test_the_filter_equals_enumeration(seen: tuple[Seen, ...]) -> None:
 
 
 def test_before_anything_is_observed_it_is_the_prior() -> None:
-    found = Estimate.begin(PRIOR)
+    found = AgentStateEstimate.begin(PRIOR)
     assert sum(PRIOR.causes.values()) == pytest.approx(1)
     assert sum(found.weights.values()) == pytest.approx(PRIOR.changed)
     assert sum(found.levels(C).values()) == pytest.approx(PRIOR.changed / 4)
 
 
 def test_who_fails_once_is_believed_to_have_changed_much() -> None:
-    before, later = Estimate.begin(PRIOR).levels(A), after(((HERE, True),)).levels(A)
+    before, later = AgentStateEstimate.begin(PRIOR).levels(A), after(((HERE, True),)).levels(A)
     assert later[8] / later[2] > before[8] / before[2]
 
 
 def test_what_nobody_touches_says_nothing() -> None:
-    assert after(((NOWHERE, True),)) == Estimate.begin(PRIOR)
+    assert after(((NOWHERE, True),)) == AgentStateEstimate.begin(PRIOR)
 
 
 def test_what_is_sensed_needs_no_estimate() -> None:

@@ -5,24 +5,29 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from hrcplan.assistance import ASSISTANTS, why
+from hrcplan.assistance import ASSISTANTS, explain
 from hrcplan.assistance.bigrams import Bigrams
-from hrcplan.assistance.cdp import DecisionPoints
-from hrcplan.assistance.expected import Expected
-from hrcplan.assistance.infogain import InformationGain
+from hrcplan.assistance.decision_points import DecisionPoints
+from hrcplan.assistance.expected_help import ExpectedHelp
+from hrcplan.assistance.field_similarity import (
+    BEST_LIKELIHOOD,
+    BEST_STAY,
+    BestFieldSimilarity,
+    FieldSimilarity,
+)
+from hrcplan.assistance.information_gain import InformationGain
 from hrcplan.assistance.lookahead import Lookahead, entropy, futures
-from hrcplan.assistance.outlook import Outlook
-from hrcplan.assistance.recursive import BEST_LIKELIHOOD, BEST_STAY, Similar, SimilarBest
+from hrcplan.assistance.step_values import StepValues
 from hrcplan.bank import Bank
+from hrcplan.bank.progress import ProgressTracker
 from hrcplan.errors import UsageError
-from hrcplan.inference.forest import Forest
-from hrcplan.inference.recursive import Next, Recursive
-from hrcplan.inference.track import Tracker
+from hrcplan.inference.classifier.forest import ForestBelief
+from hrcplan.inference.recursive import Next, RecursiveBelief
 
 
 def sure(bank):
     """Return a belief that takes each goal's next steps as alike, and nothing else."""
-    return Recursive(bank, stay=1.0, likelihood=Next(1e-9))
+    return RecursiveBelief(bank, stay=1.0, likelihood=Next(1e-9))
 
 
 def found(assistant, state):
@@ -46,7 +51,7 @@ def after(assistant, *words):
 
 def test_the_most_similar_step_is_chosen(workshop):
     """Cutting wire helps wire-red, both-red and either; compare five fields by hand."""
-    robot = Similar(workshop)
+    robot = FieldSimilarity(workshop)
     state = after(robot, ("cut", "wire"))
     assert found(robot, state) == pytest.approx(
         {"cut rope": -0.6, "cut pipe": -0.2, "unfold red": 0.6, "unfold blue": -0.2}
@@ -56,12 +61,16 @@ def test_the_most_similar_step_is_chosen(workshop):
 
 def test_the_belief_has_no_say(workshop):
     words = [("cut", "pipe"), ("cut", "wire")]
-    robots = [Similar(workshop), Similar(workshop, sure(workshop)), SimilarBest(workshop)]
+    robots = [
+        FieldSimilarity(workshop),
+        FieldSimilarity(workshop, sure(workshop)),
+        BestFieldSimilarity(workshop),
+    ]
     assert len({str(found(robot, after(robot, *words))) for robot in robots}) == 1
 
 
 def test_the_first_of_equals_is_chosen(workshop):
-    robot = Similar(workshop)
+    robot = FieldSimilarity(workshop)
     state = after(robot, ("cut", "rope"))
     values = found(robot, state)
     assert values == pytest.approx(
@@ -72,14 +81,14 @@ def test_the_first_of_equals_is_chosen(workshop):
 
 
 def test_before_any_human_action_all_steps_are_alike(workshop):
-    robot = Similar(workshop)
+    robot = FieldSimilarity(workshop)
     state = robot.observe(robot.start(), workshop.table.find(("cut", "wire")), robot=True)
     assert set(found(robot, state).values()) == {0.0}
     assert robot.choose(state) == min(robot.options(state).steps)
 
 
 def test_the_robots_own_steps_are_not_the_humans_last(workshop):
-    robot = Similar(workshop)
+    robot = FieldSimilarity(workshop)
     state = after(robot, ("cut", "wire"))
     state = robot.observe(state, robot.choose(state), robot=True)
     assert workshop.table[state.last].words == ("cut", "wire")
@@ -88,7 +97,7 @@ def test_the_robots_own_steps_are_not_the_humans_last(workshop):
 
 def test_who_did_it_does_not_matter_to_a_field(hall):
     """Where agents are kept, the robot's step has the field of the human's."""
-    robot = Similar(hall)
+    robot = FieldSimilarity(hall)
     table = hall.table
     hers = [step for step in range(len(table)) if table[step].words[1] == "ann"]
     can = table.applicable(robot.start().world)
@@ -105,7 +114,7 @@ def test_who_did_it_does_not_matter_to_a_field(hall):
 
 
 def test_the_best_parameters_are_used(workshop):
-    belief = SimilarBest(workshop).belief
+    belief = BestFieldSimilarity(workshop).belief
     assert (belief.stay, belief.likelihood) == (BEST_STAY, BEST_LIKELIHOOD)
 
 
@@ -114,38 +123,38 @@ def test_the_best_parameters_are_used(workshop):
 
 @pytest.fixture
 def look(desk):
-    return Lookahead(Outlook(Tracker(desk)), width=9)
+    return Lookahead(StepValues(ProgressTracker(desk)), width=9)
 
 
 def test_responses_are_what_the_goals_want_next(desk, look):
     """Each goal's next steps are alike: unlock, its own, and for three of four goals 'all'."""
     uniform = np.full(4, 0.25)
-    root = look.root(Expected(desk).start())
+    root = look.root(ExpectedHelp(desk).start())
     chances = {desk.table[s].words: p for s, p in look.responses(root, uniform)}
     assert chances == pytest.approx(
         {("unlock",): 3 / 12 + 1 / 8, ("work", "all"): 3 / 12, ("work", "s4"): 1 / 8}
         | {("work", f"s{i}"): 1 / 12 for i in (1, 2, 3)}
     )
-    narrow = Lookahead(Outlook(Tracker(desk)), width=2)
+    narrow = Lookahead(StepValues(ProgressTracker(desk)), width=2)
     kept = {desk.table[s].words: p for s, p in narrow.responses(root, uniform)}
     assert kept == pytest.approx({("unlock",): 0.6, ("work", "all"): 0.4})
 
 
 def test_what_nobody_wants_is_no_response(desk, look):
-    root = look.root(Expected(desk).start())
+    root = look.root(ExpectedHelp(desk).start())
     impossible = np.zeros(4)
     chances = [p for _, p in look.responses(root, impossible)]
     assert chances == pytest.approx([1 / 6] * 6)
 
 
 def test_likeliest_steps_come_first(desk):
-    root = Lookahead(Outlook(Tracker(desk))).root(Expected(desk).start())
+    root = Lookahead(StepValues(ProgressTracker(desk))).root(ExpectedHelp(desk).start())
     belief = np.array([0.1, 0.2, 0.3, 0.4])
-    look = Lookahead(Outlook(Tracker(desk)), width=3)
+    look = Lookahead(StepValues(ProgressTracker(desk)), width=3)
     words = [desk.table[s].words for s in look.steps(root, belief)]
     assert words == [("unlock",), ("work", "all"), ("work", "s4")]
     # What was seen to follow the step before comes first, whatever is believed.
-    seen = Lookahead(Outlook(Tracker(desk)), Bigrams(desk, 500), width=1)
+    seen = Lookahead(StepValues(ProgressTracker(desk)), Bigrams(desk, 500), width=1)
     place = seen.after(root, desk.table.find(("unlock",)))
     (first,) = seen.steps(place, belief)
     label = desk.table.find(("unlock",))
@@ -154,7 +163,7 @@ def test_likeliest_steps_come_first(desk):
 
 def test_no_plans_are_made_for_what_may_never_happen(workshop, monkeypatch):
     """Sealed too early, the red box is lost to three goals; the tree leaves it at that."""
-    robot = Expected(workshop)
+    robot = ExpectedHelp(workshop)
     state = after(robot, ("unfold", "red"))
     look = Lookahead(robot.outlook)
     monkeypatch.setattr(Bank, "reroot", None)
@@ -179,7 +188,7 @@ class Quick(Plain):
 
     def __init__(self, forest):
         super().__init__(forest)
-        self.label, self.n_branches = Tracker(forest.bank).joint.label, 0
+        self.label, self.n_branches = ProgressTracker(forest.bank).joint.label, 0
 
     def extended(self, row, extensions):
         self.n_branches += len(extensions)
@@ -194,7 +203,7 @@ class Quick(Plain):
 @pytest.mark.parametrize("kind", [DecisionPoints, InformationGain])
 def test_all_futures_at_once_are_what_they_are_one_by_one(request, walk, world, kind):
     bank = request.getfixturevalue(world)
-    forest = Forest(bank, n_samples=500, n_trees=5)
+    forest = ForestBelief(bank, n_samples=500, n_trees=5)
     quick = Quick(forest)
     robots = [kind(bank, belief) for belief in (forest, quick, Plain(forest))]
     for seed in range(2):
@@ -282,8 +291,8 @@ def test_information_lost_counts_against_a_branch(desk):
 
 @pytest.mark.parametrize("kind", [DecisionPoints, InformationGain])
 def test_a_forest_is_the_belief_by_default(desk, kind, monkeypatch):
-    monkeypatch.setattr(f"{kind.__module__}.Forest", lambda bank: Forest(bank, 0, 100, 2))
-    assert isinstance(kind(desk).belief, Forest)
+    monkeypatch.setattr(f"{kind.__module__}.ForestBelief", lambda bank: ForestBelief(bank, 0, 100, 2))
+    assert isinstance(kind(desk).belief, ForestBelief)
 
 
 @pytest.mark.parametrize("kind", [DecisionPoints, InformationGain])
@@ -315,7 +324,7 @@ def test_choices_can_be_explained(desk):
     for kind in (DecisionPoints, InformationGain):
         robot = kind(desk, sure(desk))
         state = after(robot, ("work", "s2"))
-        reasons = why(robot, state)
+        reasons = explain(robot, state)
         assert reasons.goals[0] == ("second", pytest.approx(1.0))
         assert reasons.chosen == reasons.candidates[0].action
         assert "second" in dict(reasons.candidates[0].helps)

@@ -2,11 +2,11 @@
 
 import pytest
 
-from hrcplan.assistance import why
-from hrcplan.assistance.expected import Expected
-from hrcplan.bank import Recipe, build, from_problems
+from hrcplan.assistance import explain
+from hrcplan.assistance.expected_help import ExpectedHelp
+from hrcplan.bank import BuildOptions, build, from_problems
 from hrcplan.pddl.check import domain_in, problem_in
-from hrcplan.pddl.source import Source
+from hrcplan.pddl.source import SourceText
 
 DOMAIN = """
 (define (domain office) (:requirements :strips :typing :numeric-fluents :action-costs)
@@ -30,25 +30,25 @@ PROBLEM = """
 
 
 def office(motivation):
-    domain = domain_in(Source("office", DOMAIN))
+    domain = domain_in(SourceText("office", DOMAIN))
     goals = {"first": "(signed a) (signed b)", "last": "(signed b) (signed c)"}
     problems = [
         problem_in(
-            domain, Source(name, PROBLEM.format(name=name, goal=goal, motivation=motivation))
+            domain, SourceText(name, PROBLEM.format(name=name, goal=goal, motivation=motivation))
         )
         for name, goal in goals.items()
     ]
-    return build(from_problems(problems), Recipe(cost="task"))
+    return build(from_problems(problems), BuildOptions(cost="task"))
 
 
 def test_a_human_who_needs_it_is_reminded():
     bank = office(9)
     assert bank.agents == "kept"
-    robot = Expected(bank)
+    robot = ExpectedHelp(bank)
     state = robot.start()
     step = robot.choose(state)
     assert bank.table[step].words == ("remind", "robot", "human")
-    told = why(robot, state)
+    told = explain(robot, state)
     assert told.chosen == "(remind robot human)"
     assert {goal for goal, _ in told.candidates[0].helps} == {"first", "last"}
     # Once is enough: then there is nothing that the robot could do.
@@ -56,13 +56,15 @@ def test_a_human_who_needs_it_is_reminded():
 
 
 def test_a_human_who_does_not_need_it_is_left_alone():
-    assert Expected(office(1)).choose(Expected(office(1)).start()) is None
+    assert ExpectedHelp(office(1)).choose(ExpectedHelp(office(1)).start()) is None
 
 
 @pytest.mark.parametrize("cost", ["steps"])
 def test_where_only_steps_count_nobody_is_reminded(cost):
-    domain = domain_in(Source("office", DOMAIN))
+    domain = domain_in(SourceText("office", DOMAIN))
     text = PROBLEM.format(name="only", goal="(signed a)", motivation=9)
-    bank = build(from_problems([problem_in(domain, Source("only", text))]), Recipe(cost=cost))
-    robot = Expected(bank)
+    bank = build(
+        from_problems([problem_in(domain, SourceText("only", text))]), BuildOptions(cost=cost)
+    )
+    robot = ExpectedHelp(bank)
     assert robot.choose(robot.start()) is None

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from hrcplan.assistance import ASSISTANTS
-from hrcplan.assistance.expected import Expected
-from hrcplan.assistance.outlook import Outlook
-from hrcplan.inference.forest import Forest
-from hrcplan.inference.track import Tracker
+from hrcplan.assistance.expected_help import ExpectedHelp
+from hrcplan.assistance.step_values import StepValues
+from hrcplan.bank.progress import ProgressTracker
+from hrcplan.inference.classifier.forest import ForestBelief
 from hrcplan.testing import check_assistant
 
 NAMES = ["recursive", "recursive-best", "cdp", "infogain", "hrcplan", "oracle"]
@@ -39,7 +39,7 @@ def test_every_assistant_keeps_the_laws(request, walk, world, name):
     bank = request.getfixturevalue(world)
     assert (bank.agents == "kept") == (world == "hall")
     kind = ASSISTANTS.find(name)
-    small = {"belief": Forest(bank, n_samples=3000, n_trees=10)}
+    small = {"belief": ForestBelief(bank, n_samples=3000, n_trees=10)}
     assistant = kind(bank, **(small if name in ("cdp", "infogain") else {}))
     check_assistant(assistant, bank, runs(bank, walk))
 
@@ -66,10 +66,10 @@ def test_what_a_step_is_worth_does_not_depend_on_what_was_asked_before(request, 
         can = bank.table.applicable(track.world)
         return outlook.help(track, outlook.wanted(track), can, even)[0].tolist()
 
-    used = Outlook(Tracker(bank))
+    used = StepValues(ProgressTracker(bank))
     for seed in range(40):
         steps = walk(bank, seed, 4 + seed % 4)
-        assert worth(used, steps) == worth(Outlook(Tracker(bank)), steps)
+        assert worth(used, steps) == worth(StepValues(ProgressTracker(bank)), steps)
 
 
 @dataclass
@@ -86,7 +86,7 @@ class Broken:
     """A good assistant in a coat, out of which holes are cut below."""
 
     def __init__(self, bank):
-        self.bank, self.inner, self.names = bank, Expected(bank), bank.names
+        self.bank, self.inner, self.names = bank, ExpectedHelp(bank), bank.names
         self.n_asked = 0
 
     def start(self):

@@ -10,19 +10,18 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hrcplan.agents.human import humans
-from hrcplan.assistance import ASSISTANTS, why
+from hrcplan.assistance import ASSISTANTS, explain
 from hrcplan.assistance.bigrams import Bigrams
-from hrcplan.assistance.rhp import Rhp, Tracked
-from hrcplan.assistance.tree import Root, Tree
+from hrcplan.assistance.rhp.assistant import RecedingHorizonPlanner, RhpState
+from hrcplan.assistance.rhp.consistency import Subset, labels
+from hrcplan.assistance.rhp.maximal_subsets import bits
+from hrcplan.assistance.rhp.tree import RecedingHorizonTree, TreeRoot
 from hrcplan.bank import Bank, build
 from hrcplan.errors import UsageError
-from hrcplan.inference.consistency import Subset, labels
+from hrcplan.inference.classifier.forest import ForestBelief, ForestState
 from hrcplan.inference.exact import IMPOSSIBLE
-from hrcplan.inference.forest import Done, Forest
-from hrcplan.inference.largest import bits
-from hrcplan.inference.switching import Switching
-from hrcplan.pddl.conventions import robots
+from hrcplan.inference.switching import SwitchingBelief
+from hrcplan.pddl.conventions import people, robots
 
 _SPEC = spec_from_file_location("worlds", Path(__file__).parents[1] / "inference" / "conftest.py")
 _worlds = module_from_spec(_SPEC)
@@ -66,13 +65,13 @@ def meals() -> Bank:
 
 
 @pytest.fixture(scope="session", params=["workshop", "hall", "meals"])
-def rhp(request) -> Rhp:
-    return Rhp(request.getfixturevalue(request.param), "presence", n_sampled=50)
+def rhp(request) -> RecedingHorizonPlanner:
+    return RecedingHorizonPlanner(request.getfixturevalue(request.param), "presence", n_sampled=50)
 
 
 @pytest.fixture(scope="session")
-def of_meals(meals) -> Rhp:
-    return Rhp(meals, "presence", n_sampled=50)
+def of_meals(meals) -> RecedingHorizonPlanner:
+    return RecedingHorizonPlanner(meals, "presence", n_sampled=50)
 
 
 def _step(bank, *words):
@@ -98,9 +97,9 @@ def _turns(draw, rhp, most=8):
     And the steps that led there, as `_watch` reads them.
     """
     bank, state, done = rhp.bank, rhp.start(), []
-    people, own = humans(bank), robots(bank.goals.problem)
+    others, own = people(bank.goals.problem), robots(bank.goals.problem)
     for _ in range(draw(st.integers(0, most))):
-        can = [s for s in bank.table.applicable(state.world) if _can(bank, state, s, people)]
+        can = [s for s in bank.table.applicable(state.world) if _can(bank, state, s, others)]
         if not can:
             break
         done.append(draw(st.sampled_from(can)))
@@ -143,7 +142,7 @@ def test_laws(data, rhp):
 def test_nothing_is_remembered_outside_states(data, rhp):
     """Another one, which has seen nothing else, comes to the same."""
     state, done = data.draw(_turns(rhp))
-    other = Rhp(rhp.bank, "presence", n_sampled=50)
+    other = RecedingHorizonPlanner(rhp.bank, "presence", n_sampled=50)
     again = _watch(other, *done)
     assert (again.sequences, again.n_declared) == (state.sequences, state.n_declared)
     assert other.posterior(again).tolist() == rhp.posterior(state).tolist()
@@ -214,7 +213,9 @@ def test_an_impossible_step_is_ignored(of_meals):
 
 @pytest.mark.parametrize("consistency", ["subset", "subsequence", "sampled"])
 def test_number_of_sequences_is_an_option(workshop, consistency):
-    rhp = Rhp(workshop, "presence", n_sequences=1, consistency=consistency, n_sampled=20)
+    rhp = RecedingHorizonPlanner(
+        workshop, "presence", n_sequences=1, consistency=consistency, n_sampled=20
+    )
     cut = [_step(workshop, "cut", x) for x in ("rope", "wire", "pipe")]
     assert _watch(rhp, *cut).sequences == ((cut[0], cut[2]),)
 
@@ -224,8 +225,8 @@ def test_number_of_sequences_is_an_option(workshop, consistency):
 
 def test_a_forest_guesses_the_mean(of_meals):
     bank = of_meals.bank
-    forest = Forest(bank, n_samples=600, n_trees=5)
-    rhp = Rhp(bank, forest, n_sampled=20)
+    forest = ForestBelief(bank, n_samples=600, n_trees=5)
+    rhp = RecedingHorizonPlanner(bank, forest, n_sampled=20)
     assert rhp.posterior(rhp.start()) == pytest.approx(1 / 3)
     cup, pan, fork = (_step(bank, "lay", x) for x in ("cup", "pan", "fork"))
     bowl, wash = _step(bank, "lay", "bowl"), _step(bank, "wash", "fork")
@@ -234,14 +235,14 @@ def test_a_forest_guesses_the_mean(of_meals):
     for sequence in ((bowl, pan), (pan,)):
         row = np.zeros(len(bank.table), dtype=np.uint8)
         row[[*sequence, fork, wash]] = 1
-        expected.append(forest.posterior(Done(bank.initial, row)))
+        expected.append(forest.posterior(ForestState(bank.initial, row)))
     assert state.sequences == ((bowl, pan), (pan,))
     assert rhp.posterior(state) == pytest.approx(np.mean(expected, axis=0))
 
 
 def test_a_belief_may_follow_all_steps_by_itself(workshop):
-    belief = Switching(workshop)
-    rhp = Rhp(workshop, belief, n_sampled=20)
+    belief = SwitchingBelief(workshop)
+    rhp = RecedingHorizonPlanner(workshop, belief, n_sampled=20)
     rope, red = _step(workshop, "cut", "rope"), _step(workshop, "unfold", "red")
     own = belief.observe(belief.observe(belief.start(), rope), red, robot=True)
     state = _watch(rhp, rope, [red])
@@ -296,22 +297,22 @@ def test_costs_are_those_of_trees_in_full(data, rhp):
     width = max(rhp.tracker.joint.label) + 1
     field = st.lists(st.integers(0, 3), min_size=width, max_size=width)
     fields = tuple(data.draw(field) for _ in range(n_trees))
-    root = Root(state.track, state.last, fields, (), lambda: rhp.posterior(state))
+    root = TreeRoot(state.track, state.last, fields, (), lambda: rhp.posterior(state))
     branching, depth = data.draw(st.integers(1, 4)), data.draw(st.integers(1, 5))
-    tree = Tree(rhp.outlook, rhp.tree.bigrams, rhp.tree.people, branching, depth)
+    tree = RecedingHorizonTree(rhp.outlook, rhp.tree.bigrams, rhp.tree.people, branching, depth)
     assert tree.costs(root) == _in_full(tree, root)
 
 
 def test_branches_that_end_early_count_too(hall):
     """Where only one can go on, some branches end before others, and stay among the cheapest."""
-    rhp = Rhp(hall, "presence", n_sampled=50)
+    rhp = RecedingHorizonPlanner(hall, "presence", n_sampled=50)
     moves = [("go", "robot", "c", "d"), ("go", "ann", "b", "c")]
     state = _watch(rhp, *(_step(hall, *words) for words in moves))
     rng = np.random.default_rng(0)
     for _ in range(60):
         fields = tuple(rng.integers(0, 4, (3, len(hall.table))).tolist())
-        root = Root(state.track, state.last, fields, (), lambda: rhp.posterior(state))
-        tree = Tree(rhp.outlook, rhp.tree.bigrams, rhp.tree.people, 4, 7)
+        root = TreeRoot(state.track, state.last, fields, (), lambda: rhp.posterior(state))
+        tree = RecedingHorizonTree(rhp.outlook, rhp.tree.bigrams, rhp.tree.people, 4, 7)
         assert tree.costs(root) == _in_full(tree, root)
 
 
@@ -343,8 +344,8 @@ def test_early_attraction_comes_first(of_meals):
     field = [0] * len(bank.table)
     field[bowl], field[lid], field[fork], field[wash] = 3, 3, 2, 9
     state = of_meals.start()
-    root = Root(state.track, None, (field,), (), lambda: of_meals.posterior(state))
-    tree = Tree(of_meals.outlook, of_meals.tree.bigrams, of_meals.tree.people, 9, 3)
+    root = TreeRoot(state.track, None, (field,), (), lambda: of_meals.posterior(state))
+    tree = RecedingHorizonTree(of_meals.outlook, of_meals.tree.bigrams, of_meals.tree.people, 9, 3)
     costs = tree.costs(root)
     assert costs[fork] == -2
     assert costs[bowl] == costs[lid] == -12
@@ -356,8 +357,10 @@ def test_trees_of_several_sequences_add_up(of_meals):
     one, two = [0] * len(bank.table), [0] * len(bank.table)
     one[bowl], two[lid], two[bowl] = 4, 5, 1
     state = of_meals.start()
-    root = Root(state.track, None, (one, two), (), lambda: of_meals.posterior(state))
-    costs = Tree(of_meals.outlook, of_meals.tree.bigrams, of_meals.tree.people, 9, 1).costs(root)
+    root = TreeRoot(state.track, None, (one, two), (), lambda: of_meals.posterior(state))
+    costs = RecedingHorizonTree(
+        of_meals.outlook, of_meals.tree.bigrams, of_meals.tree.people, 9, 1
+    ).costs(root)
     assert (costs[bowl], costs[lid]) == (-5, -5)
     assert of_meals.field(5) == [
         sum(step in of_meals.bank.graphs[g].used_steps for g in (0, 2))
@@ -414,8 +417,8 @@ def test_without_bigrams_the_belief_prunes(of_meals):
     """After the mat nothing was ever seen; what the likeliest goals want is tried first."""
     mat = _step(of_meals.bank, "lay", "mat")
     state = _watch(of_meals, mat)
-    root = Root(state.track, mat, ([0] * len(of_meals.bank.table),), (), lambda: belief)
-    tree = Tree(of_meals.outlook, of_meals.tree.bigrams, of_meals.tree.people, 2, 3)
+    root = TreeRoot(state.track, mat, ([0] * len(of_meals.bank.table),), (), lambda: belief)
+    tree = RecedingHorizonTree(of_meals.outlook, of_meals.tree.bigrams, of_meals.tree.people, 2, 3)
     bowl, fork, lid = (_step(of_meals.bank, "lay", x) for x in ("bowl", "fork", "lid"))
     belief = np.array([0.1, 0.2, 0.7])
     assert tree.children(root, state.track, mat, tree.people) == [bowl, fork]
@@ -425,7 +428,9 @@ def test_without_bigrams_the_belief_prunes(of_meals):
 
 
 def test_plausible_bigrams_try_nothing_else_first(workshop):
-    rhp = Rhp(workshop, "presence", bigrams="plausible", branching=1, n_sampled=50)
+    rhp = RecedingHorizonPlanner(
+        workshop, "presence", bigrams="plausible", branching=1, n_sampled=50
+    )
     state = _watch(rhp, _step(workshop, "cut", "pipe"))
     (first,) = rhp.options(state).steps
     assert first in workshop.graphs[3].used_steps | workshop.graphs[4].used_steps
@@ -435,12 +440,12 @@ def test_plausible_bigrams_try_nothing_else_first(workshop):
 
 
 def test_it_is_the_method_of_the_paper():
-    assert ASSISTANTS.find("paper") is Rhp
+    assert ASSISTANTS.find("paper") is RecedingHorizonPlanner
 
 
 def test_why_names_what_was_weighed(of_meals):
     state = _watch(of_meals, _step(of_meals.bank, "lay", "bowl"))
-    found = why(of_meals, state)
+    found = explain(of_meals, state)
     assert found.chosen == "(lay lid)"
     assert found.candidates[0].action == "(lay lid)"
     assert {name for name, _ in found.candidates[0].helps} >= {"soup", "stew"}
@@ -449,16 +454,18 @@ def test_why_names_what_was_weighed(of_meals):
 @pytest.mark.parametrize("option", [{"bigrams": "all"}, {"consistency": "loose"}])
 def test_unknown_words_are_refused(meals, option):
     with pytest.raises(UsageError, match=next(iter(option.values()))):
-        Rhp(meals, "presence", **option)
+        RecedingHorizonPlanner(meals, "presence", **option)
 
 
 def test_an_own_consistency_is_taken(meals):
     own = Subset(meals)
-    assert Rhp(meals, "presence", consistency=own, n_sampled=5).consistency is own
+    assert (
+        RecedingHorizonPlanner(meals, "presence", consistency=own, n_sampled=5).consistency is own
+    )
 
 
 def test_states_say_where_the_world_is(of_meals):
     state = of_meals.start()
-    assert isinstance(state, Tracked)
+    assert isinstance(state, RhpState)
     assert (state.world, state.last) == (of_meals.bank.initial, None)
     assert of_meals.names == tuple(MEALS)

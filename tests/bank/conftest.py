@@ -9,7 +9,7 @@ import pytest
 
 from hrcplan.bank import Bank, Goals, build_bank, from_problems
 from hrcplan.pddl.check import domain_in, problem_in
-from hrcplan.pddl.source import Source
+from hrcplan.pddl.source import SourceText
 from hrcplan.task import Task
 
 DATA = Path(__file__).parents[1] / "data" / "goal-recognition"
@@ -26,8 +26,8 @@ def instances() -> Path:
 
 
 def _read_world(domain: str, *problems: str) -> Goals:
-    model = domain_in(Source("domain", domain))
-    return from_problems([problem_in(model, Source("problem", text)) for text in problems])
+    model = domain_in(SourceText("domain", domain))
+    return from_problems([problem_in(model, SourceText("problem", text)) for text in problems])
 
 
 @pytest.fixture(scope="session")

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hrcplan.bank import Recipe, build
+from hrcplan.bank import BuildOptions, build
 from hrcplan.bank.construct import optimal_graph
 from hrcplan.bank.walk import is_prefix, is_subsequence, is_subset, plans
 
@@ -67,12 +67,12 @@ def worlds(draw, agents=("", "fixed", "moving")):
 
 
 RECIPES = [
-    Recipe(),
-    Recipe(cost="task"),
-    Recipe(quality=Fraction(3, 2)),
-    Recipe(cost="task", quality=Fraction(4, 3)),
-    Recipe(alternatives=Fraction(2)),
-    Recipe(cost="task", alternatives=Fraction(3, 2)),
+    BuildOptions(),
+    BuildOptions(cost="task"),
+    BuildOptions(quality=Fraction(3, 2)),
+    BuildOptions(cost="task", quality=Fraction(4, 3)),
+    BuildOptions(alternatives=Fraction(2)),
+    BuildOptions(cost="task", alternatives=Fraction(3, 2)),
 ]
 
 
@@ -117,7 +117,7 @@ def test_graphs_hold_exactly_the_plans_of_every_sequence(recipe, world, read_wor
 @settings(max_examples=60)
 @given(world=worlds(), data=st.data())
 def test_histories_against_the_list_of_plans(world, data, read_world):
-    bank = build(read_world(*world), Recipe(quality=Fraction(3, 2)))
+    bank = build(read_world(*world), BuildOptions(quality=Fraction(3, 2)))
     graph = bank.graphs[0]
     if graph.plans > 2000:
         return
@@ -139,7 +139,7 @@ def test_histories_against_the_list_of_plans(world, data, read_world):
 @settings(max_examples=60)
 @given(world=worlds(agents=("", "fixed")))
 def test_landmarks_only_save_work(world, read_world):
-    bank = build(read_world(*world), Recipe(cost="task"))
+    bank = build(read_world(*world), BuildOptions(cost="task"))
     blind = optimal_graph(bank.table, bank.goals.tests[0], bank.initial, name="g", blind=True)
     assert blind.steps.tolist() == bank.graphs[0].steps.tolist()
     assert blind.targets.tolist() == bank.graphs[0].targets.tolist()
@@ -173,7 +173,7 @@ def test_a_graph_from_another_state_goes_on_from_there(world, data, read_world, 
 
 
 def test_filters_agree_with_the_slow_way(read_world, brute, words):
-    bank = build(read_world(*LOOP), Recipe(quality=Fraction(2)))
+    bank = build(read_world(*LOOP), BuildOptions(quality=Fraction(2)))
     slow, graph = brute(bank), bank.graphs[0]
     listed = words(bank, plans(graph))
     kept = words(bank, bank.plans(0, bank.irredundant(0)))

@@ -9,12 +9,12 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from hrcplan.bank import PlanGraph, Recipe, build, orders
+from hrcplan.bank import BuildOptions, PlanGraph, build, orders
 from hrcplan.bank.chains import Chain, Clique, Leaf, chains_and_cliques, n_added, n_orders
 from hrcplan.bank.htn import decompose
-from hrcplan.bank.rules import Packing
 from hrcplan.bank.walk import plans
 from hrcplan.errors import LimitError
+from hrcplan.search.packed_states import FactPacking
 
 DEAR = 3  # a step that costs 2
 N_SHAPE = {2: {0, 1}, 3: {1}}  # 0 before 2, 1 before 2 and 3
@@ -79,7 +79,7 @@ def graph_of(listed):
     costs = [paid for paid, _ in nodes]
     return PlanGraph(
         goal="g",
-        packing=Packing((0,)),
+        packing=FactPacking((0,)),
         rows=np.zeros((len(nodes), 1), dtype=np.uint64),
         layers=tuple((paid, costs.index(paid)) for paid in dict.fromkeys(costs)),
         first=np.searchsorted([e[0] for e in edges], np.arange(len(nodes) + 1)).astype(np.int64),
@@ -353,7 +353,7 @@ def test_nothing_to_do_and_nothing_that_can_be_done(read_world):
 
 def test_bounded_banks_too(read_world):
     """With steps to spare a plan can do a step again, and its kind has more than one node's."""
-    bank = build(read_world(*task_of(closed(3, [(0, 2)]))), Recipe(quality=2))
+    bank = build(read_world(*task_of(closed(3, [(0, 2)]))), BuildOptions(quality=2))
     htn = decompose(bank.graphs[0])
     assert sum(kind.plans for kind in htn.kinds) == htn.plans
     assert htn.kinds[0].steps == (0, 1, 2)

@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import pytest
 
-from hrcplan.bank import Recipe, StepTable, build, build_bank, from_problems
+from hrcplan.bank import BuildOptions, StepTable, build, build_bank, from_problems
 from hrcplan.bank.enumerated import step_task
 from hrcplan.bank.ramirez_geffner import read_instance
 from hrcplan.bank.walk import plans
@@ -13,9 +13,9 @@ from hrcplan.facade import load_problem
 from hrcplan.pddl.generate import with_goal
 from hrcplan.planners import kstar
 from hrcplan.planners.lowering import lower
-from hrcplan.planners.process import Limits
+from hrcplan.planners.process import ProcessLimits
 
-LIMITS = Limits(time_s=120, output_bytes=1 << 28)
+LIMITS = ProcessLimits(time_s=120, output_bytes=1 << 28)
 
 
 def listed(bank, goal, quality):
@@ -37,7 +37,7 @@ def listed(bank, goal, quality):
 def test_shipped_domains(problem, goal, cost):
     loaded = load_problem(*problem)
     bank = build(
-        from_problems([with_goal(loaded, goal, "g") if goal else loaded]), Recipe(cost=cost)
+        from_problems([with_goal(loaded, goal, "g") if goal else loaded]), BuildOptions(cost=cost)
     )
     wanted = listed(bank, 0, 1)
     found = list(plans(bank.graphs[0]))
@@ -72,7 +72,7 @@ def test_logistics(instances):
 def test_plans_that_are_not_optimal():
     """K* also lists plans with steps that change nothing, or that go on after the goal."""
     goal = with_goal(load_problem("kitchen", "stew-bean"), "(and (mixed honey bowl) (served))", "g")
-    bank = build(from_problems([goal]), Recipe(quality=Fraction(6, 5)))
+    bank = build(from_problems([goal]), BuildOptions(quality=Fraction(6, 5)))
     graph = bank.graphs[0]
     assert graph.final_costs == (5, 6)
     assert set(plans(graph)) == {plan for plan in listed(bank, 0, 1.2) if to_the_point(bank, plan)}
@@ -89,13 +89,13 @@ def to_the_point(bank, plan):
 
 
 def test_a_bank_of_listed_plans():
-    bank = build_bank("kitchen", None, Recipe(sample=50), only=["parfait-nut"])
+    bank = build_bank("kitchen", None, BuildOptions(sample=50), only=["parfait-nut"])
     whole = build_bank("kitchen", only=["parfait-nut"])
     graph = bank.graphs[0]
     assert not graph.complete
     assert 50 <= graph.plans < whole.graphs[0].plans
     assert all(whole.graphs[0].after(plan) is not None for plan in plans(graph))
-    few = build(bank_of_one_box(), Recipe(sample=5000)).graphs[0]
+    few = build(bank_of_one_box(), BuildOptions(sample=5000)).graphs[0]
     assert few.complete
     assert set(plans(few)) == set(plans(build(bank_of_one_box()).graphs[0]))
 
@@ -107,7 +107,7 @@ def bank_of_one_box():
 def test_limits_of_listing(monkeypatch):
     task, _ = step_task(StepTable(bank_of_one_box().task), bank_of_one_box().formulas[0])
     with pytest.raises(LimitError):
-        kstar.list_plans(lower(task), Limits(time_s=0), n=3)
+        kstar.list_plans(lower(task), ProcessLimits(time_s=0), n=3)
     with pytest.raises(ValueError, match="number of plans or a quality"):
         kstar.list_plans(lower(task), LIMITS, quality=None)
     monkeypatch.setattr(kstar, "find_spec", lambda name: None)

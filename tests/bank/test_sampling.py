@@ -7,7 +7,7 @@ from math import factorial
 import numpy as np
 import pytest
 
-from hrcplan.bank import Limits, Recipe, build, build_bank, from_problems
+from hrcplan.bank import BuildLimits, BuildOptions, build, build_bank, from_problems
 from hrcplan.bank.walk import Sampler, first_plans, is_subset, plans, step_multisets
 from hrcplan.errors import LimitError, UnsupportedError, UsageError
 from hrcplan.facade import load_problem
@@ -21,8 +21,15 @@ def chi_square(counts, n_kinds):
     return (statistic - (n_kinds - 1)) / (2 * (n_kinds - 1)) ** 0.5
 
 
-@pytest.mark.parametrize("recipe", [Recipe(), Recipe(quality=Fraction(9, 8)),
-                                    Recipe(alternatives=Fraction(9, 8))], ids=str)  # fmt: skip
+@pytest.mark.parametrize(
+    "recipe",
+    [
+        BuildOptions(),
+        BuildOptions(quality=Fraction(9, 8)),
+        BuildOptions(alternatives=Fraction(9, 8)),
+    ],
+    ids=str,
+)
 def test_every_plan_has_the_same_chance(recipe):
     bank = build(from_problems([load_problem("transport", "two-boxes")]), recipe)
     graph, rng = bank.graphs[0], np.random.default_rng(11)
@@ -33,7 +40,8 @@ def test_every_plan_has_the_same_chance(recipe):
 
 def test_filtered_samples_are_uniform():
     bank = build(
-        from_problems([load_problem("transport", "two-boxes")]), Recipe(quality=Fraction(9, 8))
+        from_problems([load_problem("transport", "two-boxes")]),
+        BuildOptions(quality=Fraction(9, 8)),
     )
     keep = bank.irredundant(0)
     kept = set(bank.plans(0, keep))
@@ -128,7 +136,11 @@ def test_too_many_kinds_of_plans(read_world):
 
 
 def test_limits_name_what_to_lower(kitchen):
-    for recipe in (Recipe(), Recipe(quality=Fraction(6, 5)), Recipe(alternatives=Fraction(2))):
+    for recipe in (
+        BuildOptions(),
+        BuildOptions(quality=Fraction(6, 5)),
+        BuildOptions(alternatives=Fraction(2)),
+    ):
         with pytest.raises(LimitError) as caught:
             build(kitchen.goals, recipe, mib=1)
         assert caught.value.code == "memory"
@@ -138,11 +150,13 @@ def test_limits_name_what_to_lower(kitchen):
             build(kitchen.goals, recipe, timeout_s=0)
         assert caught.value.code == "timeout"
     with pytest.raises(LimitError):
-        kitchen.reroot(0, kitchen.initial, Limits(mib=0))
+        kitchen.reroot(0, kitchen.initial, BuildLimits(mib=0))
 
 
 def test_a_kitchen_of_two_goals_and_more_than_optimal_plans():
-    bank = build_bank("kitchen", None, Recipe(quality=Fraction(107, 100)), only=["parfait-nut"])
+    bank = build_bank(
+        "kitchen", None, BuildOptions(quality=Fraction(107, 100)), only=["parfait-nut"]
+    )
     graph = bank.graphs[0]
     assert graph.final_costs == (17, 18)
     optimal = build_bank("kitchen", only=["parfait-nut"]).graphs[0]
@@ -163,7 +177,7 @@ def test_a_kitchen_of_two_goals_and_more_than_optimal_plans():
 )
 def test_recipes_that_make_no_sense(wrong, message):
     with pytest.raises(UsageError, match=message):
-        Recipe(**wrong)
+        BuildOptions(**wrong)
 
 
 def test_costs_that_a_bank_cannot_hold(read_world):
@@ -176,6 +190,6 @@ def test_costs_that_a_bank_cannot_hold(read_world):
     )
     assert build(world).graphs[0].plans == 1
     with pytest.raises(UnsupportedError, match="not negative"):
-        build(world, Recipe(cost="task"))
+        build(world, BuildOptions(cost="task"))
     with pytest.raises(UnsupportedError, match="no bank cost 'time'"):
-        build(world, Recipe(cost="time"))
+        build(world, BuildOptions(cost="time"))

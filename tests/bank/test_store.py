@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from hrcplan.bank import Recipe, build_bank, load, save, verify
+from hrcplan.bank import BuildOptions, build_bank, load, save, verify
 from hrcplan.bank.audit import fault
 from hrcplan.bank.store import MAGIC, dumps
 from hrcplan.bank.walk import plans
@@ -18,9 +18,9 @@ from hrcplan.errors import InputError, UsageError
 
 ROOT = Path(__file__).parents[2]
 RECIPES = [
-    Recipe(),
-    Recipe(quality=Fraction(3, 2)),
-    Recipe(cost="task", alternatives=Fraction(5, 4)),
+    BuildOptions(),
+    BuildOptions(quality=Fraction(3, 2)),
+    BuildOptions(cost="task", alternatives=Fraction(5, 4)),
 ]
 
 

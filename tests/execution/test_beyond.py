@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from hrcplan.agents import profile
-from hrcplan.execution import Row, Spec, engine_for, means, simulate
+from hrcplan.execution import Outcome, Spec, engine_for, means, simulate
 from hrcplan.execution import events as ev
 from hrcplan.execution.execute import carry_out, make_setting
 from hrcplan.execution.journal import read_journal
@@ -15,7 +15,7 @@ from hrcplan.execution.replay import replay
 from hrcplan.execution.simulate import make_engine
 from hrcplan.execution.worlds.simulated import Nature, StateChange
 from hrcplan.facade import load_problem
-from hrcplan.planners.retries import with_success
+from hrcplan.planners.expected_price import with_success
 
 MOTIVATION = ("motivation", "human")
 COACHED: Mapping[str, Any] = {"domain": "transport-coached", "profile": "hrcplan", "case": 2}
@@ -23,11 +23,11 @@ MEMORY: Mapping[str, Any] = {"model": False, "profile": "hrcplan"}
 ESTIMATED: Mapping[str, Any] = {"model": False, "profile": "estimated"}
 
 
-def rows(n: int, **changes: Any) -> list[Row]:
+def rows(n: int, **changes: Any) -> list[Outcome]:
     return [simulate(Spec(seed=f"beyond-{i}", planner="exact", **changes)) for i in range(n)]
 
 
-def coached(probability: float, seed: int = 0, value: float = 8) -> tuple[Row, list[str]]:
+def coached(probability: float, seed: int = 0, value: float = 8) -> tuple[Outcome, list[str]]:
     """Return a run whose human is unmotivated from the start, and what was done in it."""
     problem = with_success(load_problem("transport-coached", "two-boxes"), probability)
     engine = make_engine(problem, profile("hrcplan"))

@@ -20,7 +20,7 @@ from hrcplan.errors import InputError, UsageError
 from hrcplan.execution import events as ev
 from hrcplan.execution.events import from_json, to_json
 from hrcplan.execution.execute import Executed, carry_out, execute, make_setting
-from hrcplan.execution.journal import Setting, Writer, read_journal, setting_of
+from hrcplan.execution.journal import RunSetup, Writer, read_journal, setting_of
 from hrcplan.execution.replanner import Replanner
 from hrcplan.execution.replay import replay
 from hrcplan.execution.worlds.simulated import FactChange, Nature, StateChange
@@ -224,7 +224,7 @@ def test_settings_survive_the_journal() -> None:
     problem = load_problem("kitchen", "salad-greek")
     nature = Nature("a/1", CHANGES[:1], CHANGES[1:], "after", "attempt", frozenset({"mix"}))
     setting = make_setting(problem, profile="hrcplan", seed="x")
-    setting = Setting(setting.problem, setting.profile, False, nature, ("kairos",))
+    setting = RunSetup(setting.problem, setting.profile, False, nature, ("kairos",))
     table = json.loads(json.dumps(setting.to_json()))
     found = setting_of(table, "test")
     assert found.to_json() == setting.to_json()

@@ -2,15 +2,15 @@
 
 import pytest
 
-from hrcplan.execution import Row, Spec, engine_for, means, simulate
+from hrcplan.execution import Outcome, Spec, engine_for, means, simulate
 from hrcplan.execution.worlds.simulated import Nature, StateChange
 
 # Types of runs without the model: four actions each, in lock-step, six failures at one.
-UNTOUCHED = Row(True, "goal reached", assigned_human=4, assigned_robot=4, executed_human=4,
+UNTOUCHED = Outcome(True, "goal reached", assigned_human=4, assigned_robot=4, executed_human=4,
                 executed_robot=4)  # fmt: skip
-AT_FIRST = Row(False, "replan limit", replans_failure=5, assigned_human=6 * 4,
+AT_FIRST = Outcome(False, "replan limit", replans_failure=5, assigned_human=6 * 4,
                assigned_robot=4 + 3 + 2 + 1, executed_robot=4, failed_human=6)  # fmt: skip
-AT_THIRD = Row(False, "replan limit", replans_failure=5, assigned_human=4 + 10,
+AT_THIRD = Outcome(False, "replan limit", replans_failure=5, assigned_human=4 + 10,
                assigned_robot=5, executed_human=2, executed_robot=4, failed_human=6)  # fmt: skip
 
 
@@ -37,7 +37,7 @@ def test_rows_of_table_1(counts: tuple[int, int, int], printed: tuple[float, ...
         (("capacity", "human", "wp3"), UNTOUCHED),
     ],
 )
-def test_simulated_runs_are_of_these_types(element: tuple[str, ...], like: Row) -> None:
+def test_simulated_runs_are_of_these_types(element: tuple[str, ...], like: Outcome) -> None:
     """Without the model the same plan is tried again until the replan limit ends the run."""
     engine = engine_for(Spec(model=False, profile="paper"))
     run = engine.run(Nature(0, (StateChange(0.0, {element: 10}),)))
@@ -52,7 +52,7 @@ def test_standard_error_and_empty_means() -> None:
 
 
 def test_no_action_at_all_is_no_division_by_zero() -> None:
-    assert Row(False, "no plan").measures()["failed_pct"] == 0.0
+    assert Outcome(False, "no plan").measures()["failed_pct"] == 0.0
 
 
 def test_the_same_seed_gives_the_same_row_and_another_seed_others() -> None:

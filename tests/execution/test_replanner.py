@@ -15,7 +15,7 @@ from hrcplan.execution.timeline import Timeline
 from hrcplan.execution.worlds.simulated import Nature, StateChange
 from hrcplan.facade import load_problem
 from hrcplan.planners import registry
-from hrcplan.planners.answer import Answer, Card, Request, Status
+from hrcplan.planners.contract import Answer, Capabilities, Request, Status
 from hrcplan.plans import parse_plan
 
 DISTRACTED = Nature(0, (StateChange(0.0, {("motivation", "human"): 9}),))
@@ -25,7 +25,9 @@ class Faulty:
     """Answers well ``n_good`` times and then does something else."""
 
     def __init__(self, fault: str, n_good: int = 1) -> None:
-        self.card = Card("faulty", "a planner with a fault", temporal=True, metric="cost+time")
+        self.card = Capabilities(
+            "faulty", "a planner with a fault", temporal=True, metric="cost+time"
+        )
         self.fault = fault
         self.n_good = n_good
         self.good = registry.make("exact")

@@ -10,7 +10,7 @@ import pytest
 
 from hrcplan.bank import Bank, Goals, build, build_bank, from_problems
 from hrcplan.pddl.check import domain_in, problem_in
-from hrcplan.pddl.source import Source
+from hrcplan.pddl.source import SourceText
 
 DATA = Path(__file__).parents[1] / "data" / "goal-recognition"
 
@@ -68,9 +68,9 @@ ERRANDS = {"cup": "(ready cup)", "pen": "(ready pen)", "key": "(ready key)",
 
 
 def world(domain: str, problem: str, goals: dict[str, str]) -> Goals:
-    model = domain_in(Source("domain", domain))
+    model = domain_in(SourceText("domain", domain))
     texts = (problem.format(name=name, goal=goal) for name, goal in goals.items())
-    return from_problems([problem_in(model, Source("problem", text)) for text in texts])
+    return from_problems([problem_in(model, SourceText("problem", text)) for text in texts])
 
 
 @pytest.fixture(scope="session")

@@ -12,11 +12,11 @@ import pytest
 from hrcplan.bank import build
 from hrcplan.inference import batch
 from hrcplan.inference.changes import ChangeFilter
-from hrcplan.inference.cost import Cost
-from hrcplan.inference.exact import Exact
-from hrcplan.inference.forest import Forest
-from hrcplan.inference.recursive import Attractor, Next, Recursive
-from hrcplan.inference.switching import Switching
+from hrcplan.inference.classifier.forest import ForestBelief
+from hrcplan.inference.exact import ExactBelief
+from hrcplan.inference.recognition.cost import CostBelief
+from hrcplan.inference.recursive import Attractor, Next, RecursiveBelief
+from hrcplan.inference.switching import SwitchingBelief
 from hrcplan.testing import check_belief
 
 WORLDS = ["workshop", "hall"]
@@ -47,9 +47,9 @@ def bank(request):
 
 def test_beliefs_about_a_bank_share_its_graphs_as_long_as_there_is_one(workshop):
     bank = build(workshop.goals.only(["rope-red", "wire-red"]))
-    first, second = Exact(bank), Recursive(bank)
+    first, second = ExactBelief(bank), RecursiveBelief(bank)
     assert first.tracker.joint is second.tracker.joint
-    assert Exact(build(bank.goals)).tracker.joint is not first.tracker.joint
+    assert ExactBelief(build(bank.goals)).tracker.joint is not first.tracker.joint
     shared = ref(first.tracker.joint)
     del first
     gc.collect()
@@ -66,24 +66,24 @@ def test_the_worlds_are_of_both_kinds(workshop, hall):
 @pytest.mark.parametrize(
     "make",
     [
-        Exact, Switching, Recursive,
-        lambda bank: Recursive(bank, likelihood=Next()),
-        lambda bank: Recursive(bank, likelihood=Attractor(2)),
-        lambda bank: Forest(bank, n_samples=400, n_trees=10),
-        lambda bank: Cost(bank.goals, timeout_s=10),
-        lambda bank: Cost(bank.goals, timeout_s=1e-6),
+        ExactBelief, SwitchingBelief, RecursiveBelief,
+        lambda bank: RecursiveBelief(bank, likelihood=Next()),
+        lambda bank: RecursiveBelief(bank, likelihood=Attractor(2)),
+        lambda bank: ForestBelief(bank, n_samples=400, n_trees=10),
+        lambda bank: CostBelief(bank.goals, timeout_s=10),
+        lambda bank: CostBelief(bank.goals, timeout_s=1e-6),
     ],
     ids=["exact", "switching", "recursive", "next", "attractor", "forest", "cost", "estimated"],
 )  # fmt: skip
 def test_every_belief_keeps_the_laws(bank, walk, brute, make):
     belief = make(bank)
     sequences = runs(bank, walk, brute)
-    check_belief(belief, sequences[:6] if isinstance(belief, Cost) else sequences)
+    check_belief(belief, sequences[:6] if isinstance(belief, CostBelief) else sequences)
 
 
 def test_exact_equals_bayes_over_listed_plans(bank, walk, brute):
     """Also after mistakes, steps that no goal explains, and on graphs from other states."""
-    belief = Exact(bank, mistake_rate=0.05)
+    belief = ExactBelief(bank, mistake_rate=0.05)
     for steps in runs(bank, walk, brute):
         for length, row in enumerate(batch(belief, steps)):
             assert row.tolist() == pytest.approx(brute.exact(bank, steps[:length], 0.05), abs=1e-8)
@@ -94,7 +94,7 @@ def test_the_share_of_plans_decides(workshop, brute):
     goal = 0
     plans = brute.optimal_plans(workshop, goal, workshop.initial)
     first = plans[0][0]
-    belief = Exact(workshop)
+    belief = ExactBelief(workshop)
     seen = belief.tracker.follow(belief.start().track, first)
     assert seen is not None
     share = sum(plan[0] == first for plan in plans) / len(plans)
@@ -104,7 +104,7 @@ def test_the_share_of_plans_decides(workshop, brute):
 
 def test_switching_equals_all_histories(bank, walk, brute):
     rates, chances = (0.01, 0.2), {"hazard": 0.15, "never": 0.3, "settles": 0.6}
-    belief = Switching(bank, mistake_rates=rates, **chances)
+    belief = SwitchingBelief(bank, mistake_rates=rates, **chances)
     for steps in [run[:4] for run in runs(bank, walk, brute)]:
         rows = batch(belief, steps)
         for length in range(1, len(steps) + 1):
@@ -116,7 +116,7 @@ def test_switching_equals_all_histories(bank, walk, brute):
 
 def test_smoothed_changes_equal_all_histories(bank, walk, brute):
     rates, chances = (0.01, 0.2), {"hazard": 0.15, "never": 0.3, "settles": 0.6}
-    belief = Switching(bank, mistake_rates=rates, **chances)
+    belief = SwitchingBelief(bank, mistake_rates=rates, **chances)
     for steps in [run[:4] for run in runs(bank, walk, brute)]:
         states = [belief.start()]
         for step in steps:
@@ -147,7 +147,7 @@ def test_goal_order_does_not_matter(bank, walk, brute):
     order = list(bank.names)
     random.Random(3).shuffle(order)
     other = build(bank.goals.only(order))
-    for kind in (Exact, Switching, Recursive):
+    for kind in (ExactBelief, SwitchingBelief, RecursiveBelief):
         mine, theirs = kind(bank), kind(other)
         for steps in runs(bank, walk, brute):
             for a, b in zip(batch(mine, steps), batch(theirs, steps), strict=True):
@@ -155,7 +155,7 @@ def test_goal_order_does_not_matter(bank, walk, brute):
                 assert a.tolist() == pytest.approx([named[name] for name in bank.names], abs=1e-8)
 
 
-@pytest.mark.parametrize("kind", [Exact, Switching, Recursive])
+@pytest.mark.parametrize("kind", [ExactBelief, SwitchingBelief, RecursiveBelief])
 def test_robot_steps_move_the_world_and_are_no_evidence(workshop, kind):
     table = workshop.table
     unfold, cut = table.find(("unfold", "red")), table.find(("cut", "rope"))
@@ -168,7 +168,7 @@ def test_robot_steps_move_the_world_and_are_no_evidence(workshop, kind):
 
 
 def test_a_step_that_no_goal_explains_is_reported_and_the_belief_stays(workshop):
-    belief = Exact(workshop)
+    belief = ExactBelief(workshop)
     table = workshop.table
     steps = [table.find(("unfold", "red")), table.find(("seal", "blue"))]
     state = belief.observe(belief.start(), steps[0])
@@ -201,7 +201,7 @@ def kitchen_run(kitchen, rng, first, second, at, mistakes=()):
 
 def test_switching_finds_a_change_and_survives_mistakes(kitchen):
     rng = np.random.default_rng(11)
-    belief = Switching(kitchen)
+    belief = SwitchingBelief(kitchen)
     first, second = kitchen.names.index("stew-lentil"), kitchen.names.index("parfait-mango")
     steps = kitchen_run(kitchen, rng, first, second, at=9, mistakes=(4, 14))
     states = [belief.start()]
@@ -217,7 +217,7 @@ def test_switching_finds_a_change_and_survives_mistakes(kitchen):
 
 def test_no_change_is_declared_without_one(kitchen):
     rng = np.random.default_rng(12)
-    belief = Switching(kitchen)
+    belief = SwitchingBelief(kitchen)
     for goal in range(0, 30, 5):
         states = [belief.start()]
         for step in kitchen_run(kitchen, rng, goal, goal, at=99):

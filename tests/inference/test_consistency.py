@@ -10,12 +10,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hrcplan.bank import Bank, Recipe, build, walk
-from hrcplan.inference.ceiling import Presence
-from hrcplan.inference.consistency import Subset, labels
-from hrcplan.inference.largest import bits
-from hrcplan.inference.sampled import Sampled
-from hrcplan.inference.subsequence import Subsequence
+from hrcplan.assistance.rhp.consistency import Subset, labels
+from hrcplan.assistance.rhp.maximal_subsets import bits
+from hrcplan.assistance.rhp.sampled import Sampled
+from hrcplan.assistance.rhp.set_posterior import SetPosterior
+from hrcplan.assistance.rhp.subsequence import Subsequence
+from hrcplan.bank import Bank, BuildOptions, build, walk
 
 BANKS = ("workshop", "hall", "detours")
 N_FEW = 6
@@ -25,7 +25,7 @@ N_FEW = 6
 def detours(hall: Bank) -> Bank:
     """Plans with twice the steps they need, in which people walk to and fro."""
     small = hall.goals.only(["cup", "key"])
-    return build(small, Recipe(quality=Fraction(3, 2)))
+    return build(small, BuildOptions(quality=Fraction(3, 2)))
 
 
 @pytest.fixture(scope="session", params=BANKS)
@@ -171,7 +171,7 @@ def test_kitchen_orders_rule_out_what_sets_do_not(kitchen):
 
 def test_presence_weighs_beginnings_and_forgives(kitchen):
     """Steps of a goal tell it, one that it has no use for only doubts it, and nothing nothing."""
-    presence = Presence(kitchen)
+    presence = SetPosterior(kitchen)
     rows = np.zeros((3, len(kitchen.table)), dtype=np.uint8)
     plan = kitchen.sample(3, 1, np.random.default_rng(0))[0]
     rows[:2, list(plan[:12])] = 1
@@ -184,7 +184,7 @@ def test_presence_weighs_beginnings_and_forgives(kitchen):
 
 
 def test_presence_is_the_ceiling_on_beginnings(workshop):
-    presence = Presence(workshop, error=0.0)
+    presence = SetPosterior(workshop, error=0.0)
     for goal in (0, 1, 3):
         plan = workshop.sample(goal, 1, np.random.default_rng(1))[0]
         row = np.zeros((1, len(workshop.table)), dtype=np.uint8)
@@ -197,7 +197,7 @@ def test_presence_is_the_ceiling_on_beginnings(workshop):
 
 def test_presence_weighs_every_goal_by_its_definition(bank):
     """By counts where the steps begin a plan, else all sets alike; and errors for the rest."""
-    presence, label = Presence(bank, error=0.25), labels(bank.table)
+    presence, label = SetPosterior(bank, error=0.25), labels(bank.table)
     rng = np.random.default_rng(3)
     rows = (rng.random((60, max(label) + 1)) < rng.random((60, 1))).astype(np.uint8)
     n_counted = 0

@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 
 from hrcplan.bank.ramirez_geffner import read_instance
-from hrcplan.bank.steps import Op
-from hrcplan.inference.cost import Cost
-from hrcplan.inference.distances import Distances, apply
-from hrcplan.inference.optimal import Searcher, search
-from hrcplan.inference.relaxed import Relaxation
-from hrcplan.inference.resolve import Resolver
+from hrcplan.inference.observations import Resolver
+from hrcplan.inference.recognition.cost import CostBelief
+from hrcplan.inference.recognition.distances import Distances, apply
+from hrcplan.inference.recognition.optimal import Searcher, search
 from hrcplan.inference.run import infer, run
-from hrcplan.task import Change
+from hrcplan.search.relaxed_plan import Relaxation
+from hrcplan.task import BitEffect
+from hrcplan.task.steps import Operator
 
 GRID, BLOCKS = "easy-ipc-grid_p5-5-5_hyp-0_full", "block-words_p01_hyp-0_full"
 LOGISTICS, KITCHEN = "logistics_p01_hyp-3_full", "kitchen_generic_hyp-0_full_0"
@@ -77,7 +77,9 @@ def test_an_estimate_is_missing_only_out_of_reach(workshop):
 
 def test_long_chains_need_no_recursion():
     """A corridor of three thousand places: one op each, and only the ones on the way count."""
-    ops = [Op(i, ((1 << i, 1 << i),), (Change(1 << i + 1, 0),), (), 1) for i in range(3000)]
+    ops = [
+        Operator(i, ((1 << i, 1 << i),), (BitEffect(1 << i + 1, 0),), (), 1) for i in range(3000)
+    ]
     goals = [((1 << place, 1 << place),) for place in (3000, 7, 0)]
     relaxation = Relaxation(ops[:60], [((1 << 60, 1 << 60),)])
     assert relaxation.costs([1]) == [[60.0]]
@@ -129,7 +131,7 @@ def test_unobserved_actions_are_put_in_between(instances):
     """Every second action is left out: what could not have been done follows what makes it so."""
     instance = read_instance(instances / LOGISTICS)
     some = instance.observed[1::2]
-    belief = Cost(instance.goals, timeout_s=10)
+    belief = CostBelief(instance.goals, timeout_s=10)
     found = run(belief, Resolver(belief.table, instance.goals), some, "cost")
     assert found.ignored == ()
     order = sorted(range(len(instance.goals)), key=lambda goal: -found.posterior[-1][goal])
@@ -147,7 +149,7 @@ def test_action_names_that_are_declared_twice(instances):
     instance = read_instance(instances / KITCHEN)
     aliases = instance.goals.aliases
     assert aliases
-    belief = Cost(instance.goals, timeout_s=5)
+    belief = CostBelief(instance.goals, timeout_s=5)
     resolver = Resolver(belief.table, instance.goals)
     name = next(iter(aliases))
     steps = [belief.table.find((alias,)) for alias in aliases[name]]
@@ -161,6 +163,6 @@ def test_action_names_that_are_declared_twice(instances):
 
 
 def test_places_are_values(workshop):
-    belief = Cost(workshop.goals, timeout_s=5)
+    belief = CostBelief(workshop.goals, timeout_s=5)
     with pytest.raises(dataclasses.FrozenInstanceError):
         belief.start().world = 3

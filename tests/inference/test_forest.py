@@ -5,13 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from hrcplan.assistance.rhp.set_posterior import PrefixPosterior
 from hrcplan.bank import build
 from hrcplan.errors import UsageError
 from hrcplan.inference import batch
-from hrcplan.inference.ceiling import Ceiling
-from hrcplan.inference.flat import Flat
-from hrcplan.inference.forest import MAX_KNOWN, Forest
-from hrcplan.inference.training import columns, prefixes
+from hrcplan.inference.classifier.flat_forest import FlatForest
+from hrcplan.inference.classifier.forest import MAX_KNOWN, ForestBelief
+from hrcplan.inference.classifier.training import columns, prefixes
 
 MEALS = 10
 SAMPLES = 12_000
@@ -24,7 +24,7 @@ def some(kitchen):
 
 @pytest.fixture(scope="module")
 def forest(some):
-    return Forest(some, seed=1, n_samples=SAMPLES, n_trees=40)
+    return ForestBelief(some, seed=1, n_samples=SAMPLES, n_trees=40)
 
 
 @pytest.fixture(scope="module")
@@ -45,7 +45,7 @@ def small(request):
     bank = request.getfixturevalue(request.param)
     rows, goals = prefixes(bank, 1500, np.random.default_rng(8))
     classifier = RandomForestClassifier(30, min_samples_leaf=2, random_state=3).fit(rows, goals)
-    return bank, classifier, Flat.of(classifier)
+    return bank, classifier, FlatForest.of(classifier)
 
 
 def test_rows_through_arrays_are_what_scikit_learn_says(small):
@@ -74,7 +74,7 @@ def test_a_forest_of_bare_roots():
 
     rows = np.zeros((4, 2), dtype=np.uint8)
     classifier = RandomForestClassifier(3, random_state=0).fit(rows, [0, 1, 1, 1])
-    flat = Flat.of(classifier)
+    flat = FlatForest.of(classifier)
     assert flat.predict_proba(rows) == pytest.approx(classifier.predict_proba(rows))
 
 
@@ -90,7 +90,7 @@ def test_extensions_are_observations_one_after_the_other(some, forest, walk):
             steps.append(int(rng.choice(some.table.applicable(later.world))))
             later = forest.observe(later, steps[-1])
         after[tuple(steps)] = forest.posterior(later).tolist()
-    fresh = Forest(some, seed=1, n_samples=SAMPLES, n_trees=40)
+    fresh = ForestBelief(some, seed=1, n_samples=SAMPLES, n_trees=40)
     assert fresh.extended(state.row, list(after)).tolist() == list(after.values())
     assert fresh.extended(state.row, []).shape == (0, MEALS)
     assert not state.row[columns(some)[list(after)[-1]]].all()  # the row itself stays
@@ -112,12 +112,12 @@ def test_many_rows_are_posteriors_and_only_some_are_remembered(forest):
 def test_no_plans_no_forest(some):
     none = some.reroot(0, 0)  # from nowhere
     with pytest.raises(UsageError, match="no goal has a plan"):
-        Forest(replace(some, graphs=(none,) * MEALS))
+        ForestBelief(replace(some, graphs=(none,) * MEALS))
 
 
 def test_accuracy_is_near_the_ceiling_and_not_above_it(some, forest, begun):
     plans, goals = zip(*begun, strict=True)
-    best = Ceiling(some).accuracy(plans, goals)
+    best = PrefixPosterior(some).accuracy(plans, goals)
     right = 0
     for plan, goal in begun:
         right += int(batch(forest, plan)[-1].argmax()) == goal
@@ -127,7 +127,7 @@ def test_accuracy_is_near_the_ceiling_and_not_above_it(some, forest, begun):
 
 def test_the_ceiling_is_bayes_over_listed_prefixes(workshop, brute):
     """The posterior of a set of steps is the share of beginnings of plans that have this set."""
-    ceiling = Ceiling(workshop)
+    ceiling = PrefixPosterior(workshop)
     plans = [brute.optimal_plans(workshop, goal, workshop.initial) for goal in range(5)]
     for plan in plans[1]:
         for length in range(1, len(plan) + 1):
@@ -144,7 +144,7 @@ def test_the_ceiling_is_bayes_over_listed_prefixes(workshop, brute):
 
 def test_same_seed_same_forest_whatever_the_jobs(some):
     one, two, other = (
-        Forest(some, seed=seed, n_samples=1000, n_trees=8, n_jobs=n_jobs, cache=False)
+        ForestBelief(some, seed=seed, n_samples=1000, n_trees=8, n_jobs=n_jobs, cache=False)
         for seed, n_jobs in ((5, 1), (5, 2), (6, 1))
     )
     rows, _ = prefixes(some, 100, np.random.default_rng(4))
@@ -156,7 +156,7 @@ def test_same_seed_same_forest_whatever_the_jobs(some):
 def test_any_classifier_can_be_plugged_in(some, begun):
     from sklearn.naive_bayes import BernoulliNB
 
-    belief = Forest(some, n_samples=4000, classifier=BernoulliNB())
+    belief = ForestBelief(some, n_samples=4000, classifier=BernoulliNB())
     right = sum(int(batch(belief, plan)[-1].argmax()) == goal for plan, goal in begun[::5])
     assert right / len(begun[::5]) > 0.8
     assert belief.training.n_held_out == 800

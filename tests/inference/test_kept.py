@@ -11,11 +11,11 @@ from click.testing import CliRunner
 from hrcplan.bank import build, load, save
 from hrcplan.bank.store import digest
 from hrcplan.cli.main import main
-from hrcplan.files import cache_folder
-from hrcplan.inference import kept
-from hrcplan.inference.forest import Forest
-from hrcplan.inference.training import prefixes
-from hrcplan.packed import Arrays
+from hrcplan.core.array_file import Arrays
+from hrcplan.core.files import cache_folder
+from hrcplan.inference.classifier import cache as kept
+from hrcplan.inference.classifier.forest import ForestBelief
+from hrcplan.inference.classifier.training import prefixes
 
 SMALL = {"seed": 2, "n_samples": 400, "n_trees": 6}
 
@@ -41,18 +41,18 @@ def untrainable(monkeypatch):
     def fail(*_):
         raise AssertionError("a forest was trained")
 
-    return lambda: monkeypatch.setattr("hrcplan.inference.forest.train", fail)
+    return lambda: monkeypatch.setattr("hrcplan.inference.classifier.forest.train", fail)
 
 
 def test_the_second_forest_is_the_first(two, rows, tmp_path, untrainable):
-    first = Forest(two, **SMALL, cache=tmp_path / "deep" / "down")
+    first = ForestBelief(two, **SMALL, cache=tmp_path / "deep" / "down")
     (file,) = files(tmp_path / "deep" / "down")
     data = file.read_bytes()
-    bare = Forest(two, **SMALL, cache=False)
+    bare = ForestBelief(two, **SMALL, cache=False)
     untrainable()
     save(two, tmp_path / "b.bank")
     for bank in (two, load(tmp_path / "b.bank")):
-        again = Forest(bank, **SMALL, cache=tmp_path / "deep" / "down", n_jobs=-1)
+        again = ForestBelief(bank, **SMALL, cache=tmp_path / "deep" / "down", n_jobs=-1)
         assert again.many(rows).tolist() == first.many(rows).tolist() == bare.many(rows).tolist()
         assert again.training == first.training
         assert "kept since" in again.note
@@ -63,8 +63,8 @@ def test_the_second_forest_is_the_first(two, rows, tmp_path, untrainable):
 def test_everything_a_forest_depends_on_makes_another_file(two, hall, tmp_path):
     others = [{"seed": 3}, {"n_samples": 500}, {"n_trees": 7}]
     for change in [{}, *others]:
-        Forest(two, **(SMALL | change), cache=tmp_path)
-    Forest(hall, **SMALL, cache=tmp_path)
+        ForestBelief(two, **(SMALL | change), cache=tmp_path)
+    ForestBelief(hall, **SMALL, cache=tmp_path)
     assert len(files(tmp_path)) == 5
     key = kept.key_of(two, 2, 400, 6)
     assert set(kept._PACKAGES) < set(key)
@@ -94,42 +94,42 @@ REASONS = {
 
 @pytest.mark.parametrize("how", REASONS)
 def test_a_spoiled_file_is_made_anew_and_says_why(two, rows, tmp_path, untrainable, how):
-    first = Forest(two, **SMALL, cache=tmp_path)
+    first = ForestBelief(two, **SMALL, cache=tmp_path)
     (file,) = files(tmp_path)
     spoiled = damage(file.read_bytes(), how)
     file.unlink()  # the first forest still has the old file
     file.write_bytes(spoiled)
-    anew = Forest(two, **SMALL, cache=tmp_path)
+    anew = ForestBelief(two, **SMALL, cache=tmp_path)
     assert "trained anew" in anew.note
     assert REASONS[how] in anew.note
     assert anew.many(rows).tolist() == first.many(rows).tolist()
     untrainable()
-    assert "trained anew" not in Forest(two, **SMALL, cache=tmp_path).note
+    assert "trained anew" not in ForestBelief(two, **SMALL, cache=tmp_path).note
 
 
 def test_where_nothing_can_be_kept_the_forest_is_made_all_the_same(two, rows, tmp_path):
-    expected = Forest(two, **SMALL, cache=False).many(rows).tolist()
+    expected = ForestBelief(two, **SMALL, cache=False).many(rows).tolist()
     (tmp_path / "file").write_text("in the way")
-    found = Forest(two, **SMALL, cache=tmp_path / "file" / "folder")
+    found = ForestBelief(two, **SMALL, cache=tmp_path / "file" / "folder")
     assert found.many(rows).tolist() == expected
     assert (tmp_path / "file").read_text() == "in the way"
 
-    Forest(two, **SMALL, cache=tmp_path)
+    ForestBelief(two, **SMALL, cache=tmp_path)
     (file,) = files(tmp_path)
     file.unlink()
     file.mkdir()
-    found = Forest(two, **SMALL, cache=tmp_path)
+    found = ForestBelief(two, **SMALL, cache=tmp_path)
     assert found.many(rows).tolist() == expected
     assert "cannot read" in found.note
 
 
 def test_without_a_lock_file_nothing_is_written(two, tmp_path):
-    Forest(two, **SMALL, cache=tmp_path)
+    ForestBelief(two, **SMALL, cache=tmp_path)
     (file,) = files(tmp_path)
     file.unlink()
     file.with_suffix(".lock").unlink()
     file.with_suffix(".lock").mkdir()
-    Forest(two, **SMALL, cache=tmp_path)
+    ForestBelief(two, **SMALL, cache=tmp_path)
     assert files(tmp_path) == []
 
 
@@ -138,7 +138,7 @@ def test_without_locks_nothing_is_written(two, rows, tmp_path, monkeypatch):
         raise OSError("no locks available")
 
     monkeypatch.setattr(kept.fcntl, "flock", no_locks)
-    found = Forest(two, **SMALL, cache=tmp_path)
+    found = ForestBelief(two, **SMALL, cache=tmp_path)
     assert files(tmp_path) == []
     assert found.many(rows).shape == (len(rows), 2)
 
@@ -147,11 +147,11 @@ PROBE = """
 import sys
 from pathlib import Path
 from hrcplan.bank import load
-from hrcplan.inference.forest import Forest
+from hrcplan.inference.classifier.forest import ForestBelief
 bank = load(sys.argv[1])
 print("ready", flush=True)
 sys.stdin.readline()
-found = Forest(bank, seed=2, n_samples=400, n_trees=6, cache=Path(sys.argv[2]))
+found = ForestBelief(bank, seed=2, n_samples=400, n_trees=6, cache=Path(sys.argv[2]))
 print("kept since" in found.note)
 print(found.posterior(found.observe(found.start(), 1)).tolist())
 print(sorted({name.partition(".")[0] for name in sys.modules}))
@@ -182,7 +182,7 @@ def test_of_several_processes_one_trains_and_all_have_the_same(two, tmp_path):
 
 
 def test_a_kept_forest_needs_no_scikit_learn(two, tmp_path):
-    first = Forest(two, **SMALL, cache=tmp_path / "cache")
+    first = ForestBelief(two, **SMALL, cache=tmp_path / "cache")
     ((is_kept, posterior, loaded),) = probed(1, two, tmp_path)
     assert is_kept == "True"
     assert posterior == str(first.posterior(first.observe(first.start(), 1)).tolist())

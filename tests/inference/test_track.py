@@ -1,9 +1,9 @@
 """Where goals stand depends on what was done, not on what was asked before."""
 
 from hrcplan.bank import build, from_problems
-from hrcplan.inference.track import Tracker
+from hrcplan.bank.progress import ProgressTracker
 from hrcplan.pddl.check import domain_in, problem_in
-from hrcplan.pddl.source import Source
+from hrcplan.pddl.source import SourceText
 
 # Stirring does one thing in the heat and another in the cold, to facts that plans look at.
 POT = """
@@ -23,14 +23,14 @@ SAUCE = """
 
 
 def test_what_a_step_does_to_a_goal_is_not_remembered_for_another_state() -> None:
-    model = domain_in(Source("d", POT))
+    model = domain_in(SourceText("d", POT))
     bank = build(from_problems([
-        problem_in(model, Source("p", SAUCE.format(name=name))) for name in ("thick", "hot")
+        problem_in(model, SourceText("p", SAUCE.format(name=name))) for name in ("thick", "hot")
     ]))  # fmt: skip
     heat, cool, stir = (bank.table.find([name]) for name in ("heat", "cool", "stir"))
-    used = Tracker(bank)
+    used = ProgressTracker(bank)
     for steps in ((heat, stir), (cool, stir)):
-        old, new = used.start, (fresh := Tracker(bank)).start
+        old, new = used.start, (fresh := ProgressTracker(bank)).start
         for step in steps:
             old, new = used.follow(old, step)[0], fresh.follow(new, step)[0]
         assert old.nodes.tolist() == new.nodes.tolist()

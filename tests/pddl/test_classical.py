@@ -11,16 +11,16 @@ from hrcplan.pddl.check import domain_in, load_domain, problem_in
 from hrcplan.pddl.check import load_problem as read_problem
 from hrcplan.pddl.classical import classical, classical_texts
 from hrcplan.pddl.model import Problem
-from hrcplan.pddl.source import Source
+from hrcplan.pddl.source import SourceText
 from hrcplan.task import Task
 
 
 def one_action(action: str) -> Problem:
-    domain = domain_in(Source("d", f"""
+    domain = domain_in(SourceText("d", f"""
       (define (domain d) (:requirements :adl :durative-actions) (:types thing - object)
         (:predicates (a ?x - thing) (b ?x - thing)) {action})"""))  # fmt: skip
     text = "(define (problem p) (:domain d) (:objects t - thing) (:init (a t)) (:goal (b t)))"
-    return problem_in(domain, Source("p", text))
+    return problem_in(domain, SourceText("p", text))
 
 
 def lasting(condition: str, effect: str) -> str:
@@ -63,10 +63,10 @@ def test_what_is_taken_away_and_given_back_at_once_is_there() -> None:
 
 
 def test_an_untyped_text_names_no_type() -> None:
-    domain = domain_in(Source("d", """(define (domain d) (:predicates (a ?x) (b ?x))
+    domain = domain_in(SourceText("d", """(define (domain d) (:predicates (a ?x) (b ?x))
       (:action act :parameters (?x ?y) :precondition (a ?x) :effect (b ?y)))"""))  # fmt: skip
     text = "(define (problem p) (:domain d) (:objects s t) (:init (a s)) (:goal (b t)))"
-    texts = classical_texts(problem_in(domain, Source("p", text)))
+    texts = classical_texts(problem_in(domain, SourceText("p", text)))
     assert all("object " not in written and " - " not in written for written in texts)
 
 

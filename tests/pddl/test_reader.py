@@ -5,10 +5,11 @@ from pathlib import Path
 
 import pytest
 
+from hrcplan.core.text import nearest
 from hrcplan.pddl.check import check_files, load_domain, load_problem
 from hrcplan.pddl.model import Domain, Problem
-from hrcplan.pddl.reader import MAX_DEPTH, Group, Word, read
-from hrcplan.pddl.source import MAX_FAULTS, Source, decode, nearest
+from hrcplan.pddl.reader import MAX_DEPTH, GroupNode, WordNode, read
+from hrcplan.pddl.source import MAX_FAULTS, SourceText, decode
 
 VALID = Path(__file__).parent / "valid"
 PAIRS = [
@@ -59,14 +60,14 @@ def test_a_disguise_changes_nothing(disguise: str, pair: tuple[Path, Path], tmp_
 
 
 def test_words_are_lower_case_and_know_their_place() -> None:
-    source = Source("x", "; comment (\n(define (Domain A))")
+    source = SourceText("x", "; comment (\n(define (Domain A))")
     root = read(source)
     assert root == ["define", ["domain", "a"]]
-    assert isinstance(root, Group)
+    assert isinstance(root, GroupNode)
     inner = root[1]
-    assert isinstance(inner, Group)
+    assert isinstance(inner, GroupNode)
     word = inner[1]
-    assert isinstance(word, Word)
+    assert isinstance(word, WordNode)
     places = [source.position(node.at) for node in (root, inner, word)]
     assert places == [(2, 1), (2, 9), (2, 17)]
 
@@ -83,7 +84,7 @@ def test_columns_count_characters_not_bytes() -> None:
 
 
 def repaired(text: str) -> tuple[object, list[tuple[int, int, str]]]:
-    source = Source("x", text)
+    source = SourceText("x", text)
     root = read(source)
     return root, [(d.line, d.column, d.code) for d in source.diagnostics]
 
@@ -91,7 +92,7 @@ def repaired(text: str) -> tuple[object, list[tuple[int, int, str]]]:
 def test_a_group_inside_a_full_one_shows_where_the_parenthesis_is_missing() -> None:
     text = "(define (problem p) (:init (at a b (= (f a) 1) (q)) (:goal (and)))"
     root, faults = repaired(text)
-    assert root == read(Source("x", text.replace("(at a b (", "(at a b) (")))
+    assert root == read(SourceText("x", text.replace("(at a b (", "(at a b) (")))
     assert faults == [(1, 28, "unclosed")]
 
 
@@ -101,14 +102,14 @@ def test_the_layout_decides_where_the_content_does_not() -> None:
         "      (r))\n    :effect (p)))"
     )
     root, faults = repaired(text)
-    assert root == read(Source("x", text.replace("(q)", "(q))")))
+    assert root == read(SourceText("x", text.replace("(q)", "(q))")))
     assert faults == [(4, 7, "unclosed")]
 
 
 def test_no_layout_changes_the_reading_of_a_file_without_faults() -> None:
     text = "(define (domain d)\n(:action a\n:precondition (and\n(or\n(p)\n)\n(r))\n:effect (p)))"
     root, faults = repaired(text)
-    assert root == read(Source("x", " ".join(text.split())))
+    assert root == read(SourceText("x", " ".join(text.split())))
     assert faults == []
 
 
@@ -116,7 +117,7 @@ def test_no_layout_changes_the_reading_of_a_file_without_faults() -> None:
 def test_any_one_missing_parenthesis_is_one_fault_of_its_section(removed: int) -> None:
     text = (VALID / "courier.pddl").read_text(encoding="utf-8")
     at = [i for i, c in enumerate(text) if c == ")"][removed]
-    source = Source("x", text[:at] + text[at + 1 :])
+    source = SourceText("x", text[:at] + text[at + 1 :])
     read(source)
     (fault,) = source.diagnostics
     assert fault.code == "unclosed"
@@ -129,7 +130,7 @@ def test_any_one_missing_parenthesis_is_one_fault_of_its_section(removed: int) -
 def test_any_one_parenthesis_too_many_is_one_fault_near_it(added: int) -> None:
     text = (VALID / "courier.pddl").read_text(encoding="utf-8")
     at = [i for i, c in enumerate(text) if c == ")"][added]
-    source = Source("x", text[:at] + ")" + text[at:])
+    source = SourceText("x", text[:at] + ")" + text[at:])
     read(source)
     (fault,) = source.diagnostics
     assert fault.code == "stray-parenthesis"
@@ -149,7 +150,7 @@ def test_a_formula_at_the_deepest_level_can_be_used() -> None:
     text = f"(define (domain d) (:predicates (p)) (:action a :precondition {deep} :effect (p)))"
     from hrcplan.pddl.domain import read_domain
 
-    source = Source("x", text)
+    source = SourceText("x", text)
     root = read(source)
     assert root is not None
     action = read_domain(root, source).actions[0]
@@ -160,7 +161,7 @@ def test_a_formula_at_the_deepest_level_can_be_used() -> None:
 
 
 def test_a_file_of_nonsense_gives_a_limited_number_of_faults_quickly() -> None:
-    source = Source("x", "(define (domain d) " + "(x) " * 50_000 + ")")
+    source = SourceText("x", "(define (domain d) " + "(x) " * 50_000 + ")")
     root = read(source)
     assert root is not None
     from hrcplan.pddl.domain import read_domain

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from hrcplan.episodes.pddlgym_world import environment, named
 from hrcplan.errors import UnsupportedError
-from hrcplan.execution.worlds.gym import environment, named
 from hrcplan.facade import load_problem
 from hrcplan.pddl import library
 from hrcplan.pddl.check import load_domain

@@ -8,7 +8,7 @@ from hrcplan.errors import PlannerError, UsageError
 from hrcplan.facade import load_problem
 from hrcplan.pddl.model import FluentKey, Number, Problem
 from hrcplan.planners.allocation import Diagram, Line, diagram, line_of
-from hrcplan.planners.exact import Exact
+from hrcplan.planners.exact import ExactPlanner
 from hrcplan.planners.solve import solve
 from hrcplan.plans import Plan
 from hrcplan.task.regrounding import Groundings
@@ -39,7 +39,7 @@ def test_it_equals_a_fine_sweep(domain: str, key: FluentKey, most: int, uneven: 
     problem = load_problem(domain, "two-boxes")
     problem = tired(problem) if uneven else problem
     found = diagram(problem, key, 0, most)
-    groundings, planner = Groundings(), Exact()
+    groundings, planner = Groundings(), ExactPlanner()
     for step in range(2 * most + 1):
         value = Fraction(step, 2)
         now = problem.with_values({key: value})

@@ -11,8 +11,8 @@ from hrcplan.errors import MissingPlannerError, PlannerError, UsageError
 from hrcplan.facade import load_problem
 from hrcplan.pddl.generate import with_goal
 from hrcplan.pddl.model import Problem
-from hrcplan.planners.answer import Answer, Request, Status
-from hrcplan.planners.command import Command, best_of, find_plans
+from hrcplan.planners.command import CommandPlanner, best_of, find_plans
+from hrcplan.planners.contract import Answer, Request, Status
 from hrcplan.planners.enhsp import _JAR, _inside, find_java
 from hrcplan.validation import validate
 
@@ -36,7 +36,7 @@ def boxes() -> Problem:
 
 
 def solve(command: str, problem: Problem, seconds: float = 20) -> Answer:
-    return Command(command).solve(Request(problem, time.monotonic() + seconds))
+    return CommandPlanner(command).solve(Request(problem, time.monotonic() + seconds))
 
 
 def printing(folder: Path, text: str, after: str = "") -> str:
@@ -123,7 +123,7 @@ def test_a_goal_that_holds_already_needs_no_lines(tmp_path: Path) -> None:
 
 
 def test_a_program_that_is_not_there(boxes: Problem) -> None:
-    planner = Command("no-such-planner {domain} {problem}")
+    planner = CommandPlanner("no-such-planner {domain} {problem}")
     assert "no-such-planner" in (planner.missing() or "")
     with pytest.raises(MissingPlannerError):
         planner.solve(Request(boxes))
@@ -132,7 +132,7 @@ def test_a_program_that_is_not_there(boxes: Problem) -> None:
 @pytest.mark.parametrize("command", ["popf", "popf {domain}", "popf '{domain} {problem}"])
 def test_a_command_without_files_is_refused(command: str) -> None:
     with pytest.raises(UsageError):
-        Command(command)
+        CommandPlanner(command)
 
 
 def test_files_of_the_callers_folder_are_found(

@@ -14,7 +14,7 @@ from hrcplan.pddl.check import load_problem as read_problem
 from hrcplan.pddl.generate import with_goal
 from hrcplan.pddl.model import Problem
 from hrcplan.planners import enhsp
-from hrcplan.planners.answer import Answer, Request, Status
+from hrcplan.planners.contract import Answer, Request, Status
 from hrcplan.planners.enhsp import Enhsp
 from hrcplan.planners.fast_downward import FastDownward
 from hrcplan.task import Task

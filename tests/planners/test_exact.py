@@ -16,8 +16,8 @@ import pytest
 from hrcplan.facade import load, load_problem
 from hrcplan.pddl.model import Fact, Number
 from hrcplan.planners import registry
-from hrcplan.planners.answer import Request, Status
-from hrcplan.planners.exact import Exact, graph, search
+from hrcplan.planners.contract import Request, Status
+from hrcplan.planners.exact import ExactPlanner, graph, search
 from hrcplan.plans import Plan
 from hrcplan.task import Task
 from hrcplan.validation import validate
@@ -26,9 +26,9 @@ GAP = Fraction(1, 1000)
 MOTIVATION = ("motivation", "human")
 
 
-def proven(task: Task, planner: Exact | None = None) -> Plan:
+def proven(task: Task, planner: ExactPlanner | None = None) -> Plan:
     """Return the plan of a proof, after checking it and the figure reported for it."""
-    answer = (planner or Exact()).replan(task)
+    answer = (planner or ExactPlanner()).replan(task)
     assert answer.status is Status.OPTIMAL, answer.note
     assert answer.plan is not None
     report = validate(task.problem, answer.plan)
@@ -53,7 +53,7 @@ def two_boxes() -> Task:
 
 
 def test_two_boxes_are_shared_until_the_human_is_too_tired(two_boxes: Task) -> None:
-    planner = Exact()
+    planner = ExactPlanner()
     for value in range(1, 10):
         tired = two_boxes.with_values({MOTIVATION: value})
         plan = proven(tired, planner)
@@ -64,13 +64,13 @@ def test_two_boxes_are_shared_until_the_human_is_too_tired(two_boxes: Task) -> N
 
 
 def test_replans_share_the_graph_and_agree_with_a_new_planner(two_boxes: Task) -> None:
-    planner = Exact()
+    planner = ExactPlanner()
     planner.replan(two_boxes)
     assert len(planner._kept) == 1
     known = planner._kept[0].graph
     for values in ({MOTIVATION: 7}, {("capacity", "robot", "wp4"): Fraction(37, 3)}):
         changed = two_boxes.with_values(values)
-        assert planner.replan(changed) == Exact().replan(changed)
+        assert planner.replan(changed) == ExactPlanner().replan(changed)
         assert planner._kept[0].graph is known
         assert len(known.states) == 2232
 
@@ -84,7 +84,7 @@ def at(task: Task, facts: frozenset[Fact]) -> Task:
 
 
 def test_a_known_state_needs_no_new_graph(two_boxes: Task) -> None:
-    planner = Exact()
+    planner = ExactPlanner()
     before = metric(two_boxes, proven(two_boxes, planner))
     moved = two_boxes.problem.facts - {("at", "human", "wp1")} | {("at", "human", "wp4")}
     later = at(two_boxes, moved)
@@ -94,7 +94,7 @@ def test_a_known_state_needs_no_new_graph(two_boxes: Task) -> None:
 
 
 def test_a_state_out_of_reach_is_checked_and_added(two_boxes: Task) -> None:
-    planner = Exact()
+    planner = ExactPlanner()
     facts = two_boxes.problem.facts - {("box-at", "green", "wp3")}
     lost = at(two_boxes, facts)
     assert planner.replan(lost).status is Status.UNSOLVABLE
@@ -141,9 +141,9 @@ def test_val_accepts_the_plans(tmp_path: Path) -> None:
 
 def test_answers_do_not_depend_on_hashes() -> None:
     script = (
-        "from hrcplan import load; from hrcplan.planners.exact import Exact\n"
+        "from hrcplan import load; from hrcplan.planners.exact import ExactPlanner\n"
         "for name in ('two-boxes', 'handover'):\n"
-        "    print(Exact().replan(load('transport', name)))"
+        "    print(ExactPlanner().replan(load('transport', name)))"
     )
     texts = {
         subprocess.run(
@@ -165,7 +165,7 @@ def test_of_equal_plans_the_first_in_ground_action_order_is_kept(two_boxes: Task
 
 def test_any_plan_is_a_valid_one_without_a_proof(two_boxes: Task) -> None:
     best = metric(two_boxes, proven(two_boxes))
-    answer = Exact().solve(Request(two_boxes.problem, any_plan=True))
+    answer = ExactPlanner().solve(Request(two_boxes.problem, any_plan=True))
     assert answer.status is Status.SOLVED
     assert answer.plan is not None
     assert metric(two_boxes, answer.plan) >= best
@@ -175,16 +175,16 @@ def test_it_gives_up_at_the_deadline() -> None:
     task = load("transport", "boxes-6")
     for seconds in (0.0, 0.5):
         begun = time.monotonic()
-        answer = Exact().replan(task, begun + seconds)
+        answer = ExactPlanner().replan(task, begun + seconds)
         assert time.monotonic() - begun < seconds + 0.4  # 0.2 s, and a busy machine
         assert answer.status is Status.UNSOLVED
         assert "out of time" in answer.note
 
 
 def test_it_goes_on_where_it_gave_up(two_boxes: Task) -> None:
-    planner = Exact()
+    planner = ExactPlanner()
     assert planner.replan(two_boxes, time.monotonic()).status is Status.UNSOLVED
-    assert planner.replan(two_boxes) == Exact().replan(two_boxes)
+    assert planner.replan(two_boxes) == ExactPlanner().replan(two_boxes)
 
 
 @pytest.mark.parametrize(
@@ -196,7 +196,7 @@ def test_it_gives_up_at_its_limits(
 ) -> None:
     monkeypatch.setattr(module, limit, 10)
     monkeypatch.setattr(module, "_CHECK", 1 if module is graph else 0)
-    answer = Exact().replan(two_boxes)
+    answer = ExactPlanner().replan(two_boxes)
     assert answer.status is Status.UNSOLVED
     assert note in answer.note
 

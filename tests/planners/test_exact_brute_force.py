@@ -14,9 +14,17 @@ import pytest
 from hrcplan.errors import UnsupportedError
 from hrcplan.facade import load_problem
 from hrcplan.pddl.model import And, Atom, Effect, Fact, Formula, Not, Problem
-from hrcplan.pddl.semantics import Binding, State, Undefined, evaluate, ground_key, holds, instances
-from hrcplan.planners.answer import Answer, Request, Status
-from hrcplan.planners.exact import Exact
+from hrcplan.pddl.semantics import (
+    Binding,
+    LiftedState,
+    Undefined,
+    evaluate,
+    ground_key,
+    holds,
+    instances,
+)
+from hrcplan.planners.contract import Answer, Request, Status
+from hrcplan.planners.exact import ExactPlanner
 from hrcplan.plans import EPSILON_S
 from hrcplan.validation import validate
 
@@ -109,7 +117,7 @@ def brute_force(problem: Problem, w_cost: Fraction, w_time: Fraction) -> Fractio
         if best[node] < spent:
             continue
         facts, running = node
-        if not running and holds(problem.goal, State(facts, problem.values), {}, problem):
+        if not running and holds(problem.goal, LiftedState(facts, problem.values), {}, problem):
             return spent
         for price, after in steps(jobs, facts, running):
             total = spent + (w_time * tick_s if price is None else w_cost * price)
@@ -225,7 +233,7 @@ def agrees(seed: int, folder: Path, late: bool = False) -> bool:
     """Check one random task; return whether `exact` took it."""
     problem, w_cost, w_time = random_task(seed, folder, late)
     try:
-        answer = Exact().solve(Request(problem))
+        answer = ExactPlanner().solve(Request(problem))
     except UnsupportedError:
         return False
     compare(problem, answer, brute_force(problem, w_cost, w_time), w_time)

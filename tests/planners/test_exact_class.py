@@ -8,8 +8,8 @@ import pytest
 from hrcplan.errors import UnsupportedError
 from hrcplan.facade import load, load_problem
 from hrcplan.pddl.model import Number
-from hrcplan.planners.answer import Answer, Status
-from hrcplan.planners.exact import Exact
+from hrcplan.planners.contract import Answer, Status
+from hrcplan.planners.exact import ExactPlanner
 from hrcplan.plans import EPSILON_S, Plan, parse_plan
 from hrcplan.task import Task
 from hrcplan.validation import validate
@@ -80,7 +80,7 @@ LOOSE = """:parameters (?a - agent) :duration (= ?duration 5) :condition (at sta
 def test_it_declines_with_the_reason(more: str, reason: str, tmp_path: Path) -> None:
     task = tiny(tmp_path, more)
     with pytest.raises(UnsupportedError, match=reason):
-        Exact().replan(task)
+        ExactPlanner().replan(task)
 
 
 @pytest.mark.parametrize(
@@ -94,12 +94,12 @@ def test_it_declines_with_the_reason(more: str, reason: str, tmp_path: Path) -> 
 )
 def test_it_declines_metrics(metric: str, ann: str, reason: str, tmp_path: Path) -> None:
     with pytest.raises(UnsupportedError, match=reason):
-        Exact().replan(tiny(tmp_path, metric=metric, ann=ann))
+        ExactPlanner().replan(tiny(tmp_path, metric=metric, ann=ann))
 
 
 def test_it_declines_classical_tasks() -> None:
     with pytest.raises(UnsupportedError, match="exact declines: no action has a duration"):
-        Exact().replan(load("kitchen", "oatmeal-apple"))
+        ExactPlanner().replan(load("kitchen", "oatmeal-apple"))
 
 
 @pytest.mark.parametrize(
@@ -113,13 +113,13 @@ def test_it_declines_classical_tasks() -> None:
     ],
 )  # fmt: skip
 def test_metrics_are_exact(metric: str, objective: Number, tmp_path: Path) -> None:
-    answer = Exact().replan(tiny(tmp_path, metric=metric))
+    answer = ExactPlanner().replan(tiny(tmp_path, metric=metric))
     assert answer.status is Status.OPTIMAL
     assert answer.objective == objective
 
 
 def test_without_a_metric_it_is_the_makespan(tmp_path: Path) -> None:
-    answer = Exact().replan(tiny(tmp_path, metric=""))
+    answer = ExactPlanner().replan(tiny(tmp_path, metric=""))
     assert answer.status is Status.OPTIMAL
     assert answer.plan is not None
     assert answer.plan.makespan_s == 10
@@ -127,18 +127,20 @@ def test_without_a_metric_it_is_the_makespan(tmp_path: Path) -> None:
 
 
 def test_a_goal_that_holds_needs_nothing(tmp_path: Path) -> None:
-    assert Exact().replan(tiny(tmp_path, goal="(idle ann)")) == Answer(Status.OPTIMAL, Plan(), 0)
+    assert ExactPlanner().replan(tiny(tmp_path, goal="(idle ann)")) == Answer(
+        Status.OPTIMAL, Plan(), 0
+    )
 
 
 def test_unsolvable(tmp_path: Path) -> None:
     task = tiny(tmp_path, extra("(at start (lit))", "(at end (lit))"), goal="(lit)")
-    assert Exact().replan(task) == Answer(Status.UNSOLVABLE)
+    assert ExactPlanner().replan(task) == Answer(Status.UNSOLVABLE)
 
 
 def test_odd_durations_are_printed_so_that_they_can_be_read(tmp_path: Path) -> None:
     thirds = extra("(at start (done ?a))", "(at end (lit))", "(= ?duration (/ 10 3))")
     task = tiny(tmp_path, thirds, goal="(lit)")
-    plan = Exact().replan(task).plan
+    plan = ExactPlanner().replan(task).plan
     assert plan is not None
     assert [a.start_s for a in plan.actions] == [0, 10 + EPSILON_S]
     assert validate(task.problem, parse_plan(str(plan))).valid

@@ -15,7 +15,7 @@ from hrcplan.pddl.check import load_domain
 from hrcplan.pddl.check import load_problem as read_problem
 from hrcplan.pddl.model import Compare, Constant, Problem
 from hrcplan.planners import fast_downward
-from hrcplan.planners.answer import Request, Status
+from hrcplan.planners.contract import Request, Status
 from hrcplan.planners.fast_downward import FastDownward, find_binary
 from hrcplan.planners.lowering import lower
 from hrcplan.task import Task

@@ -11,9 +11,9 @@ import pytest
 from hrcplan.errors import UnsupportedError, UsageError
 from hrcplan.facade import load_file, load_problem
 from hrcplan.pddl.model import TOTAL_COST, Action, Function, Number, Problem
-from hrcplan.pddl.semantics import Binding, State, changes, evaluate, holds
-from hrcplan.planners.exact import Exact
-from hrcplan.planners.retries import expected_retries, with_success
+from hrcplan.pddl.semantics import Binding, LiftedState, changes, evaluate, holds
+from hrcplan.planners.exact import ExactPlanner
+from hrcplan.planners.expected_price import expected_retries, with_success
 from hrcplan.planners.solve import solve
 from hrcplan.task import Task
 from hrcplan.validation import validate
@@ -111,7 +111,7 @@ def bindings(action: Action, problem: Problem) -> Iterator[Binding]:
         yield {param.name: arg for param, arg in zip(action.params, args, strict=True)}
 
 
-def steps(state: State, problem: Problem) -> Iterator[tuple[State, Number]]:
+def steps(state: LiftedState, problem: Problem) -> Iterator[tuple[LiftedState, Number]]:
     for action in problem.domain.actions:
         for binding in bindings(action, problem):
             conditions = {c.when: [] for c in action.conditions}  # type: ignore[var-annotated]
@@ -138,8 +138,8 @@ def steps(state: State, problem: Problem) -> Iterator[tuple[State, Number]]:
 
 def cheapest(problem: Problem) -> Number | None:
     order = count()
-    start = State(frozenset(problem.facts), dict(problem.values))
-    waiting: list[tuple[Number, int, State]] = [(0, next(order), start)]
+    start = LiftedState(frozenset(problem.facts), dict(problem.values))
+    waiting: list[tuple[Number, int, LiftedState]] = [(0, next(order), start)]
     done = set()
     while waiting:
         cost, _, state = heappop(waiting)
@@ -163,7 +163,7 @@ def test_the_optimum_is_that_of_brute_force(
     values = dict(zip(("knowledge", "motivation", "here", "there"), state, strict=True))
     problem = tiny(tmp_path, price=price, residual=residual, **values)
     wanted = cheapest(problem)
-    assert Exact().replan(Task(problem)).objective == wanted
+    assert ExactPlanner().replan(Task(problem)).objective == wanted
 
 
 def test_lowered_for_classical_planners_the_optimum_is_the_same(tmp_path: Path) -> None:
@@ -198,8 +198,8 @@ def late(tmp_path: Path, *agents: str) -> Task:
 def test_what_is_deleted_at_an_end_may_not_be_looked_at_until_then(tmp_path: Path) -> None:
     """Two agents could pass while the other shuts: left to others. One alone cannot."""
     with pytest.raises(UnsupportedError, match="at its end"):
-        Exact().replan(late(tmp_path, "a", "b"))
-    plan = Exact().replan(late(tmp_path, "a")).plan
+        ExactPlanner().replan(late(tmp_path, "a", "b"))
+    plan = ExactPlanner().replan(late(tmp_path, "a")).plan
     assert plan is not None
     assert [action.name for action in plan.actions] == ["pass", "shut"]
 

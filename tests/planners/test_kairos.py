@@ -17,7 +17,7 @@ from hrcplan.pddl.check import load_domain
 from hrcplan.pddl.check import load_problem as read_problem
 from hrcplan.pddl.generate import with_goal
 from hrcplan.pddl.model import TOTAL_COST, Function, Problem
-from hrcplan.planners.answer import Answer, Request, Status
+from hrcplan.planners.contract import Answer, Request, Status
 from hrcplan.planners.fast_downward import FastDownward
 from hrcplan.planners.kairos import TIMED_PRESETS, Kairos
 from hrcplan.validation import validate
@@ -147,7 +147,7 @@ def test_what_it_does_not_read_is_unsupported(monkeypatch: pytest.MonkeyPatch) -
 def test_ctrl_c_stops_it() -> None:
     code = (
         "import time; from hrcplan.facade import load_problem\n"
-        "from hrcplan.planners.answer import Request\n"
+        "from hrcplan.planners.contract import Request\n"
         "from hrcplan.planners.kairos import Kairos\n"
         "request = Request(load_problem('transport', 'boxes-6'), time.monotonic() + 60)\n"
         "print('ready', flush=True)\n"

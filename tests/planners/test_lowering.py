@@ -19,7 +19,7 @@ from hrcplan.pddl.check import load_domain
 from hrcplan.pddl.check import load_problem as read_problem
 from hrcplan.pddl.model import TOTAL_COST, Arithmetic, Compare, Constant, Function, Problem
 from hrcplan.planners.lowering import Lowered, lower
-from hrcplan.planners.process import Ended, Limits, run
+from hrcplan.planners.process import ProcessEnd, ProcessLimits, run
 from hrcplan.task import Task
 from hrcplan.validation import validate
 
@@ -271,8 +271,8 @@ def cheapest(planner: str, lowered: Lowered, folder: Path) -> int:
         "fast-downward": script("up_fast_downward", *FD),
         "kstar": [sys.executable, "-c", KSTAR_CODE],
     }[planner]
-    finished = run(argv, cwd=folder, limits=Limits(60))
-    assert finished.ended is Ended.EXITED, finished.stderr
+    finished = run(argv, cwd=folder, limits=ProcessLimits(60))
+    assert finished.ended is ProcessEnd.EXITED, finished.stderr
     found = re.findall(r"Plan cost: (\d+)|'cost': (\d+)", finished.stdout)
     assert found, finished.stdout[-2000:] + finished.stderr[-2000:]
     return int(next(filter(None, found[0])))

@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 
 import hrcplan.planners.process as process
-from hrcplan.planners.process import Ended, Finished, Limits, run
+from hrcplan.planners.process import FinishedProcess, ProcessEnd, ProcessLimits, run
 
 HOSTILE = Path(__file__).with_name("hostile")
 PYTHON = (sys.executable, "-I", "-S")
@@ -82,185 +82,193 @@ def marker() -> Iterator[str]:
 
 
 @pytest.fixture
-def call(marker: str, tmp_path: Path) -> Callable[..., Finished]:
+def call(marker: str, tmp_path: Path) -> Callable[..., FinishedProcess]:
     """Return a function that runs a hostile script under limits."""
 
-    def call(script: str, *words: object, time_s: float = 3.0, **limits: int) -> Finished:
+    def call(script: str, *words: object, time_s: float = 3.0, **limits: int) -> FinishedProcess:
         start = PYTHON if script.endswith(".py") else ("sh",)
         argv = [*start, str(HOSTILE / script), *map(str, words), marker]
-        return run(argv, cwd=tmp_path, limits=Limits(time_s, **limits))
+        return run(argv, cwd=tmp_path, limits=ProcessLimits(time_s, **limits))
 
     return call
 
 
-Call = Callable[..., Finished]
+Call = Callable[..., FinishedProcess]
 
 
 def test_exit_code_and_both_outputs_come_back(tmp_path: Path) -> None:
-    finished = run(["sh", "-c", "pwd; echo bad >&2; exit 7"], cwd=tmp_path, limits=Limits(3))
-    assert (finished.ended, finished.code) == (Ended.EXITED, 7)
+    finished = run(["sh", "-c", "pwd; echo bad >&2; exit 7"], cwd=tmp_path, limits=ProcessLimits(3))
+    assert (finished.ended, finished.code) == (ProcessEnd.EXITED, 7)
     assert (finished.stdout, finished.stderr) == (f"{tmp_path.resolve()}\n", "bad\n")
     assert 0 < finished.wall_s < 3
 
 
 def test_death_by_signal_is_a_negative_code(tmp_path: Path) -> None:
-    finished = run(["sh", "-c", "kill -SEGV $$"], cwd=tmp_path, limits=Limits(3))
-    assert (finished.ended, finished.code) == (Ended.EXITED, -signal.SIGSEGV)
+    finished = run(["sh", "-c", "kill -SEGV $$"], cwd=tmp_path, limits=ProcessLimits(3))
+    assert (finished.ended, finished.code) == (ProcessEnd.EXITED, -signal.SIGSEGV)
 
 
 def test_broken_utf8_is_replaced(tmp_path: Path) -> None:
-    finished = run(["printf", r"caf\351 \303\251"], cwd=tmp_path, limits=Limits(3))
+    finished = run(["printf", r"caf\351 \303\251"], cwd=tmp_path, limits=ProcessLimits(3))
     assert finished.stdout == "caf� é"
 
 
 def test_standard_input_is_empty(tmp_path: Path) -> None:
-    finished = run(["cat"], cwd=tmp_path, limits=Limits(3))
-    assert (finished.ended, finished.code, finished.stdout) == (Ended.EXITED, 0, "")
+    finished = run(["cat"], cwd=tmp_path, limits=ProcessLimits(3))
+    assert (finished.ended, finished.code, finished.stdout) == (ProcessEnd.EXITED, 0, "")
 
 
 def test_environment_is_the_given_one(tmp_path: Path) -> None:
     env = {"PATH": os.environ["PATH"], "VALUE": "a b\nc", "LARGE": "x" * 100_000}
-    finished = run(["env", "-0"], cwd=tmp_path, limits=Limits(3), env=env)
+    finished = run(["env", "-0"], cwd=tmp_path, limits=ProcessLimits(3), env=env)
     assert dict(line.split("=", 1) for line in finished.stdout.split("\0") if line) == env
 
 
 def test_environment_is_ours_by_default(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("HRCPLAN_TEST_VALUE", "here")
-    finished = run(["printenv", "HRCPLAN_TEST_VALUE"], cwd=tmp_path, limits=Limits(3))
+    finished = run(["printenv", "HRCPLAN_TEST_VALUE"], cwd=tmp_path, limits=ProcessLimits(3))
     assert finished.stdout == "here\n"
 
 
 def test_program_leads_a_session_of_its_own(tmp_path: Path) -> None:
     script = "import os; print(os.getpid() == os.getsid(0) == os.getpgrp(), os.getsid(0))"
-    finished = run([*PYTHON, "-c", script], cwd=tmp_path, limits=Limits(3))
+    finished = run([*PYTHON, "-c", script], cwd=tmp_path, limits=ProcessLimits(3))
     leads, session = finished.stdout.split()
     assert leads == "True"
     assert int(session) != os.getsid(0)
 
 
 def test_program_has_no_foreign_files_open_and_default_signals(tmp_path: Path) -> None:
-    finished = run(["ls", "/proc/self/fd"], cwd=tmp_path, limits=Limits(3))
+    finished = run(["ls", "/proc/self/fd"], cwd=tmp_path, limits=ProcessLimits(3))
     assert finished.stdout.split() == ["0", "1", "2", "3"]  # 3 is the folder that ls reads
-    finished = run(["grep", "SigIgn", "/proc/self/status"], cwd=tmp_path, limits=Limits(3))
+    finished = run(["grep", "SigIgn", "/proc/self/status"], cwd=tmp_path, limits=ProcessLimits(3))
     assert int(finished.stdout.split()[1], 16) == 0
 
 
 @pytest.mark.parametrize("name", ["no-such-planner", "./no-such-planner", "./plain", "/"])
 def test_program_that_cannot_run_is_missing(tmp_path: Path, name: str) -> None:
     (tmp_path / "plain").write_text("not executable")
-    finished = run([name], cwd=tmp_path, limits=Limits(3))
-    assert (finished.ended, finished.code, finished.stdout) == (Ended.MISSING, None, "")
+    finished = run([name], cwd=tmp_path, limits=ProcessLimits(3))
+    assert (finished.ended, finished.code, finished.stdout) == (ProcessEnd.MISSING, None, "")
     assert finished.stderr in {"No such file or directory", "Permission denied"}
 
 
 def test_wrong_arguments_are_refused(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="no program"):
-        run([], cwd=tmp_path, limits=Limits(3))
+        run([], cwd=tmp_path, limits=ProcessLimits(3))
     with pytest.raises(FileNotFoundError):
-        run(["true"], cwd=tmp_path / "nowhere", limits=Limits(3))
+        run(["true"], cwd=tmp_path / "nowhere", limits=ProcessLimits(3))
     for limits in ({"time_s": float("nan")}, {"time_s": 1, "output_bytes": -1}):
         with pytest.raises(ValueError, match="not a limit"):
-            Limits(**limits)
+            ProcessLimits(**limits)
 
 
 def test_program_that_hangs_times_out_with_its_plan(call: Call) -> None:
     finished = call("hang.py", time_s=0.4)
-    assert (finished.ended, finished.code, finished.stdout) == (Ended.TIMEOUT, None, "plan 1\n")
+    assert (finished.ended, finished.code, finished.stdout) == (
+        ProcessEnd.TIMEOUT,
+        None,
+        "plan 1\n",
+    )
     assert 0.4 <= finished.wall_s < 1.4
 
 
 def test_no_time_at_all_is_a_timeout(call: Call) -> None:
-    assert call("hang.py", time_s=-1.0).ended is Ended.TIMEOUT
+    assert call("hang.py", time_s=-1.0).ended is ProcessEnd.TIMEOUT
 
 
 def test_program_that_ignores_signals_is_killed(call: Call) -> None:
     finished = call("stubborn.py", time_s=0.4)
-    assert (finished.ended, finished.stdout) == (Ended.TIMEOUT, "not listening\n")
+    assert (finished.ended, finished.stdout) == (ProcessEnd.TIMEOUT, "not listening\n")
     assert 0.7 <= finished.wall_s < 1.7
 
 
 def test_last_words_after_the_time_limit_are_kept(call: Call) -> None:
     finished = call("polite.py", time_s=0.4)
-    assert (finished.ended, finished.stderr) == (Ended.TIMEOUT, "last plan\n")
+    assert (finished.ended, finished.stderr) == (ProcessEnd.TIMEOUT, "last plan\n")
 
 
 def test_background_child_goes_when_the_program_exits(call: Call) -> None:
     finished = call("abandon.sh")
-    assert (finished.ended, finished.code, finished.stdout) == (Ended.EXITED, 0, "done\n")
+    assert (finished.ended, finished.code, finished.stdout) == (ProcessEnd.EXITED, 0, "done\n")
     assert finished.wall_s < 1
 
 
 def test_daemon_goes_when_the_program_exits(call: Call) -> None:
     finished = call("daemon.py")
-    assert (finished.ended, finished.code, finished.stdout) == (Ended.EXITED, 0, "daemon runs\n")
+    assert (finished.ended, finished.code, finished.stdout) == (
+        ProcessEnd.EXITED,
+        0,
+        "daemon runs\n",
+    )
 
 
 def test_daemon_goes_at_the_time_limit(call: Call) -> None:
-    assert call("daemon.py", "hang", time_s=0.4).ended is Ended.TIMEOUT
+    assert call("daemon.py", "hang", time_s=0.4).ended is ProcessEnd.TIMEOUT
 
 
 def test_process_that_keeps_changing_is_caught(call: Call) -> None:
     finished = call("relay.py")
-    assert (finished.ended, finished.code) == (Ended.EXITED, 0)
+    assert (finished.ended, finished.code) == (ProcessEnd.EXITED, 0)
     assert finished.wall_s < 2
 
 
 @pytest.mark.parametrize("stream", [1, 2])
 def test_flood_is_cut(call: Call, stream: int) -> None:
     finished = call("flood.py", stream, output_bytes=1_000_000)
-    assert (finished.ended, finished.code) == (Ended.OUTPUT, None)
+    assert (finished.ended, finished.code) == (ProcessEnd.OUTPUT, None)
     outputs = [finished.stdout, finished.stderr]
     assert outputs.pop(stream - 1) == "x" * 1_000_000
     assert outputs == [""]
     assert finished.wall_s < 1
 
 
-@pytest.mark.parametrize(("room", "ended"), [(5, Ended.EXITED), (4, Ended.OUTPUT)])
-def test_output_limit_is_exact(tmp_path: Path, room: int, ended: Ended) -> None:
-    limits = Limits(3, output_bytes=room)
+@pytest.mark.parametrize(("room", "ended"), [(5, ProcessEnd.EXITED), (4, ProcessEnd.OUTPUT)])
+def test_output_limit_is_exact(tmp_path: Path, room: int, ended: ProcessEnd) -> None:
+    limits = ProcessLimits(3, output_bytes=room)
     finished = run(["sh", "-c", "printf abc; printf de >&2"], cwd=tmp_path, limits=limits)
     assert finished.ended is ended
     assert len(finished.stdout + finished.stderr) == room
 
 
 def test_large_output_is_complete(tmp_path: Path) -> None:
-    finished = run(["seq", "400000"], cwd=tmp_path, limits=Limits(3))
+    finished = run(["seq", "400000"], cwd=tmp_path, limits=ProcessLimits(3))
     assert finished.stdout == "".join(f"{number}\n" for number in range(1, 400001))
 
 
 @pytest.mark.parametrize("generations", [0, 1, 2])
 def test_memory_counts_in_every_generation(call: Call, generations: int) -> None:
     finished = call("eat.py", 200, generations, memory_bytes=100 << 20)
-    assert (finished.ended, finished.code) == (Ended.MEMORY, None)
+    assert (finished.ended, finished.code) == (ProcessEnd.MEMORY, None)
     assert finished.wall_s < 1.5
 
 
 def test_memory_of_several_processes_adds_up(marker: str, tmp_path: Path) -> None:
     eat = f"{' '.join(PYTHON)} {HOSTILE / 'eat.py'} 40 0 {marker}"
-    limits = Limits(3, memory_bytes=100 << 20)
+    limits = ProcessLimits(3, memory_bytes=100 << 20)
     finished = run(["sh", "-c", f"{eat} & {eat} & {eat} & wait"], cwd=tmp_path, limits=limits)
-    assert finished.ended is Ended.MEMORY
+    assert finished.ended is ProcessEnd.MEMORY
 
 
 def test_memory_below_the_limit_is_left_alone(call: Call) -> None:
     finished = call("eat.py", 40, 0, time_s=0.5, memory_bytes=100 << 20)
-    assert (finished.ended, finished.stdout) == (Ended.TIMEOUT, "full\n")
+    assert (finished.ended, finished.stdout) == (ProcessEnd.TIMEOUT, "full\n")
 
 
 def test_shared_and_reserved_memory_is_not_counted(call: Call) -> None:
     finished = call("share.py", 60, 4, memory_bytes=150 << 20)
-    assert (finished.ended, finished.code) == (Ended.EXITED, 0)
+    assert (finished.ended, finished.code) == (ProcessEnd.EXITED, 0)
 
 
 def test_program_that_closes_its_outputs_is_awaited(call: Call) -> None:
     finished = call("quiet.py")
-    assert (finished.ended, finished.code) == (Ended.EXITED, 3)
+    assert (finished.ended, finished.code) == (ProcessEnd.EXITED, 3)
     assert finished.wall_s >= 0.2
 
 
 def test_program_dies_with_its_guard(call: Call, marker: str) -> None:
     finished = call("regicide.py")
-    assert (finished.ended, finished.code) == (Ended.EXITED, -signal.SIGKILL)
+    assert (finished.ended, finished.code) == (ProcessEnd.EXITED, -signal.SIGKILL)
     assert "supervisor process was lost" in finished.stderr
     await_that(lambda: not processes(marker))  # the one case in which nobody can wait for it
 
@@ -269,19 +277,19 @@ def test_guard_that_never_works_is_lost(tmp_path: Path, monkeypatch: pytest.Monk
     false = shutil.which("false")
     monkeypatch.setattr(sys, "executable", false)
     env = {"LARGE": "x" * 1_000_000}
-    finished = run(["true"], cwd=tmp_path, limits=Limits(3), env=env)
-    assert (finished.ended, finished.code) == (Ended.EXITED, -signal.SIGKILL)
+    finished = run(["true"], cwd=tmp_path, limits=ProcessLimits(3), env=env)
+    assert (finished.ended, finished.code) == (ProcessEnd.EXITED, -signal.SIGKILL)
 
 
 def test_guard_is_not_ended_by_the_program(tmp_path: Path) -> None:
     script = "kill -TERM $PPID; kill -INT $PPID; kill -HUP $PPID; exit 5"
-    assert run(["sh", "-c", script], cwd=tmp_path, limits=Limits(3)).code == 5
+    assert run(["sh", "-c", script], cwd=tmp_path, limits=ProcessLimits(3)).code == 5
 
 
 def test_exit_code_survives_ignored_child_signals(tmp_path: Path) -> None:
     before = signal.signal(signal.SIGCHLD, signal.SIG_IGN)
     try:
-        assert run(["sh", "-c", "exit 7"], cwd=tmp_path, limits=Limits(3)).code == 7
+        assert run(["sh", "-c", "exit 7"], cwd=tmp_path, limits=ProcessLimits(3)).code == 7
     finally:
         signal.signal(signal.SIGCHLD, before)
 
@@ -290,7 +298,7 @@ def test_crash_leaves_no_core_file(tmp_path: Path) -> None:
     soft, hard = resource.getrlimit(resource.RLIMIT_CORE)
     resource.setrlimit(resource.RLIMIT_CORE, (hard, hard))
     try:
-        finished = run(["sh", "-c", "ulimit -c"], cwd=tmp_path, limits=Limits(3))
+        finished = run(["sh", "-c", "ulimit -c"], cwd=tmp_path, limits=ProcessLimits(3))
     finally:
         resource.setrlimit(resource.RLIMIT_CORE, (soft, hard))
     assert finished.stdout == "0\n"
@@ -300,16 +308,16 @@ def test_two_at_once_from_threads(call: Call) -> None:
     with ThreadPoolExecutor() as pool:
         slow = pool.submit(call, "hang.py", time_s=0.8)
         quick = pool.submit(call, "daemon.py")
-        assert quick.result().ended is Ended.EXITED
+        assert quick.result().ended is ProcessEnd.EXITED
         assert not slow.done()
-        assert slow.result().ended is Ended.TIMEOUT
+        assert slow.result().ended is ProcessEnd.TIMEOUT
 
 
 def test_many_calls_leave_nothing(marker: str, tmp_path: Path) -> None:
-    run(["true", marker], cwd=tmp_path, limits=Limits(3))
+    run(["true", marker], cwd=tmp_path, limits=ProcessLimits(3))
     files, before = os.listdir("/proc/self/fd"), children(os.getpid())
     for _ in range(50):
-        assert run(["true", marker], cwd=tmp_path, limits=Limits(3)).code == 0
+        assert run(["true", marker], cwd=tmp_path, limits=ProcessLimits(3)).code == 0
     assert os.listdir("/proc/self/fd") == files
     assert children(os.getpid()) == before
 

@@ -11,10 +11,10 @@ from hrcplan.errors import MissingPlannerError
 from hrcplan.planners import registry
 
 PLANNER = """
-from hrcplan.planners.answer import Answer, Card, Status
+from hrcplan.planners.contract import Answer, Capabilities, Status
 
 class Lazy:
-    card = Card("lazy", "gives up at once", temporal=True)
+    card = Capabilities("lazy", "gives up at once", temporal=True)
     def missing(self):
         return None
     def solve(self, request):

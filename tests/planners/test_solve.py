@@ -17,7 +17,7 @@ from hrcplan.errors import (
 from hrcplan.facade import load_problem
 from hrcplan.pddl.model import Arithmetic, Constant, Function, Problem
 from hrcplan.planners import registry
-from hrcplan.planners.answer import Answer, Card, Request, Status
+from hrcplan.planners.contract import Answer, Capabilities, Request, Status
 from hrcplan.planners.solve import compare, solve
 from hrcplan.plans import parse_plan
 
@@ -39,7 +39,9 @@ class Scripted:
 
     answer: Answer | Exception
     absent: str | None = None
-    card: Card = field(default_factory=lambda: Card("scripted", "answers by heart", temporal=True))
+    card: Capabilities = field(
+        default_factory=lambda: Capabilities("scripted", "answers by heart", temporal=True)
+    )
 
     def missing(self) -> str | None:
         return self.absent
@@ -53,7 +55,7 @@ class Scripted:
 class Impatient:
     """A planner that uses up its time: a class that ``module:Class`` can name."""
 
-    card = Card("impatient", "sleeps", temporal=True)
+    card = Capabilities("impatient", "sleeps", temporal=True)
 
     def missing(self) -> str | None:
         return None
@@ -133,7 +135,7 @@ def test_a_missing_planner_says_what_to_install(two_boxes: Problem) -> None:
 def test_auto_goes_on_with_the_next_planner(
     two_boxes: Problem, trouble: Exception | None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    first = Scripted(trouble or Answer(Status.UNSOLVED), card=Card(
+    first = Scripted(trouble or Answer(Status.UNSOLVED), card=Capabilities(
         "first", "fails", temporal=True, metric="cost+time", proves=True))  # fmt: skip
     second = Scripted(solved(GOOD))
     made = {"first": first, "second": second}
@@ -167,7 +169,7 @@ def test_the_limit_is_for_all_planners_together(
 
 
 def test_a_planner_can_be_named_by_its_class(two_boxes: Problem) -> None:
-    assert registry.make("hrcplan.planners.exact:Exact").card.name == "exact"
+    assert registry.make("hrcplan.planners.exact:ExactPlanner").card.name == "exact"
     with pytest.raises(MissingPlannerError, match=r"cannot be loaded from nowhere\.at_all:Planner"):
         registry.make("nowhere.at_all:Planner")
 

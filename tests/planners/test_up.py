@@ -9,7 +9,7 @@ from hrcplan.errors import MissingPlannerError, PlannerError, UnsupportedError
 from hrcplan.facade import load_problem
 from hrcplan.pddl.check import load_domain
 from hrcplan.pddl.check import load_problem as read_problem
-from hrcplan.planners.answer import Answer, Request, Status
+from hrcplan.planners.contract import Answer, Request, Status
 from hrcplan.planners.fast_downward import FastDownward
 from hrcplan.planners.up import UnifiedPlanning, engines, to_up
 from hrcplan.validation import validate

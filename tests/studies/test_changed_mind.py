@@ -134,7 +134,7 @@ def test_every_method_runs_and_reports_its_promised_figures(tmp_path: Path) -> N
 def test_a_strangers_robot_and_human_join(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "mine.py").write_text(
         "from hrcplan.assistance.oracle import Oracle\n"
-        "from hrcplan.agents.human import Frontier\n"
+        "from hrcplan.episodes.humans import Frontier\n"
         "class Robot(Oracle):\n"
         "    def choose(self, state):\n"
         "        return None\n"

@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from hrcplan.execution.turns import REACHED
+from hrcplan.episodes.episode import REACHED
 from hrcplan.studies import report_study
 from hrcplan.studies.changed_mind import claims, figures, reach, scenario
 from hrcplan.studies.changed_mind.cells import Cells
@@ -20,17 +20,17 @@ from hrcplan.studies.changed_mind.findings import judged as all_claims
 from hrcplan.studies.changed_mind.measures import MEASURES, ends, number, signed
 from hrcplan.studies.estimate import Interval
 from hrcplan.studies.store import Store
-from hrcplan.studies.study import Claim, Episode, Row, find
+from hrcplan.studies.study import Claim, Episode, StudyRow, find
 
 STUDY = find("changed-mind")
 OPTIONS = scenario.defaults()
 PAIRS = list(permutations([f"goal-{i}" for i in range(5)], 2))
 RANKS = ("oracle", "hrcplan", "paper", "recursive-best", "recursive", "cdp", "infogain")
 """Methods from the best to the worst; variants of the paper's method are like it."""
-Made = dict[str, list[Row]]
+Made = dict[str, list[StudyRow]]
 
 
-def row(human: str, method: str, run: int) -> Row:
+def row(human: str, method: str, run: int) -> StudyRow:
     """Return an invented row in which methods are as good as their rank, with little noise."""
     first, second = PAIRS[run % len(PAIRS)]
     said = scenario.human_data(human)
@@ -41,7 +41,7 @@ def row(human: str, method: str, run: int) -> Row:
     extra = (0.0, 0.05, 0.5)[q] if q < 3 else 0.5 + q
     total = 28.7 + run % 3 - 1 + extra + noise
     pct = (0.0, 40.0)[q] if q < 2 else (46 if changes == 0 else 60) + q
-    made: Row = dict.fromkeys((*STUDY.tables[0].columns, "decision_ms"), 0)
+    made: StudyRow = dict.fromkeys((*STUDY.tables[0].columns, "decision_ms"), 0)
     made |= {
         "human": human, "method": method, "run": run, "ending": REACHED,
         "first": first, "second": second if changes else None,
@@ -80,7 +80,7 @@ def judged(rows: Made, **options: str) -> dict[str, Claim]:
     return {claim.claim: claim for claim in found}
 
 
-def bent(change: Callable[[Row], Any], table: str = "rows", **where: str) -> dict[str, Claim]:
+def bent(change: Callable[[StudyRow], Any], table: str = "rows", **where: str) -> dict[str, Claim]:
     """Return the claims after a change to the rows of some cells."""
     rows = copy.deepcopy(GOOD)
     some = [r for r in rows[table] if all(r[key] == value for key, value in where.items())]
@@ -98,8 +98,8 @@ def without(table: str, **where: str) -> Made:
     return rows
 
 
-def adding(measure: str, amount: float) -> Callable[[Row], Any]:
-    def change(one: Row) -> None:
+def adding(measure: str, amount: float) -> Callable[[StudyRow], Any]:
+    def change(one: StudyRow) -> None:
         one[measure] = float(one[measure] or 0) + amount
 
     return change

@@ -10,7 +10,7 @@ from hrcplan.studies import report_study
 from hrcplan.studies.estimate import difference, estimate
 from hrcplan.studies.failure_anticipation import claims, scenario
 from hrcplan.studies.store import Store
-from hrcplan.studies.study import Episode, Row, find
+from hrcplan.studies.study import Episode, StudyRow, find
 
 STUDY = find("failure-anticipation")
 RUNS = 6
@@ -24,16 +24,16 @@ GOOD = {
 OTHERS = (100, 0.6, 5.0, 45.0)
 
 
-def row(cell: tuple[Any, ...], run: int) -> Row:
+def row(cell: tuple[Any, ...], run: int) -> StudyRow:
     success, replans, failed, share = GOOD.get(cell, OTHERS)
     wobble = 0.01 * (run - (RUNS - 1) / 2)  # so that there is a standard error
-    made: Row = dict.fromkeys(STUDY.tables[0].columns, 0)
+    made: StudyRow = dict.fromkeys(STUDY.tables[0].columns, 0)
     made |= {"success_pct": success, "replans": replans + wobble, "failed_pct": failed + wobble,
              "successful_human_pct": share + wobble, "makespan_s": 250.0, "value": 5.0}  # fmt: skip
     return made
 
 
-def share(cell: tuple[Any, ...]) -> Row:
+def share(cell: tuple[Any, ...]) -> StudyRow:
     _, at, value = cell
     return {"n_human": 2 if value < 10 - at else 0, "n_robot": 4, "cost": 1.0}
 

@@ -257,12 +257,12 @@ def test_a_failing_episode_is_named_and_the_rows_before_it_stay(
 ) -> None:
     """Somebody's own study joins by ``module:NAME``; this one breaks in its 40th run."""
     (tmp_path / "breaking.py").write_text(
-        "from hrcplan.studies.study import Findings, Study, Table\n"
+        "from hrcplan.studies.study import Findings, Study, StudyTable\n"
         "def episode(options, cell, seed):\n"
         "    if seed == '0/40':\n"
         "        raise ZeroDivisionError('broken')\n"
         "    return {'x': 1}\n"
-        "TABLE = Table('rows', ('cell',), ('x',), lambda options: [('only',)], episode)\n"
+        "TABLE = StudyTable('rows', ('cell',), ('x',), lambda options: [('only',)], episode)\n"
         "STUDY = Study('breaking', 'Breaking', (TABLE,), ('x',),\n"
         "              lambda options, rows: Findings('', (), ()), lambda options: '')\n"
     )

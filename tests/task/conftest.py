@@ -11,7 +11,7 @@ import pytest
 
 from hrcplan.pddl.check import load_domain, load_problem
 from hrcplan.pddl.model import DURATION, TOTAL_COST, Action, FluentKey, Number, Problem
-from hrcplan.pddl.semantics import State, Undefined, changes, evaluate, holds
+from hrcplan.pddl.semantics import LiftedState, Undefined, changes, evaluate, holds
 from hrcplan.task import Task
 from hrcplan.task.changing import value_fact
 
@@ -23,7 +23,7 @@ Name = tuple[str, ...]
 class After(NamedTuple):
     """What follows from one action: the state, and what it cost."""
 
-    state: State
+    state: LiftedState
     cost: Number
 
 
@@ -32,14 +32,14 @@ class Lifted:
 
     def __init__(self, problem: Problem) -> None:
         self.problem = problem
-        self.initial = State(problem.facts, {**problem.values, COST: 0})
+        self.initial = LiftedState(problem.facts, {**problem.values, COST: 0})
         self.bindings = [
             (action, dict(zip((p.name for p in action.params), args, strict=True)))
             for action in problem.domain.actions
             for args in product(*(problem.objects_of(p.types) for p in action.params))
         ]
 
-    def all_after(self, state: State) -> dict[Name, After]:
+    def all_after(self, state: LiftedState) -> dict[Name, After]:
         """Return what each ground action leads to that can run in ``state`` and changes it."""
         found = {}
         for action, binding in self.bindings:
@@ -48,14 +48,14 @@ class Lifted:
                 found[action.name, *binding.values()] = after
         return found
 
-    def after(self, state: State, action: Action, binding: dict[str, str]) -> After | None:
+    def after(self, state: LiftedState, action: Action, binding: dict[str, str]) -> After | None:
         """Return the state after start and end of an action, or None if it cannot run."""
         try:
             values = {**state.values, COST: 0}
             for op, duration in action.durations:
                 if op == "=":
                     values[DURATION,] = evaluate(duration, values, binding)
-            now = State(state.facts, values)
+            now = LiftedState(state.facts, values)
             for before, when in (("start", "start"), ("all", None), ("end", "end")):
                 if not all(
                     holds(c.formula, now, binding, self.problem)
@@ -69,14 +69,14 @@ class Lifted:
         except Undefined:
             return None
         left = {key: value for key, value in now.values.items() if key != (DURATION,)}
-        return After(State(now.facts, {**left, COST: 0}), now.values[COST])
+        return After(LiftedState(now.facts, {**left, COST: 0}), now.values[COST])
 
-    def bits(self, task: Task, state: State) -> int:
+    def bits(self, task: Task, state: LiftedState) -> int:
         """Return a lifted state in the bits of a task."""
         numbers = [value_fact(key, value) for key, value in state.values.items()]
         return task.state_of([*state.facts, *numbers])
 
-    def compare(self, task: Task, state: State) -> dict[Name, After]:
+    def compare(self, task: Task, state: LiftedState) -> dict[Name, After]:
         """Compare one state's actions, successors and costs; return what follows from it."""
         here = self.bits(task, state)
         wanted = self.all_after(state)
@@ -93,7 +93,7 @@ class Lifted:
         return wanted
 
     @staticmethod
-    def same(one: State, other: State) -> bool:
+    def same(one: LiftedState, other: LiftedState) -> bool:
         return one.facts == other.facts and dict(one.values) == dict(other.values)
 
 

@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from hrcplan.execution.worlds.gym import environment, named
+from hrcplan.episodes.pddlgym_world import environment, named
 from hrcplan.facade import load_problem
 from hrcplan.task import Task
 

@@ -24,14 +24,14 @@ from beliefs import many_goals
 from growth import exponent
 from rows import Row
 
-from hrcplan.agents.human import Course, Frontier
 from hrcplan.assistance import ASSISTANTS
 from hrcplan.bank import Bank
-from hrcplan.execution.turns import play
-from hrcplan.files import cache_folder
-from hrcplan.inference.exact import Exact
-from hrcplan.inference.kept import key_of, path_of
-from hrcplan.inference.training import N_SAMPLES, N_TREES
+from hrcplan.core.files import cache_folder
+from hrcplan.episodes.episode import play
+from hrcplan.episodes.humans import Course, Frontier
+from hrcplan.inference.classifier.cache import key_of, path_of
+from hrcplan.inference.classifier.training import N_SAMPLES, N_TREES
+from hrcplan.inference.exact import ExactBelief
 from hrcplan.studies.changed_mind import STUDY, scenario
 from hrcplan.studies.study import Seed
 
@@ -51,7 +51,7 @@ SWEEP = """
 import json, os, sys, threading, time
 from pathlib import Path
 from joblib import Parallel, delayed
-from hrcplan.inference.forest import Forest
+from hrcplan.inference.classifier.forest import ForestBelief
 from hrcplan.studies.changed_mind import STUDY, scenario
 from hrcplan.studies.study import Seed
 
@@ -79,7 +79,7 @@ def watch():
         time.sleep(0.2)
 
 sums, (humans, methods, n_runs, n_jobs) = [], json.loads(sys.argv[1])
-Forest(scenario.bank_of(**{key: STUDY.options[key] for key in ("domain", "goals")}))
+ForestBelief(scenario.bank_of(**{key: STUDY.options[key] for key in ("domain", "goals")}))
 threading.Thread(target=watch, daemon=True).start()
 calls = (delayed(work)(run, humans, methods) for run in range(n_runs))
 found = Parallel(n_jobs=n_jobs, batch_size=1)(calls)
@@ -154,7 +154,7 @@ def _is_kept(bank: Bank) -> bool:
 def _robot(method: str, bank: Bank, has_forest: bool, **changes: Any) -> Any:
     kind = ASSISTANTS.find(method)
     if getattr(kind, "learns", False) and not has_forest:
-        changes["belief"] = "presence" if method == PAPERS else Exact(bank)
+        changes["belief"] = "presence" if method == PAPERS else ExactBelief(bank)
     return kind(bank, **changes)
 
 

@@ -21,12 +21,12 @@ from hrcplan.facade import load_problem
 from hrcplan.pddl.generate import with_goal
 from hrcplan.planners import kstar
 from hrcplan.planners.lowering import Lowered, lower
-from hrcplan.planners.process import Limits, run
+from hrcplan.planners.process import ProcessLimits, run
 
 BUILT_S, BUILT_MB, SAMPLED, OVER = 2.0, 300, 300_000, 10
 N_ROUNDS, N_SAMPLED = 3, 200_000
 K, SYMK_K = 10_000, 5_000  # SymK takes about 2 ms for each plan, and 2 s to start
-LIMITS = Limits(120.0, memory_bytes=2 << 30, output_bytes=1 << 28)
+LIMITS = ProcessLimits(120.0, memory_bytes=2 << 30, output_bytes=1 << 28)
 RECIPE, SAMPLED_GOAL = "smoothie-green", "stew-lentil"
 GOALS = {  # parts of the recipe, by the number of steps of their optimal plans
     12: "(and (available glass) (blended yogurt) (blended milk) (blended spinach) (served))",

@@ -15,16 +15,16 @@ from typing import Any
 import numpy as np
 from rows import Row, milliseconds
 
+from hrcplan.assistance.rhp.set_posterior import PrefixPosterior
 from hrcplan.bank import Bank, build, build_bank, from_problems
-from hrcplan.inference.ceiling import Ceiling
-from hrcplan.inference.exact import Exact
-from hrcplan.inference.flat import Rows
-from hrcplan.inference.forest import Forest
-from hrcplan.inference.recursive import Recursive
-from hrcplan.inference.switching import Switching
-from hrcplan.inference.training import columns
+from hrcplan.inference.classifier.flat_forest import Rows
+from hrcplan.inference.classifier.forest import ForestBelief
+from hrcplan.inference.classifier.training import columns
+from hrcplan.inference.exact import ExactBelief
+from hrcplan.inference.recursive import RecursiveBelief
+from hrcplan.inference.switching import SwitchingBelief
 from hrcplan.pddl.check import domain_in, problem_in
-from hrcplan.pddl.source import Source
+from hrcplan.pddl.source import SourceText
 
 FEW_US, MANY_US = 20, 5_000
 FOREST_POINTS, FOREST_ROWS = 0.5, 200
@@ -64,9 +64,9 @@ def many_goals(n: int, n_items: int, n_wanted: int) -> Bank:
     chosen: set[tuple[str, ...]] = set()
     while len(chosen) < n:
         chosen.add(tuple(sorted(rng.sample(items, n_wanted))))
-    domain = domain_in(Source("many", DOMAIN))
+    domain = domain_in(SourceText("many", DOMAIN))
     problems = [
-        problem_in(domain, Source("p", PROBLEM.format(
+        problem_in(domain, SourceText("p", PROBLEM.format(
             number=number, items=" ".join(items), goal=" ".join(f"(made {i})" for i in wanted))))
         for number, wanted in enumerate(sorted(chosen))
     ]  # fmt: skip
@@ -77,12 +77,12 @@ def _speed(bank: Bank, n_runs: int, what: str, goal_us: float) -> Iterator[Row]:
     rng = np.random.default_rng(0)
     goals = rng.integers(len(bank.names), size=n_runs)
     runs = [bank.sample(int(goal), 1, rng)[0] for goal in goals]
-    for kind in (Exact, Switching, Recursive):
+    for kind in (ExactBelief, SwitchingBelief, RecursiveBelief):
         began = time.process_time()
         belief = kind(bank)
         made_s = time.process_time() - began
         update, posterior = _per_step_us(belief, runs)
-        promised = kind is Exact
+        promised = kind is ExactBelief
         yield Row(
             f"{what}, {kind.__name__.lower()}",
             f"{update:,.1f} µs per observation",
@@ -118,9 +118,9 @@ def _forest(bank: Bank) -> Iterator[Row]:
         for plan in bank.sample(goal, 700, rng):
             prefixes.append(plan[: rng.integers(1, len(plan) + 1)])
             goals.append(goal)
-    ceiling = Ceiling(bank).accuracy(prefixes, goals)
+    ceiling = PrefixPosterior(bank).accuracy(prefixes, goals)
     began = time.monotonic()
-    belief = Forest(bank, n_jobs=2)
+    belief = ForestBelief(bank, n_jobs=2)
     ready_s = time.monotonic() - began
     column = columns(bank)
     table = np.zeros((len(prefixes), belief.n_labels), dtype=np.uint8)
@@ -146,7 +146,7 @@ def _extensions_ms(bank: Bank, asked: Sequence[tuple[Rows, list[tuple[int, ...]]
     """Return milliseconds of processor time of a forest that remembers nothing: the best of 3."""
     times = []
     for _ in range(3):
-        belief = Forest(bank)
+        belief = ForestBelief(bank)
         began = time.process_time()
         for row, extensions in asked:
             belief.extended(row, extensions)

@@ -13,7 +13,7 @@ from typing import Any
 
 from rows import Row, interleaved
 
-from hrcplan.execution.worlds.gym import environment
+from hrcplan.episodes.pddlgym_world import environment
 from hrcplan.facade import load_problem
 from hrcplan.pddl.check import load_domain
 from hrcplan.pddl.check import load_problem as read_problem

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from typing import Protocol
 
+from hrcplan.core.registry import Registry
 from hrcplan.execution.events import Command, Event
-from hrcplan.parts import Parts
 
-WORLDS = Parts(
+WORLDS = Registry(
     "world",
-    {"simulated": "hrcplan.execution.turns:Simulated",
-     "pddlgym": "hrcplan.execution.worlds.gym:Gym"},
+    {"simulated": "hrcplan.episodes.episode:SimulatedTurns",
+     "pddlgym": "hrcplan.episodes.pddlgym_world:PddlgymWorld"},
     "hrcplan.worlds",
 )  # fmt: skip
 
 
-class World(Protocol):
+class EventWorld(Protocol):
     """Carries commands out and says what happens, one instant at a time."""
 
     def begin(self) -> tuple[Event, ...]:

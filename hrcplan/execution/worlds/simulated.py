@@ -13,11 +13,11 @@ from dataclasses import dataclass
 from hrcplan.agents import AgentModel
 from hrcplan.agents.state import LEAST, MOST
 from hrcplan.execution import events as ev
-from hrcplan.execution.acting import Acting, Step, Undo
+from hrcplan.execution.acting import ActionModel, BoundAction, Undo
 from hrcplan.execution.events import Command, Event
 from hrcplan.execution.worlds import chance
 from hrcplan.pddl.model import Fact, FluentKey, Number, Problem
-from hrcplan.pddl.semantics import State
+from hrcplan.pddl.semantics import LiftedState
 
 BEFORE, DURING, AFTER = "before", "during", "after"
 SENSED = (BEFORE, DURING, AFTER)
@@ -66,7 +66,7 @@ class Nature:
 class _Acted:
     """One action under way."""
 
-    step: Step
+    step: BoundAction
     duration: Number
     end_s: float
     undo: Undo
@@ -80,13 +80,13 @@ class SimulatedWorld:
     """Carries actions out as the PDDL says, with the failures and changes that nature holds."""
 
     def __init__(
-        self, problem: Problem, nature: Nature, acting: Acting | None = None,
+        self, problem: Problem, nature: Nature, acting: ActionModel | None = None,
         agents: AgentModel | None = None,
     ) -> None:  # fmt: skip
         self.nature = nature
-        self.acting = acting or Acting(problem)
+        self.acting = acting or ActionModel(problem)
         self.agents = agents or AgentModel(problem)
-        self.state: State = self.acting.initial()
+        self.state: LiftedState = self.acting.initial()
         self.values: dict[FluentKey, Number] = dict(self.agents.low)
         self._acted: dict[int, _Acted] = {}
         self._unsensed: dict[FluentKey, Number] = {}
@@ -130,7 +130,7 @@ class SimulatedWorld:
         if self._unsensed and self._is_human(step):
             self._schedule_sensing(command.t, end_s)
 
-    def _stretch(self, step: Step, number: int) -> float:
+    def _stretch(self, step: BoundAction, number: int) -> float:
         least, most = self.nature.stretch
         if not self._is_human(step) or least == most == 1:
             return 1.0
@@ -143,7 +143,7 @@ class SimulatedWorld:
             self.state = self.acting.undo(self.state, action.undo)
             self._at(self._now, _END, ev.Ended(self._now, number, ev.CANCELLED))
 
-    def _is_human(self, step: Step) -> bool:
+    def _is_human(self, step: BoundAction) -> bool:
         return bool(step.agent) and step.agent not in self.agents.robots
 
     def next(self) -> tuple[Event, ...]:
@@ -174,7 +174,7 @@ class SimulatedWorld:
             return self._end(t, what)  # type: ignore[arg-type]
         if isinstance(what, FactChange):
             facts = frozenset(self.state.facts) - what.deletes | what.adds
-            self.state = State(facts, self.state.values)
+            self.state = LiftedState(facts, self.state.values)
             return [self._observation()]
         if isinstance(what, StateChange):
             self._change(t, what.values)
@@ -193,7 +193,7 @@ class SimulatedWorld:
         self.state = self.acting.finish(self.state, action.step, action.duration)
         return [ev.Ended(t, number, ev.DONE), *self._influence(t, number, action.step)]
 
-    def _influence(self, t: float, number: int, step: Step) -> Sequence[Event]:
+    def _influence(self, t: float, number: int, step: BoundAction) -> Sequence[Event]:
         """Let an interaction have its effect, or not, and sense what has come of it."""
         values = self.acting.influence(step, self.values)
         if not values:

@@ -5,6 +5,6 @@ and no gaps are needed (*epsilon-free*); gaps are added on output. ``frame.py`` 
 takes and why, ``search.py`` what it searches, ``graph.py`` what bounds the search from below.
 """
 
-from hrcplan.planners.exact.planner import Exact
+from hrcplan.planners.exact.planner import ExactPlanner
 
-__all__ = ["Exact"]
+__all__ = ["ExactPlanner"]

@@ -16,9 +16,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import gcd, lcm
 
+from hrcplan.core.bits import common, holders, positions, union
 from hrcplan.errors import LimitError, UnsupportedError
 from hrcplan.pddl.model import TOTAL_COST, TRUE, Number, fact_text, number_text
-from hrcplan.planners.exact.bits import common, holders, positions, union
 from hrcplan.task import GroundAction, Task
 from hrcplan.task.conditions import Test
 
@@ -27,7 +27,7 @@ HINT = "kairos plans such tasks, without a proof"
 
 
 @dataclass(frozen=True)
-class Frame:
+class StaticMasks:
     """What does not depend on costs: tuples with one entry per ground action.
 
     ``tests`` are conditions at start and over all, ``over`` those over all; ``ticks`` are
@@ -55,7 +55,7 @@ class Frame:
     dependent: tuple[int, ...]
 
 
-def frame(task: Task) -> Frame:
+def frame(task: Task) -> StaticMasks:
     """Return the masks of a task.
 
     Raises:
@@ -72,7 +72,7 @@ def frame(task: Task) -> Frame:
     late = tuple(union(c.deletes for c in a.at_end) for a in task.actions)
     deletes = tuple(union(c.deletes for c in (*a.at_start, *a.at_end)) for a in task.actions)
     tick_s = _tick([a.duration or 1 for a in task.actions])
-    return Frame(
+    return StaticMasks(
         n_facts=len(task.facts),
         agents=tuple(a.agent or "" for a in task.actions),
         tests=tests,

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from hrcplan.pddl.interference import Access, access, clash
 from hrcplan.pddl.model import Number
 from hrcplan.pddl.semantics import bind
-from hrcplan.planners.exact.frame import Frame
+from hrcplan.planners.exact.frame import StaticMasks
 from hrcplan.planners.exact.search import WAIT
 from hrcplan.plans import EPSILON_S, Plan, PlannedAction
 from hrcplan.task import Task
@@ -34,7 +34,7 @@ class Placed(NamedTuple):
     touches: Accesses
 
 
-def starts(path: str, frame: Frame) -> list[tuple[int, int]]:
+def starts(path: str, frame: StaticMasks) -> list[tuple[int, int]]:
     """Return the actions of a path in order, each with the tick at which it starts."""
     found: list[tuple[int, int]] = []
     clock = 0
@@ -52,7 +52,7 @@ class Gaps:
     def __init__(self) -> None:
         self._known: dict[int, Accesses] = {}
 
-    def plan(self, task: Task, path: str, frame: Frame) -> Plan:
+    def plan(self, task: Task, path: str, frame: StaticMasks) -> Plan:
         """Return the plan of a path, every action as early as the gaps allow."""
         placed: list[Placed] = []
         for action, tick in starts(path, frame):

@@ -7,10 +7,10 @@ conditions is reachable. It errs only towards more overlap.
 
 from __future__ import annotations
 
+from hrcplan.core.bits import holders, positions, union
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.model import fact_text
-from hrcplan.planners.exact.bits import holders, positions, union
-from hrcplan.planners.exact.frame import HINT, Frame
+from hrcplan.planners.exact.frame import HINT, StaticMasks
 from hrcplan.task import Task
 
 
@@ -20,7 +20,7 @@ class Overlap:
     Positions below ``n_facts`` are facts; action ``a`` running is at ``n_facts + a``.
     """
 
-    def __init__(self, frame: Frame) -> None:
+    def __init__(self, frame: StaticMasks) -> None:
         self.frame = frame
         self._shift = frame.n_facts
         n_actions = len(frame.ticks)
@@ -126,12 +126,12 @@ def _check_late(task: Task, overlap: Overlap) -> None:
                 )  # fmt: skip
 
 
-def _mentioned(frame: Frame, action: int) -> int:
+def _mentioned(frame: StaticMasks, action: int) -> int:
     tests = union(mask for mask, _ in (*frame.tests[action], *frame.over[action]))
     return tests | frame.deletes[action] | frame.adds[action]
 
 
-def lane_members(frame: Frame) -> dict[str, int]:
+def lane_members(frame: StaticMasks) -> dict[str, int]:
     """Return for each agent the actions in its lane, as bits."""
     found: dict[str, int] = {}
     for i, agent in enumerate(frame.agents):

@@ -6,8 +6,8 @@ import time
 
 from hrcplan.errors import LimitError, UnsupportedError
 from hrcplan.pddl.model import TOTAL_COST, Number, Problem
-from hrcplan.planners.answer import Answer, Card, Request, Status
-from hrcplan.planners.exact.frame import Frame, frame
+from hrcplan.planners.contract import Answer, Capabilities, Request, Status
+from hrcplan.planners.exact.frame import StaticMasks, frame
 from hrcplan.planners.exact.gaps import Gaps
 from hrcplan.planners.exact.graph import FAR, Graph
 from hrcplan.planners.exact.overlap import Overlap, check_overlap, held
@@ -26,7 +26,7 @@ class _Kept:
 
     def __init__(self, task: Task) -> None:
         self.structure = task.structure
-        self.frame: Frame = frame(task)
+        self.frame: StaticMasks = frame(task)
         self.overlap = Overlap(self.frame)
         self.held: tuple[tuple[str, ...], ...] = ()
         self.graph = Graph()
@@ -53,14 +53,14 @@ class _Kept:
         return self._goals
 
 
-class Exact:
+class ExactPlanner:
     """Proves weighted metrics of cost and time in tasks where no concurrency is required.
 
     It keeps what does not depend on costs of the last structures it saw: hold on to one object and
     give it ``task.with_values(...)`` to replan in milliseconds.
 
     >>> from hrcplan import load
-    >>> task, planner = load("transport", "two-boxes"), Exact()
+    >>> task, planner = load("transport", "two-boxes"), ExactPlanner()
     >>> len(planner.replan(task).plan.actions)
     8
     >>> tired = task.with_values({("motivation", "human"): 10})
@@ -69,7 +69,7 @@ class Exact:
     """
 
     def __init__(self) -> None:
-        self.card = Card(
+        self.card = Capabilities(
             "exact",
             "A* over two-lane schedules: proves weighted metrics of cost and time",
             classical=False,

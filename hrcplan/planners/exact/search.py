@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from heapq import heappop, heappush
 
 from hrcplan.errors import LimitError
-from hrcplan.planners.exact.frame import Frame
+from hrcplan.planners.exact.frame import StaticMasks
 from hrcplan.planners.exact.graph import FAR, Graph
 from hrcplan.planners.exact.weights import Weights
 from hrcplan.task.conditions import meets
@@ -27,10 +27,10 @@ MAX_NODES = 1_000_000  # about 0.8 kB each
 WAIT = chr(0x10FFFF)
 _CHECK = 0xFF  # nodes between two looks at the clock
 
-Running = tuple[tuple[int, int], ...]
+RunningActions = tuple[tuple[int, int], ...]
 """Ticks that are left and action, of each running action; the next to end comes first."""
 
-_Node = tuple[int, str, int, int, Running, int, int]
+_Node = tuple[int, str, int, int, RunningActions, int, int]
 """Bound of the whole metric, path, metric so far, facts, running actions, the state in the graph
 when they have ended, and the actions that should have started before (as bits)."""
 
@@ -42,7 +42,7 @@ class Search:
     ``greed`` multiplies the bound; above 1 it finds plans sooner and proves nothing.
     """
 
-    frame: Frame
+    frame: StaticMasks
     graph: Graph
     weights: Weights
     ahead: list[int]
@@ -53,7 +53,7 @@ class Search:
 
     def __post_init__(self) -> None:
         self._open: list[_Node] = []
-        self._best: dict[tuple[int, Running], tuple[int, str]] = {}
+        self._best: dict[tuple[int, RunningActions], tuple[int, str]] = {}
 
     def run(self, initial: int) -> str | None:
         """Return the path of the best plan, None if there is none.
@@ -84,7 +84,7 @@ class Search:
             raise LimitError(f"no proof in time, after {self.n_expanded:,} nodes")
 
     def _push(
-        self, path: str, spent: int, facts: int, running: Running, state: int, late: int
+        self, path: str, spent: int, facts: int, running: RunningActions, state: int, late: int
     ) -> None:
         """Put a node on the heap unless it was reached as well before."""
         known = self._best.get((facts, running))

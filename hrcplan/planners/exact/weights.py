@@ -18,7 +18,7 @@ from hrcplan.pddl.model import (
     Problem,
     number_text,
 )
-from hrcplan.planners.exact.frame import HINT, Frame
+from hrcplan.planners.exact.frame import HINT, StaticMasks
 from hrcplan.task import Task
 from hrcplan.task.numbers import linear
 
@@ -84,7 +84,9 @@ class Weights:
     work: tuple[int, ...]
 
 
-def weights(task: Task, wanted: Metric, frame: Frame, held: Sequence[Sequence[str]]) -> Weights:
+def weights(
+    task: Task, wanted: Metric, frame: StaticMasks, held: Sequence[Sequence[str]]
+) -> Weights:
     """Return the weights of a task's actions under its present costs.
 
     Raises:
@@ -104,7 +106,7 @@ def weights(task: Task, wanted: Metric, frame: Frame, held: Sequence[Sequence[st
     return Weights(costs, whole, share, work)
 
 
-def _rates(frame: Frame, costs: Sequence[int]) -> dict[str, int]:
+def _rates(frame: StaticMasks, costs: Sequence[int]) -> dict[str, int]:
     """Return what an agent's actions cost per tick, on average."""
     total: dict[str, list[int]] = {}
     for agent, cost, ticks in zip(frame.agents, costs, frame.ticks, strict=True):

@@ -11,13 +11,13 @@ from functools import partial
 
 from hrcplan.studies.changed_mind import episodes, scenario
 from hrcplan.studies.changed_mind.findings import findings
-from hrcplan.studies.study import Study, Table
+from hrcplan.studies.study import Study, StudyTable
 
 STUDY = Study(
     name="changed-mind",
     title="Changed mind",
     tables=tuple(
-        Table(name, ("human", "method"), episodes.COLUMNS, partial(scenario.cells, name),
+        StudyTable(name, ("human", "method"), episodes.COLUMNS, partial(scenario.cells, name),
               episodes.simulated, at_most=table.get("at_most"), clocked=episodes.CLOCKED)
         for name, table in scenario.data()["tables"].items()
     ),

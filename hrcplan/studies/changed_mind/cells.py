@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from hrcplan.studies.changed_mind import scenario
 from hrcplan.studies.changed_mind.episodes import UNIT
 from hrcplan.studies.changed_mind.measures import DECLARED
-from hrcplan.studies.estimate import Estimate, Interval, two_way_bootstrap
+from hrcplan.studies.estimate import Interval, MeanEstimate, two_way_bootstrap
 from hrcplan.studies.report import cells_of, estimates
-from hrcplan.studies.study import Options, Row
+from hrcplan.studies.study import StudyOptions, StudyRow
 
 KEYS = ("human", "method")
 
@@ -23,9 +23,9 @@ class Cells:
         methods: Methods likewise.
     """
 
-    def __init__(self, table: str, options: Options, rows: Sequence[Row]) -> None:
+    def __init__(self, table: str, options: StudyOptions, rows: Sequence[StudyRow]) -> None:
         found = cells_of(rows, KEYS, scenario.cells(table, options))
-        self.rows: dict[tuple[str, str], Sequence[Row]] = {
+        self.rows: dict[tuple[str, str], Sequence[StudyRow]] = {
             (str(human), str(method)): had for (human, method), had in found.items() if had
         }
         self.humans = list(dict.fromkeys(human for human, _ in self.rows))
@@ -37,7 +37,7 @@ class Cells:
             for (_, method), had in self.rows.items()
             if any(row["n_detected"] or row["false_changes"] for row in had)
         }
-        self._means: dict[tuple[str, str, str], Estimate | None] = {}
+        self._means: dict[tuple[str, str, str], MeanEstimate | None] = {}
         self._gaps: dict[tuple[str, str, str, str], Interval | None] = {}
 
     def methods_of(self, human: str) -> list[str]:
@@ -52,7 +52,7 @@ class Cells:
         """Return of how many pairs of goals, or single goals, the rows of a cell are."""
         return len({tuple(row[key] for key in UNIT) for row in self.rows.get((human, method), ())})
 
-    def mean(self, human: str, method: str, measure: str) -> Estimate | None:
+    def mean(self, human: str, method: str, measure: str) -> MeanEstimate | None:
         """Return the mean over pairs of goals; None without values.
 
         A method that never declared a change, to any human, has no values of declared changes.
@@ -62,7 +62,7 @@ class Cells:
             self._means[key] = self._mean(*key)
         return self._means[key]
 
-    def _mean(self, human: str, method: str, measure: str) -> Estimate | None:
+    def _mean(self, human: str, method: str, measure: str) -> MeanEstimate | None:
         if measure in DECLARED and method not in self._declaring:
             return None
         rows = self.rows.get((human, method), ())

@@ -14,7 +14,7 @@ from hrcplan.studies.changed_mind.cells import Cells
 from hrcplan.studies.changed_mind.episodes import ORACLE
 from hrcplan.studies.changed_mind.measures import MEASURES, number, shown
 from hrcplan.studies.estimate import Interval
-from hrcplan.studies.study import Claim, Options
+from hrcplan.studies.study import Claim, StudyOptions
 
 GROUP = "Claims of the paper"
 FIXED, OPTIMAL, SUBOPTIMAL = HUMANS = ("fixed", "optimal", "suboptimal")
@@ -26,7 +26,7 @@ JUDGED = "Means of paired differences, 95 % intervals"
 
 
 @dataclass(frozen=True, slots=True)
-class Ahead:
+class Superiority:
     """That a method is better than each of others in a measure, for each of some humans.
 
     ``also`` are measures that are shown beside it, and do not decide.
@@ -46,22 +46,53 @@ _STOCHASTIC = (
     "whose goal changes, so each is judged by itself."
 )
 AHEAD = (
-    Ahead("After a change the first right guess comes sooner than with any baseline, for both "
-          "humans whose goal changes", "first_correct", CHANGING),
-    *(Ahead(f"When the goal changes, the last wrong guess comes earlier than with any baseline "
-            f"({human} human)", "last_incorrect_pct", (human,), _STOCHASTIC,
-            ("last_incorrect_step",)) for human in CHANGING),
-    Ahead("When the goal is fixed, the last wrong guess of the method and of recursive Bayes comes "
-          "earlier than that of CDP and information gain", "last_incorrect_pct", (FIXED,),
-          ours=(PAPER, RECURSIVE), others=BOUNDS),
-    *(Ahead(f"When the goal changes, more guesses are right than with any baseline ({human} human)",
-            "correct_pct", (human,), _STOCHASTIC) for human in CHANGING),
-    Ahead("Fewer extra steps than with any baseline, for all three humans", "extra_steps", HUMANS,
-          "Differences in total steps are the same: a run has one mistake-free length."),
-)  # fmt: skip
+    Superiority(
+        "After a change the first right guess comes sooner than with any baseline, for "
+        "both "
+        "humans whose goal changes",
+        "first_correct",
+        CHANGING,
+    ),
+    *(
+        Superiority(
+            f"When the goal changes, the last wrong guess comes earlier than with any "
+            "baseline "
+            f"({human} human)",
+            "last_incorrect_pct",
+            (human,),
+            _STOCHASTIC,
+            ("last_incorrect_step",),
+        )
+        for human in CHANGING
+    ),
+    Superiority(
+        "When the goal is fixed, the last wrong guess of the method and of recursive "
+        "Bayes comes "
+        "earlier than that of CDP and information gain",
+        "last_incorrect_pct",
+        (FIXED,),
+        ours=(PAPER, RECURSIVE),
+        others=BOUNDS,
+    ),
+    *(
+        Superiority(
+            f"When the goal changes, more guesses are right than with any baseline ({human} human)",
+            "correct_pct",
+            (human,),
+            _STOCHASTIC,
+        )
+        for human in CHANGING
+    ),
+    Superiority(
+        "Fewer extra steps than with any baseline, for all three humans",
+        "extra_steps",
+        HUMANS,
+        "Differences in total steps are the same: a run has one mistake-free length.",
+    ),
+)
 
 
-def claims(options: Options, cells: Cells) -> list[Claim]:
+def claims(options: StudyOptions, cells: Cells) -> list[Claim]:
     """Return the paper's claims; those about printed numbers on the study's own task only."""
     found = [ahead(wanted, cells) for wanted in AHEAD]
     found.append(bounds(cells))
@@ -71,7 +102,7 @@ def claims(options: Options, cells: Cells) -> list[Claim]:
     return [claim for claim in found if claim is not None]
 
 
-def ahead(wanted: Ahead, cells: Cells) -> Claim | None:
+def ahead(wanted: Superiority, cells: Cells) -> Claim | None:
     """Return that a method is better than each of the others, by paired differences."""
     words, n, holds = [], [], True
     for human in wanted.humans:
@@ -98,7 +129,7 @@ def differences(
 
 
 def _measured(
-    cells: Cells, human: str, ours: str, wanted: Ahead, found: Mapping[str, Interval]
+    cells: Cells, human: str, ours: str, wanted: Superiority, found: Mapping[str, Interval]
 ) -> str:
     """Return a mean, its differences to others, and those that stand beside the claim."""
     mean = cells.mean(human, ours, wanted.measure)

@@ -6,11 +6,11 @@ from dataclasses import asdict, replace
 from functools import lru_cache
 from statistics import fmean
 
-from hrcplan.agents.human import Course
-from hrcplan.execution.measures import changes, guesses, mistakes, waits, wasted
-from hrcplan.execution.turns import Record, play
+from hrcplan.episodes.episode import EpisodeRecord, play
+from hrcplan.episodes.humans import Course
+from hrcplan.episodes.measures import changes, guesses, mistakes, waits, wasted
 from hrcplan.studies.changed_mind import scenario
-from hrcplan.studies.study import Cell, Options, Row, Seed
+from hrcplan.studies.study import Cell, Seed, StudyOptions, StudyRow
 
 MEASURES = (
     "first_correct", "last_incorrect_pct", "last_incorrect_step", "correct_pct", "top3_pct",
@@ -25,7 +25,7 @@ COLUMNS = (*DRAWN, *(name for name in MEASURES if name not in CLOCKED), *DETAILS
 ORACLE = "oracle"
 
 
-def simulated(options: Options, cell: Cell, seed: Seed) -> Row:
+def simulated(options: StudyOptions, cell: Cell, seed: Seed) -> StudyRow:
     """Return the row of one episode: what was drawn, and its measures."""
     name, method = map(str, cell)
     task = scenario.task_of(options, name)
@@ -52,7 +52,7 @@ def simulated(options: Options, cell: Cell, seed: Seed) -> Row:
     }
 
 
-def _play(options: Options, name: str, method: str, course: Course) -> Record:
+def _play(options: StudyOptions, name: str, method: str, course: Course) -> EpisodeRecord:
     task = scenario.task_of(options, name)
     bank, robot = scenario.bank_of(*task), scenario.robot(method, *task)
     human = scenario.human(name, bank, course, options)

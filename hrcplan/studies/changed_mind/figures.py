@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from hrcplan.studies import plots
+from hrcplan.plots import style as plots
 from hrcplan.studies.changed_mind.cells import Cells
 from hrcplan.studies.changed_mind.episodes import ORACLE
 from hrcplan.studies.changed_mind.measures import MEASURES

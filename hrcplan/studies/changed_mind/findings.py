@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from hrcplan.execution.turns import REACHED
+from hrcplan.episodes.episode import REACHED
 from hrcplan.studies.changed_mind import claims, figures, reach, scenario, tables
 from hrcplan.studies.changed_mind.cells import Cells
 from hrcplan.studies.changed_mind.measures import number
 from hrcplan.studies.page import escape, panels, picture, table
-from hrcplan.studies.study import Claim, Findings, Options, Rows, Section
+from hrcplan.studies.study import Claim, Findings, Section, StudyOptions, StudyRows
 
 GUESSES = ("first_correct", "last_incorrect_step", "last_incorrect_pct", "correct_pct", "top3_pct",
            "detection_delay", "n_detected", "false_changes")  # fmt: skip
@@ -40,7 +40,7 @@ COLORED = (
 )
 
 
-def findings(options: Options, rows: Rows) -> Findings:
+def findings(options: StudyOptions, rows: StudyRows) -> Findings:
     """Return claims and sections; what has no rows is left out."""
     found = {name: Cells(name, options, had) for name, had in rows.items()}
     main, beyond = found[scenario.MAIN], found["beyond"]
@@ -53,7 +53,7 @@ def findings(options: Options, rows: Rows) -> Findings:
     return Findings(LEAD, stated, [section for section in sections if section is not None])
 
 
-def judged(options: Options, main: Cells, beyond: Cells) -> list[Claim]:
+def judged(options: StudyOptions, main: Cells, beyond: Cells) -> list[Claim]:
     """Return the paper's claims, and on the study's own task what we want to reach."""
     stated = claims.claims(options, main)
     return [*stated, *(reach.claims(main, beyond) if scenario.is_own_task(options) else ())]

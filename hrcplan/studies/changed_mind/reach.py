@@ -8,7 +8,7 @@ from typing import Any
 from hrcplan.studies.changed_mind import scenario
 from hrcplan.studies.changed_mind.cells import Cells
 from hrcplan.studies.changed_mind.measures import MEASURES, number, shown
-from hrcplan.studies.estimate import Estimate, Interval
+from hrcplan.studies.estimate import Interval, MeanEstimate
 from hrcplan.studies.study import Claim
 
 GROUP = "What we want to reach"
@@ -47,7 +47,7 @@ def wanted(one: Mapping[str, Any], method: str, cells: Cells) -> Claim | None:
 
 
 def _judged(
-    one: Mapping[str, Any], ours: Estimate, theirs: Estimate, gap: Interval
+    one: Mapping[str, Any], ours: MeanEstimate, theirs: MeanEstimate, gap: Interval
 ) -> tuple[str, bool]:
     """Return the goal in words, and whether it is reached."""
     whose = f"{one['beside']}'s"
@@ -65,11 +65,11 @@ def _judged(
     return f"no worse than {whose}", gap.is_known and not is_worse
 
 
-def _mean(e: Estimate) -> str:
+def _mean(e: MeanEstimate) -> str:
     return f"{number(e.mean)} ± {number(e.se)}"
 
 
-def _share(ours: Estimate, theirs: Estimate) -> str:
+def _share(ours: MeanEstimate, theirs: MeanEstimate) -> str:
     return f"{100 * ours.mean / theirs.mean:.0f} %" if theirs.mean else "of 0"
 
 

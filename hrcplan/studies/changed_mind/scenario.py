@@ -11,19 +11,18 @@ from itertools import permutations
 from pathlib import Path
 from typing import Any
 
-from hrcplan.agents.human import HUMANS, Course, Human
-from hrcplan.agents.human import humans as people
 from hrcplan.assistance import ASSISTANTS
 from hrcplan.bank import Bank, Goals, build, read_goals
+from hrcplan.core.text import nearest
+from hrcplan.episodes.episode import TurnWorld
+from hrcplan.episodes.humans import HUMANS, Course, EpisodeHuman
 from hrcplan.errors import UsageError
-from hrcplan.execution.turns import World
 from hrcplan.execution.worlds import WORLDS
-from hrcplan.inference.forest import Forest
-from hrcplan.inference.methods import METHODS
-from hrcplan.pddl.conventions import robots
-from hrcplan.pddl.source import nearest
+from hrcplan.inference.classifier.forest import ForestBelief
+from hrcplan.inference.registry import METHODS
+from hrcplan.pddl.conventions import people, robots
 from hrcplan.pddl.write import domain_text, problem_text
-from hrcplan.studies.study import Cell, Options, Say, Seed
+from hrcplan.studies.study import Cell, Say, Seed, StudyOptions
 
 HERE = Path(__file__).parent
 MAIN = "rows"
@@ -44,7 +43,7 @@ def defaults() -> dict[str, str]:
     return {**data()["task"], **dict.fromkeys(ADDED, "")}
 
 
-def is_own_task(options: Options) -> bool:
+def is_own_task(options: StudyOptions) -> bool:
     """Whether the options name the task that the file was written for."""
     return all(options[key] == value for key, value in data()["task"].items())
 
@@ -52,13 +51,13 @@ def is_own_task(options: Options) -> bool:
 # Cells.
 
 
-def cells(table: str, options: Options) -> list[Cell]:
+def cells(table: str, options: StudyOptions) -> list[Cell]:
     """Return human and method of every cell of a table, human by human."""
     methods = chosen(options["methods"], data()["tables"][table]["methods"])
     return [(human, method) for human in humans(table, options) for method in methods]
 
 
-def humans(table: str, options: Options) -> list[str]:
+def humans(table: str, options: StudyOptions) -> list[str]:
     """Return the humans of a table; on another task, those that need no goals of their own."""
     names = data()["tables"][table]["humans"]
     if not is_own_task(options):
@@ -95,7 +94,7 @@ def parted(text: str) -> list[str]:
     return found
 
 
-def check(options: Options) -> None:
+def check(options: StudyOptions) -> None:
     """Check that every part that options name can be found.
 
     Raises:
@@ -131,7 +130,7 @@ def bank_of(domain: str, goals: str) -> Bank:
             is missing.
     """
     bank = build(goals_of(domain, goals))
-    for kind, who in (("human", people(bank)), ("robot", robots(bank.goals.problem))):
+    for kind, who in (("human", people(bank.goals.problem)), ("robot", robots(bank.goals.problem))):
         if bank.goals.problem.agents and not who:
             raise UsageError(f"there is no {kind} among the agents", code=f"no-{kind}")
     if len(bank.names) < 2:
@@ -143,7 +142,7 @@ def bank_of(domain: str, goals: str) -> Bank:
     return bank
 
 
-def task_of(options: Options, human: str) -> tuple[str, str]:
+def task_of(options: StudyOptions, human: str) -> tuple[str, str]:
     """Return domain and goals that a human is studied with."""
     return options["domain"], human_data(human).get("goals", options["goals"])
 
@@ -154,9 +153,11 @@ def human_data(name: str) -> Mapping[str, Any]:
     return found
 
 
-def human(name: str, bank: Bank, course: Course, options: Options) -> Human:
+def human(name: str, bank: Bank, course: Course, options: StudyOptions) -> EpisodeHuman:
     """Return a human who follows a course."""
-    made: Human = HUMANS.find(human_data(name).get("chooser", options["chooser"]))(bank, course)
+    made: EpisodeHuman = HUMANS.find(human_data(name).get("chooser", options["chooser"]))(
+        bank, course
+    )
     return made
 
 
@@ -174,7 +175,7 @@ def robot(name: str, domain: str, goals: str) -> Any:
     return kind(bank, **changes)
 
 
-def prepare(options: Options, jobs: int, say: Say) -> None:
+def prepare(options: StudyOptions, jobs: int, say: Say) -> None:
     """Train the forests that methods need, so that no worker has to; they are kept in the cache."""
     tasks = dict.fromkeys(
         task_of(options, str(human))
@@ -185,7 +186,7 @@ def prepare(options: Options, jobs: int, say: Say) -> None:
     for task in tasks:
         n = len(bank_of(*task).names)
         say(f"a forest for {n} goals: trained once, in a few minutes, then kept")
-        Forest(bank_of(*task), n_jobs=jobs)
+        ForestBelief(bank_of(*task), n_jobs=jobs)
 
 
 def _learns(method: str) -> bool:
@@ -197,13 +198,13 @@ def _learns(method: str) -> bool:
 
 
 @lru_cache(maxsize=4)
-def world(name: str, domain: str, goals: str) -> World:
+def world(name: str, domain: str, goals: str) -> TurnWorld:
     """Return where episodes happen; each begins it anew."""
-    made: World = WORLDS.find(name)(bank_of(domain, goals))
+    made: TurnWorld = WORLDS.find(name)(bank_of(domain, goals))
     return made
 
 
-def inputs(options: Options) -> str:
+def inputs(options: StudyOptions) -> str:
     """Return domain and problems of the study, and what its file says of cells and courses.
 
     Raises:
@@ -225,7 +226,7 @@ def inputs(options: Options) -> str:
 # Courses.
 
 
-def runs(options: Options) -> int:
+def runs(options: StudyOptions) -> int:
     """Return how many runs a cell has: all ordered pairs of goals, as often as there are trials."""
     n = len(goals_of(options["domain"], options["goals"]))
     return n * (n - 1) * int(data()["study"]["trials"])

@@ -11,12 +11,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from hrcplan.agents.human import Course, Scripted
-from hrcplan.assistance import Why, why
+from hrcplan.assistance import Explanation, explain
 from hrcplan.bank import Bank
+from hrcplan.core.text import nearest
+from hrcplan.episodes.episode import EpisodeTurn, play
+from hrcplan.episodes.humans import Course, Scripted
 from hrcplan.errors import InputError
-from hrcplan.execution.turns import Turn, play
-from hrcplan.pddl.source import nearest
 from hrcplan.studies.changed_mind import scenario
 
 SHIPPED = ("golden",)
@@ -26,7 +26,7 @@ _NEEDED = ("domain", *_LISTS)
 
 
 @dataclass(frozen=True, slots=True)
-class Told:
+class NarratedTurn:
     """One turn of a scripted episode: what was done, and what the robot thinks after it.
 
     ``top`` are the likeliest goals with their probabilities; ``why`` says what the robot weighed
@@ -40,15 +40,15 @@ class Told:
     is_needed: bool
     top: tuple[tuple[str, float], ...]
     n_declared: int
-    why: Why | None = None
+    why: Explanation | None = None
 
 
 @dataclass(frozen=True, slots=True)
-class Episode:
+class NarratedEpisode:
     """A scripted episode with one method, from its first turn to its last."""
 
     method: str
-    turns: tuple[Told, ...]
+    turns: tuple[NarratedTurn, ...]
     ending: str
 
 
@@ -87,7 +87,7 @@ def _fault(script: Mapping[str, Any]) -> str | None:
     return None if script["methods"] else "methods names none"
 
 
-def episodes(script: Mapping[str, Any], methods: Sequence[str] = ()) -> list[Episode]:
+def episodes(script: Mapping[str, Any], methods: Sequence[str] = ()) -> list[NarratedEpisode]:
     """Return the episodes of a script, one for each method.
 
     Args:
@@ -122,25 +122,29 @@ def _step(bank: Bank, text: str) -> int:
     return found
 
 
-def _played(name: str, robot: Any, bank: Bank, course: Course, steps: Sequence[int]) -> Episode:
-    told: list[Told] = []
+def _played(
+    name: str, robot: Any, bank: Bank, course: Course, steps: Sequence[int]
+) -> NarratedEpisode:
+    told: list[NarratedTurn] = []
     state = robot.start()
 
-    def watch(turn: Turn, after: Any) -> None:
+    def watch(turn: EpisodeTurn, after: Any) -> None:
         nonlocal state
         # A robot that is told the goal has no reasons of its own.
         can_say = not turn.is_human and hasattr(robot, "options")
-        told.append(_told(turn, robot, bank, after, why(robot, state) if can_say else None))
+        told.append(_told(turn, robot, bank, after, explain(robot, state) if can_say else None))
         state = after
 
     record = play(bank, Scripted(bank, course, steps), robot, course, watch=watch)
-    return Episode(name, tuple(told), record.ending)
+    return NarratedEpisode(name, tuple(told), record.ending)
 
 
-def _told(turn: Turn, robot: Any, bank: Bank, state: Any, reasons: Why | None) -> Told:
+def _told(
+    turn: EpisodeTurn, robot: Any, bank: Bank, state: Any, reasons: Explanation | None
+) -> NarratedTurn:
     posterior = robot.posterior(state)
     order = sorted(range(len(posterior)), key=lambda goal: -posterior[goal])[:TOP]
-    return Told(
+    return NarratedTurn(
         turn.t,
         "human" if turn.is_human else "robot",
         None if turn.step is None else str(bank.table[turn.step]),
@@ -152,7 +156,7 @@ def _told(turn: Turn, robot: Any, bank: Bank, state: Any, reasons: Why | None) -
     )
 
 
-def as_json(script: Mapping[str, Any], found: Sequence[Episode]) -> dict[str, Any]:
+def as_json(script: Mapping[str, Any], found: Sequence[NarratedEpisode]) -> dict[str, Any]:
     """Return the document of ``study play``."""
     return {
         "title": script.get("title", ""),
@@ -163,7 +167,7 @@ def as_json(script: Mapping[str, Any], found: Sequence[Episode]) -> dict[str, An
     }
 
 
-def _turns(episode: Episode) -> Iterator[dict[str, Any]]:
+def _turns(episode: NarratedEpisode) -> Iterator[dict[str, Any]]:
     for turn in episode.turns:
         reasons = turn.why
         yield {

@@ -8,7 +8,7 @@ from hrcplan.studies.changed_mind import figures
 from hrcplan.studies.changed_mind.cells import Cells
 from hrcplan.studies.changed_mind.episodes import ORACLE
 from hrcplan.studies.changed_mind.measures import MEASURES, ends, head, number, shown, signed
-from hrcplan.studies.estimate import CONFIDENT, Estimate, Interval
+from hrcplan.studies.estimate import CONFIDENT, Interval, MeanEstimate
 from hrcplan.studies.page import escape, key, table
 
 NOTHING = "\u2013"
@@ -31,7 +31,7 @@ def named(cells: Cells, method: str) -> str:
     return f"{key(figures.color(method, cells.methods))}{escape(method)}"
 
 
-def _mean(e: Estimate | None) -> str:
+def _mean(e: MeanEstimate | None) -> str:
     if e is None:
         return NOTHING
     half = CONFIDENT * e.se
@@ -39,7 +39,7 @@ def _mean(e: Estimate | None) -> str:
     return f"{_short(e)}<small>{interval}</small>"
 
 
-def _short(e: Estimate) -> str:
+def _short(e: MeanEstimate) -> str:
     return f'{number(e.mean)} <span class="se">± {number(e.se)}</span>'
 
 

@@ -11,22 +11,22 @@ from functools import partial
 
 from hrcplan.studies.failure_anticipation import episodes, scenario
 from hrcplan.studies.failure_anticipation.findings import findings
-from hrcplan.studies.study import Study, Table
+from hrcplan.studies.study import Study, StudyTable
 
 STUDY = Study(
     name="failure-anticipation",
     title="Failure anticipation",
     tables=(
-        Table("rows", ("case", "method"), episodes.COLUMNS,
+        StudyTable("rows", ("case", "method"), episodes.COLUMNS,
               partial(scenario.cells, "methods"), partial(episodes.simulated, "methods")),
-        Table("variants", ("case", "method"), episodes.COLUMNS,
+        StudyTable("variants", ("case", "method"), episodes.COLUMNS,
               partial(scenario.cells, "variants"), partial(episodes.simulated, "variants"),
               at_most=200),
-        Table("sweeps", ("parameter", "setting"), episodes.COLUMNS,
+        StudyTable("sweeps", ("parameter", "setting"), episodes.COLUMNS,
               scenario.sweep_cells, episodes.swept, at_most=100),
-        Table("allocation", ("profile", "action", "value"), episodes.SHARES,
+        StudyTable("allocation", ("profile", "action", "value"), episodes.SHARES,
               episodes.allocation_cells, episodes.allocated, at_most=1),
-        Table("example", ("variant",), episodes.TOLD,
+        StudyTable("example", ("variant",), episodes.TOLD,
               episodes.example_cells, episodes.shown, at_most=1),
     ),
     measures=("success_pct", "replans", "failed_pct", "assigned_human_pct",

@@ -6,10 +6,10 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from hrcplan.agents.state import MOST
-from hrcplan.studies.estimate import CONFIDENT, Estimate, difference
+from hrcplan.studies.estimate import CONFIDENT, MeanEstimate, difference
 from hrcplan.studies.failure_anticipation import scenario
 from hrcplan.studies.report import estimates
-from hrcplan.studies.study import Claim, Options, Row, Rows
+from hrcplan.studies.study import Claim, StudyOptions, StudyRow, StudyRows
 
 NAMES = {
     "success_pct": "success",
@@ -27,7 +27,7 @@ PAPER, OURS = "Claims of the paper", "What we want to reach"
 H2 = "H2: with the model the human contributes more, and fails less"
 
 
-def claims(options: Options, rows: Rows) -> list[Claim]:
+def claims(options: StudyOptions, rows: StudyRows) -> list[Claim]:
     """Return all claims, each judged by the rows alone."""
     found = [hypothesis_1(rows), hypothesis_2(rows)]
     found += [
@@ -39,17 +39,17 @@ def claims(options: Options, rows: Rows) -> list[Claim]:
     return found
 
 
-def of_cell(rows: Iterable[Row], case: str, method: str) -> list[Row]:
+def of_cell(rows: Iterable[StudyRow], case: str, method: str) -> list[StudyRow]:
     """Return the rows of one cell."""
     return [row for row in rows if row["case"] == case and row["method"] == method]
 
 
-def by_run(rows: Iterable[Row], measure: str) -> dict[int, float]:
+def by_run(rows: Iterable[StudyRow], measure: str) -> dict[int, float]:
     """Return a measure by the number of the run."""
     return {int(row["run"] or 0): float(row[measure] or 0) for row in rows}
 
 
-def effect(rows: Sequence[Row], case: str, measure: str) -> Estimate:
+def effect(rows: Sequence[StudyRow], case: str, measure: str) -> MeanEstimate:
     """Return what the model changes in case 1 or 2: paired runs of the paper's profile, b - a."""
     ours, theirs = (
         by_run(of_cell(rows, f"{case}{letter}", "paper"), measure)
@@ -58,7 +58,7 @@ def effect(rows: Sequence[Row], case: str, measure: str) -> Estimate:
     return difference(ours, theirs)
 
 
-def hypothesis_1(rows: Rows) -> Claim:
+def hypothesis_1(rows: StudyRows) -> Claim:
     """Return H1: success up, failed actions and replans down, in both cases."""
     holds, words = True, []
     for case in "12":
@@ -70,7 +70,7 @@ def hypothesis_1(rows: Rows) -> Claim:
     return Claim(H1, holds, evidence, PAPER)
 
 
-def hypothesis_2(rows: Rows) -> Claim:
+def hypothesis_2(rows: StudyRows) -> Claim:
     """Return H2: fewer failures, a larger human share, and more of it the more the human can do."""
     holds, words = True, []
     for case in "12":
@@ -89,7 +89,7 @@ def hypothesis_2(rows: Rows) -> Claim:
     return Claim(H2, holds, evidence, PAPER)
 
 
-def _changes(found: Mapping[str, Estimate]) -> str:
+def _changes(found: Mapping[str, MeanEstimate]) -> str:
     texts = [
         f"{NAMES[name]} {_signed(e)}{'' if name == 'replans' else ' points'}"
         for name, e in found.items()
@@ -97,11 +97,11 @@ def _changes(found: Mapping[str, Estimate]) -> str:
     return f"{', '.join(texts)} (n = {min(e.n for e in found.values())})"
 
 
-def _signed(e: Estimate) -> str:
+def _signed(e: MeanEstimate) -> str:
     return f"{e.mean:+.2f} ± {e.se:.2f}".replace("-", "\u2212")
 
 
-def switch(options: Options, profile: str, rows: Iterable[Row]) -> Claim:
+def switch(options: StudyOptions, profile: str, rows: Iterable[StudyRow]) -> Claim:
     """Return that above 10 everything goes to the robot in the plan after the change.
 
     Of the paper's profile only the change before the first action is judged, as its Figure 5
@@ -119,32 +119,32 @@ def switch(options: Options, profile: str, rows: Iterable[Row]) -> Claim:
     return Claim(text, holds, evidence, PAPER if profile == "paper" else OURS)
 
 
-def last_with_human(points: Iterable[Row], at: int) -> int | None:
+def last_with_human(points: Iterable[StudyRow], at: int) -> int | None:
     """Return the largest value at which the human still gets an action, None if there is none."""
     values = [int(r["value"] or 0) for r in points if r["action"] == at and r["n_human"]]
     return max(values, default=None)
 
 
-def _switches(last: int | None, points: Iterable[Row], at: int) -> bool:
+def _switches(last: int | None, points: Iterable[StudyRow], at: int) -> bool:
     """Whether the human has actions at some value, none above 10, and such values were tried."""
     tried = any(row["action"] == at and int(row["value"] or 0) > MOST for row in points)
     return tried and last is not None and last <= MOST
 
 
-def _until(last: int | None, points: Iterable[Row]) -> str:
+def _until(last: int | None, points: Iterable[StudyRow]) -> str:
     most = max(int(row["value"] or 0) for row in points)
     if last is None:
         return "at no value"
     return f"at all values up to {most}" if last == most else f"up to {last}"
 
 
-def reaches(options: Options) -> Iterator[Mapping[str, Any]]:
+def reaches(options: StudyOptions) -> Iterator[Mapping[str, Any]]:
     """Yield what is wanted of cells that the study has."""
     known = set(scenario.cells("methods", options))
     yield from (w for w in scenario.data()["reach"] if tuple(w["cell"]) in known)
 
 
-def reach(wanted: Mapping[str, Any], rows: Rows) -> Claim:
+def reach(wanted: Mapping[str, Any], rows: StudyRows) -> Claim:
     """Return that the means of a cell lie in their bands."""
     case, method = wanted["cell"]
     found = of_cell(rows["rows"], case, method)
@@ -163,7 +163,9 @@ def reach(wanted: Mapping[str, Any], rows: Rows) -> Claim:
     )
 
 
-def _above(bound: Mapping[str, Any], found: Iterable[Row], rows: Rows) -> tuple[Estimate, str]:
+def _above(
+    bound: Mapping[str, Any], found: Iterable[StudyRow], rows: StudyRows
+) -> tuple[MeanEstimate, str]:
     """Return how far a cell is above a variant on the same runs, and the variant's name."""
     case, name = bound["variant"]
     theirs = by_run(of_cell(rows["variants"], case, name), bound["measure"])
@@ -179,10 +181,10 @@ def _band(measure: str, low: float, high: float) -> str:
     return f"at least {low:g}{unit}" if high == 100 else f"{low:g} to {high:g}{unit}"
 
 
-def _shown(measure: str, e: Estimate) -> str:
+def _shown(measure: str, e: MeanEstimate) -> str:
     return f"{e.mean:.2f}{UNITS.get(measure, ' %')} ± {e.se:.2f}"
 
 
-def is_far(ours: Estimate, printed: float, runs: int) -> bool:
+def is_far(ours: MeanEstimate, printed: float, runs: int) -> bool:
     """Whether a printed mean over ``runs`` simulations is unlikely to be one of ours."""
     return abs(ours.mean - printed) > CONFIDENT * ours.se_of(runs)

@@ -9,17 +9,16 @@ from functools import lru_cache
 from typing import Any
 
 from hrcplan.agents.memory import Memory
-from hrcplan.execution import MEASURES, Engine, Spec, engine_for
-from hrcplan.execution import Row as Outcome
+from hrcplan.execution import MEASURES, Engine, Outcome, Spec, engine_for
 from hrcplan.execution import events as ev
 from hrcplan.execution.run import Run
 from hrcplan.execution.simulate import forget, nature_of
 from hrcplan.execution.worlds.simulated import Nature, StateChange
 from hrcplan.pddl.model import FluentKey
-from hrcplan.pddl.semantics import State
+from hrcplan.pddl.semantics import LiftedState
 from hrcplan.plans import Plan, PlannedAction
 from hrcplan.studies.failure_anticipation import scenario
-from hrcplan.studies.study import Cell, Options, Row
+from hrcplan.studies.study import Cell, StudyOptions, StudyRow
 
 _COUNTS = tuple(field.name for field in fields(Outcome))
 _DRAWN = ("element", "value", "change_s")
@@ -28,14 +27,14 @@ SHARES = ("n_human", "n_robot", "cost")
 TOLD = ("ending", "replans", "bars", "plans")
 
 
-def simulated(kind: str, options: Options, cell: Cell, seed: str) -> Row:
+def simulated(kind: str, options: StudyOptions, cell: Cell, seed: str) -> StudyRow:
     """Return the row of one simulated run: its counts, its measures, and what chance drew."""
     case, name = map(str, cell)
     spec = scenario.spec(scenario.methods(kind, options)[name], case, options, seed)
     return row_of(spec)
 
 
-def swept(options: Options, cell: Cell, seed: str) -> Row:
+def swept(options: StudyOptions, cell: Cell, seed: str) -> StudyRow:
     """Return the row of one simulated run of the sweeps."""
     _make_room_for(cell)
     return row_of(scenario.swept(options, cell, seed))
@@ -47,19 +46,19 @@ def _make_room_for(cell: Cell) -> None:
     forget()
 
 
-def row_of(spec: Spec) -> Row:
+def row_of(spec: Spec) -> StudyRow:
     """Return the row of one simulated run."""
     engine = engine_for(spec)
     nature = nature_of(spec, engine)
     outcome = engine.row(engine.run(nature))
-    drawn: Row = dict.fromkeys(_DRAWN)
+    drawn: StudyRow = dict.fromkeys(_DRAWN)
     for change in nature.changes:
         for key, value in change.values.items():
             drawn = {"element": " ".join(key), "value": float(value), "change_s": change.t}
     return {**outcome.to_json(), **outcome.measures(), **drawn}
 
 
-def allocated(options: Options, cell: Cell, seed: str) -> Row:
+def allocated(options: StudyOptions, cell: Cell, seed: str) -> StudyRow:
     """Return who does what in the plan after a change: a point of Figure 5."""
     profile, at, value = str(cell[0]), int(cell[1]), int(cell[2])
     engine = engine_for(_plain(options, profile=profile))
@@ -75,7 +74,7 @@ def allocated(options: Options, cell: Cell, seed: str) -> Row:
     return {"n_human": n_human, "n_robot": len(actions) - n_human, "cost": cost}
 
 
-def allocation_cells(options: Options) -> list[Cell]:
+def allocation_cells(options: StudyOptions) -> list[Cell]:
     """Return profile, number of the human's action before which the change comes, and value."""
     wanted = scenario.data()["allocation"]
     n_actions = len(starts_of_human(engine_for(_plain(options))))
@@ -87,14 +86,14 @@ def allocation_cells(options: Options) -> list[Cell]:
     ]
 
 
-def example_cells(options: Options) -> list[Cell]:
+def example_cells(options: StudyOptions) -> list[Cell]:
     """Return the variants of the illustrative example; none where the human does nothing."""
     if not starts_of_human(engine_for(_plain(options))):
         return []
     return [(variant["name"],) for variant in scenario.data()["example"]["variants"]]
 
 
-def shown(options: Options, cell: Cell, seed: str) -> Row:
+def shown(options: StudyOptions, cell: Cell, seed: str) -> StudyRow:
     """Return one variant of the illustrative example: every action carried out, every plan."""
     wanted = scenario.data()["example"]
     chosen = next(v for v in wanted["variants"] if v["name"] == cell[0])
@@ -138,7 +137,7 @@ class Film:
                 self.bars.append(bar)
 
 
-def _plain(options: Options, **changes: Any) -> Spec:
+def _plain(options: StudyOptions, **changes: Any) -> Spec:
     return Spec(domain=options["domain"], problem=options["problem"], **changes)
 
 
@@ -172,7 +171,7 @@ def _starts(engine: Engine) -> Iterator[float]:
             yield float(action.start_s or 0)
 
 
-def drained(engine: Engine, t: float) -> State:
+def drained(engine: Engine, t: float) -> LiftedState:
     """Return the state of the first plan when what had begun before ``t`` has ended."""
     acting = engine.monitor.acting
     state = acting.initial()

@@ -7,9 +7,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from hrcplan.agents.state import MOST
-from hrcplan.studies import plots
+from hrcplan.plots import style as plots
 from hrcplan.studies.estimate import CONFIDENT, estimate
-from hrcplan.studies.study import Cell, Row
+from hrcplan.studies.study import Cell, StudyRow
 
 CASE_COLORS = {"1a": plots.GRAY, "1b": plots.BLUE, "2a": plots.PINK, "2b": plots.GREEN}
 _REASONS = (
@@ -22,7 +22,7 @@ _ACTION_COLORS = ("#7fb8da", "#f3c969", "#7cc7ae", "#d9a5c4", "#c8b273", "#a7b7e
 
 @plots.styled
 def measures(
-    by_cell: Mapping[Cell, Sequence[Row]],
+    by_cell: Mapping[Cell, Sequence[StudyRow]],
     names: Mapping[str, str],
     printed: Mapping[str, Mapping[str, float]],
 ) -> str:
@@ -60,7 +60,7 @@ def _places(cells: Sequence[Cell]) -> list[float]:
 
 
 @plots.styled
-def reasons(by_cell: Mapping[Cell, Sequence[Row]]) -> str:
+def reasons(by_cell: Mapping[Cell, Sequence[StudyRow]]) -> str:
     """Return bars of the mean number of replans, split by what they were for."""
     cells = [cell for cell, rows in by_cell.items() if rows]
     figure, grid = plots.figure(1, 1, 11.5, 1.1 + 0.25 * len(cells))
@@ -81,7 +81,7 @@ def reasons(by_cell: Mapping[Cell, Sequence[Row]]) -> str:
 
 
 @plots.styled
-def allocation(rows: Sequence[Row], element: str) -> str:
+def allocation(rows: Sequence[StudyRow], element: str) -> str:
     """Return Figure 5: shares of the replanned plan against the value, a panel per profile."""
     profiles = list(dict.fromkeys(str(row["profile"]) for row in rows))
     profiles.sort(key=lambda name: name != "paper")
@@ -97,7 +97,7 @@ def allocation(rows: Sequence[Row], element: str) -> str:
     return plots.svg(figure, "allocation", f"Shares of human and robot against {element}")
 
 
-def _shares(axes: Any, points: Sequence[Row]) -> None:
+def _shares(axes: Any, points: Sequence[StudyRow]) -> None:
     values = sorted({int(row["value"] or 0) for row in points})
     changes = sorted({int(row["action"] or 0) for row in points})
     share = {
@@ -125,7 +125,7 @@ def _shares(axes: Any, points: Sequence[Row]) -> None:
 
 
 @plots.styled
-def levels(lines: Mapping[str, Sequence[Row]], names: Mapping[str, str]) -> str:
+def levels(lines: Mapping[str, Sequence[StudyRow]], names: Mapping[str, str]) -> str:
     """Return measures against the value that was drawn; a line per name, one panel per measure."""
     colors = (plots.GRAY, plots.BLUE, plots.GREEN, plots.ORANGE)
     figure, grid = plots.figure(len(names), 1, 11.5, 2.9)
@@ -148,7 +148,7 @@ def levels(lines: Mapping[str, Sequence[Row]], names: Mapping[str, str]) -> str:
 
 
 @plots.styled
-def sweeps(by_cell: Mapping[Cell, Sequence[Row]], names: Mapping[str, str]) -> str:
+def sweeps(by_cell: Mapping[Cell, Sequence[StudyRow]], names: Mapping[str, str]) -> str:
     """Return measures against each swept parameter: a column per parameter, a row per measure."""
     parameters = list(dict.fromkeys(str(parameter) for parameter, _ in by_cell))
     figure, grid = plots.figure(
@@ -170,7 +170,7 @@ def sweeps(by_cell: Mapping[Cell, Sequence[Row]], names: Mapping[str, str]) -> s
 
 
 @plots.styled
-def lanes(rows: Sequence[Row]) -> str:
+def lanes(rows: Sequence[StudyRow]) -> str:
     """Return one Gantt chart per variant of the example: what was carried out, lane by lane."""
     films = [(row, json.loads(str(row["bars"])), json.loads(str(row["plans"]))) for row in rows]
     agents = list(dict.fromkeys(bar["agent"] for _, bars, _ in films for bar in bars))

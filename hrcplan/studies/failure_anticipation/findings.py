@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from hrcplan.studies.estimate import Estimate
+from hrcplan.studies.estimate import MeanEstimate
 from hrcplan.studies.failure_anticipation import figures, scenario
 from hrcplan.studies.failure_anticipation.claims import claims, is_far, of_cell
 from hrcplan.studies.page import escape, picture, table
 from hrcplan.studies.report import cells_of, estimates
-from hrcplan.studies.study import Cell, Findings, Options, Row, Rows, Section
+from hrcplan.studies.study import Cell, Findings, Section, StudyOptions, StudyRow, StudyRows
 
 _HEADS = {
     "success_pct": "success<small>%</small>",
@@ -37,7 +37,7 @@ _CASES = (
 )
 
 
-def findings(options: Options, rows: Rows) -> Findings:
+def findings(options: StudyOptions, rows: StudyRows) -> Findings:
     """Return claims and sections; what has no rows is left out."""
     by_cell = cells_of(rows["rows"], ("case", "method"), scenario.cells("methods", options))
     variants = cells_of(rows["variants"], ("case", "method"), scenario.cells("variants", options))
@@ -59,7 +59,7 @@ def findings(options: Options, rows: Rows) -> Findings:
     return Findings(lead, claims(options, rows), [s for s in sections if s is not None])
 
 
-def printed_table(by_cell: Mapping[Cell, Sequence[Row]]) -> Section | None:
+def printed_table(by_cell: Mapping[Cell, Sequence[StudyRow]]) -> Section | None:
     """Return Table I: our means, and below them the figures of the paper."""
     printed, names = scenario.data()["printed"], scenario.data()["printed"]["columns"]
     lines = []
@@ -80,16 +80,16 @@ def printed_table(by_cell: Mapping[Cell, Sequence[Row]]) -> Section | None:
     return Section("Table I beside the paper", html)
 
 
-def _beside(ours: Estimate, printed: float, runs: int) -> str:
+def _beside(ours: MeanEstimate, printed: float, runs: int) -> str:
     mark = "out" if is_far(ours, printed, runs) else "in"
     return f'{_mean(ours)}<small class="{mark}">paper {printed:.2f}</small>'
 
 
-def _mean(e: Estimate) -> str:
+def _mean(e: MeanEstimate) -> str:
     return f'{e.mean:.2f} <span class="se">± {e.se:.2f}</span>'
 
 
-def all_methods(by_cell: Mapping[Cell, Sequence[Row]], own_task: bool) -> Section:
+def all_methods(by_cell: Mapping[Cell, Sequence[StudyRow]], own_task: bool) -> Section:
     """Return every case and method, as a plot and as a table."""
     printed = {}
     if own_task:
@@ -103,7 +103,7 @@ def all_methods(by_cell: Mapping[Cell, Sequence[Row]], own_task: bool) -> Sectio
     return Section("All methods", picture(svg, caption) + _table_of(by_cell))
 
 
-def _table_of(by_cell: Mapping[Cell, Sequence[Row]]) -> str:
+def _table_of(by_cell: Mapping[Cell, Sequence[StudyRow]]) -> str:
     lines = []
     for (case, method), rows in by_cell.items():
         if rows:
@@ -113,7 +113,7 @@ def _table_of(by_cell: Mapping[Cell, Sequence[Row]]) -> str:
     return table(["case and method", "runs", *(_HEADS[n] for n in _SHOWN)], lines)
 
 
-def replans(by_cell: Mapping[Cell, Sequence[Row]]) -> Section:
+def replans(by_cell: Mapping[Cell, Sequence[StudyRow]]) -> Section:
     """Return why plans were made anew."""
     caption = (
         "Mean number of replans per run. A replan with several reasons counts as a failure before "
@@ -122,7 +122,7 @@ def replans(by_cell: Mapping[Cell, Sequence[Row]]) -> Section:
     return Section("Replans by reason", picture(figures.reasons(by_cell), caption))
 
 
-def figure_5(rows: Sequence[Row]) -> Section | None:
+def figure_5(rows: Sequence[StudyRow]) -> Section | None:
     """Return Figure 5: who does what after the first replan, against motivation."""
     if not rows:
         return None
@@ -135,7 +135,7 @@ def figure_5(rows: Sequence[Row]) -> Section | None:
     return Section("Figure 5: who does what", picture(figures.allocation(rows, element), caption))
 
 
-def example(rows: Sequence[Row]) -> Section | None:
+def example(rows: Sequence[StudyRow]) -> Section | None:
     """Return the illustrative example, as Gantt charts in the order of the scenario."""
     if not rows:
         return None
@@ -148,7 +148,7 @@ def example(rows: Sequence[Row]) -> Section | None:
     return Section("The illustrative example", picture(figures.lanes(rows), caption))
 
 
-def by_level(rows: Sequence[Row]) -> Section | None:
+def by_level(rows: Sequence[StudyRow]) -> Section | None:
     """Return measures of case 2 against the value drawn."""
     lines = {
         "2a paper": of_cell(rows, "2a", "paper"),
@@ -164,7 +164,7 @@ def by_level(rows: Sequence[Row]) -> Section | None:
     return Section("How much the human contributes", picture(figures.levels(lines, names), caption))
 
 
-def sweeps(by_cell: Mapping[Cell, Sequence[Row]]) -> Section | None:
+def sweeps(by_cell: Mapping[Cell, Sequence[StudyRow]]) -> Section | None:
     """Return how the interactions depend on their invented numbers."""
     found = {cell: rows for cell, rows in by_cell.items() if rows}
     if not found:
@@ -180,7 +180,7 @@ def sweeps(by_cell: Mapping[Cell, Sequence[Row]]) -> Section | None:
     return Section("Interaction sweeps", picture(figures.sweeps(found, names), caption))
 
 
-def beside(by_cell: Mapping[Cell, Sequence[Row]]) -> Section | None:
+def beside(by_cell: Mapping[Cell, Sequence[StudyRow]]) -> Section | None:
     """Return the variants: readings that we did not take, and bounds."""
     if not any(by_cell.values()):
         return None

@@ -14,7 +14,7 @@ from hrcplan.execution import Spec
 from hrcplan.facade import load_problem
 from hrcplan.pddl.model import FluentKey
 from hrcplan.pddl.write import domain_text, problem_text
-from hrcplan.studies.study import Cell, Options
+from hrcplan.studies.study import Cell, StudyOptions
 
 HERE = Path(__file__).parent
 WITH_MODEL, WITHOUT_MODEL = "b", "a"
@@ -40,12 +40,12 @@ def defaults() -> dict[str, str]:
     return dict(data()["task"])
 
 
-def is_own_task(options: Options) -> bool:
+def is_own_task(options: StudyOptions) -> bool:
     """Whether the options name the task that the file was written for."""
     return dict(options) == defaults()
 
 
-def inputs(options: Options) -> str:
+def inputs(options: StudyOptions) -> str:
     """Return domain and problems of the study, and its own files."""
     own = [path.read_text(encoding="utf-8") for path in sorted(HERE.glob("*.toml"))]
     tasks = [
@@ -57,7 +57,7 @@ def inputs(options: Options) -> str:
     return "".join([*own, *(domain_text(p.domain) + problem_text(p) for p in problems)])
 
 
-def methods(kind: str, options: Options) -> dict[str, Method]:
+def methods(kind: str, options: StudyOptions) -> dict[str, Method]:
     """Return the ``methods`` or ``variants``; on another task, those that do not name this one."""
     found = {}
     for name, table in data()[kind].items():
@@ -70,7 +70,7 @@ def methods(kind: str, options: Options) -> dict[str, Method]:
     return found
 
 
-def sweep_cells(options: Options) -> list[Cell]:
+def sweep_cells(options: StudyOptions) -> list[Cell]:
     """Return parameter and value of every cell of the sweeps; none without their method."""
     wanted = data()["sweep"]
     if wanted["method"] not in methods("methods", options):
@@ -82,7 +82,7 @@ def sweep_cells(options: Options) -> list[Cell]:
     ]
 
 
-def swept(options: Options, cell: Cell, seed: str) -> Spec:
+def swept(options: StudyOptions, cell: Cell, seed: str) -> Spec:
     """Return the simulated run of one cell of the sweeps."""
     wanted = data()["sweep"]
     method = methods("methods", options)[wanted["method"]]
@@ -93,14 +93,14 @@ def swept(options: Options, cell: Cell, seed: str) -> Spec:
     return changed(plain, {"values": (((parameter["function"],), value),)})
 
 
-def cells(kind: str, options: Options) -> list[Cell]:
+def cells(kind: str, options: StudyOptions) -> list[Cell]:
     """Return case and method of every cell: case by case, in the order of the file."""
     chosen = methods(kind, options).values()
     cases = sorted({case for method in chosen for case in method.cases})
     return [(case, method.name) for case in cases for method in chosen if case in method.cases]
 
 
-def spec(method: Method, case: str, options: Options, seed: str) -> Spec:
+def spec(method: Method, case: str, options: StudyOptions, seed: str) -> Spec:
     """Return the simulated run of a method in a case."""
     plain = Spec(
         domain=options["domain"], problem=options["problem"], case=int(case[0]),
@@ -117,7 +117,7 @@ def changed(plain: Spec, changes: Mapping[str, Any]) -> Spec:
     return replace(plain, **fields)
 
 
-def element(kind: str, options: Options, elements: Sequence[FluentKey]) -> FluentKey:
+def element(kind: str, options: StudyOptions, elements: Sequence[FluentKey]) -> FluentKey:
     """Return the element of a human's state that ``allocation`` or ``example`` changes.
 
     On another task: the first that belongs to the human as a whole, else the first.

@@ -10,7 +10,7 @@ import threading
 import time
 from pathlib import Path
 
-from hrcplan.planners.process import Limits, run
+from hrcplan.planners.process import ProcessLimits, run
 
 
 def fork_once(ready: Path) -> None:
@@ -26,7 +26,7 @@ def main() -> None:
     if os.environ.get("FORK"):
         threading.Thread(target=fork_once, args=(outcome.with_name("ready"),), daemon=True).start()
     try:
-        finished = run(sys.argv[2:], cwd=outcome.parent, limits=Limits(time_s=30))
+        finished = run(sys.argv[2:], cwd=outcome.parent, limits=ProcessLimits(time_s=30))
     except KeyboardInterrupt:
         outcome.write_text("KeyboardInterrupt")
         raise

@@ -1,0 +1,78 @@
+"""Our assistant: the step of highest expected help, over goals that may change.
+
+The belief is the switching filter; every goal that it holds possible has a say, in proportion to
+its probability, and a step that nobody may need has its price.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from hrcplan.assistance.assistant import AssistantState, BeliefAssistant, StepChoice
+from hrcplan.bank import Bank
+from hrcplan.inference.belief import Belief
+from hrcplan.inference.switching import SwitchingBelief
+
+WASTE_PRICE = 0.95  # steps; tuned on kitchens made by chance: more saves waste, but costs time
+N_LOOKED, N_ANSWERS = 5, 6  # best steps that are looked beyond, and likeliest answers to each
+
+
+class ExpectedHelp(BeliefAssistant[Any]):
+    """Does what saves most steps in expectation; waits if nothing is worth its risk.
+
+    A step is worth the steps it saves each goal, weighted by the goals' probabilities, less
+    ``waste_price`` for the probability that nobody needs it.
+
+    Args:
+        bank: The plans.
+        belief: What is believed about the goal; the switching filter by default.
+        waste_price: What a step that is not needed costs, in steps.
+        look_ahead: Also count what the robot's next step is expected to save, once it has seen how
+            the human answers: steps that make the answer tell more gain by that.
+    """
+
+    def __init__(
+        self, bank: Bank, belief: Belief[Any] | None = None, waste_price: float = WASTE_PRICE,
+        look_ahead: bool = False,
+    ) -> None:  # fmt: skip
+        super().__init__(bank, SwitchingBelief(bank) if belief is None else belief)
+        self.waste_price, self.look_ahead = waste_price, look_ahead
+
+    def options(self, state: AssistantState[Any]) -> StepChoice:
+        """Return the steps that some goal could have next, and what each is expected to save."""
+        found = self._now(state)
+        if not self.look_ahead:
+            return found
+        order = np.argsort([-value for value in found.values], kind="stable")[:N_LOOKED]
+        steps = tuple(found.steps[i] for i in order)
+        values = tuple(
+            found.values[i] + self._later(self.observe(state, found.steps[i], robot=True))
+            for i in order
+        )
+        return StepChoice(steps, values, wait=self._later(state))
+
+    def _later(self, state: AssistantState[Any]) -> float:
+        """Return what the robot's step after the human's next one is expected to save."""
+        wanted, posterior = self.outlook.wanted(state.track), self.posterior(state)
+        n_next = np.maximum(1, np.bincount(wanted.goals, minlength=len(posterior)))
+        chances = np.bincount(wanted.steps, (posterior / n_next).take(wanted.goals))
+        likely = np.argsort(-chances, kind="stable")[:N_ANSWERS]
+        total = float(chances.take(likely).sum())
+        if not total:
+            return 0.0
+        best = (
+            max(self._now(self.observe(state, int(step))).values, default=0.0) for step in likely
+        )
+        found = sum(
+            p * max(0.0, value) for p, value in zip(chances.take(likely), best, strict=True)
+        )
+        return float(found / total)
+
+    def _now(self, state: AssistantState[Any]) -> StepChoice:
+        wanted = self.outlook.wanted(state.track)
+        steps = self.outlook.candidates(state.track, wanted)
+        saved, needed = self.outlook.help(state.track, wanted, steps, self.posterior(state))
+        values = saved - self.waste_price * (1 - needed)
+        return StepChoice(tuple(steps), tuple(values.tolist()))

@@ -1,0 +1,1 @@
+"""The receding-horizon planner of the changed-mind paper, part by part."""

@@ -1,0 +1,252 @@
+"""The paper's assistant: candidate sequences, declared changes of goal, receding-horizon trees.
+
+Ghose, Gitelson et al., "I've Changed My Mind" (RA-L 2025), sections III and IV-C, as printed; what
+the text leaves open is decided where it stands below.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hrcplan.assistance.assistant import StepChoice
+from hrcplan.assistance.bigrams import BANK, N_PLANS, PLAUSIBLE, Bigrams
+from hrcplan.assistance.children import BRANCHING
+from hrcplan.assistance.rhp.consistency import Consistency, Subset
+from hrcplan.assistance.rhp.maximal_subsets import bits
+from hrcplan.assistance.rhp.sampled import Sampled
+from hrcplan.assistance.rhp.set_posterior import SetPosterior
+from hrcplan.assistance.rhp.subsequence import Subsequence
+from hrcplan.assistance.rhp.tree import DEPTH, Field, RecedingHorizonTree, TreeRoot
+from hrcplan.assistance.step_values import StepValues
+from hrcplan.bank import Bank
+from hrcplan.bank.progress import Progress, ProgressTracker
+from hrcplan.errors import UsageError
+from hrcplan.inference.belief import Floats, weights_to_posterior
+from hrcplan.inference.classifier.forest import ForestBelief, ForestState
+from hrcplan.inference.exact import IMPOSSIBLE
+from hrcplan.pddl.conventions import people
+
+N_SEQUENCES = 3
+MAX_REMEMBERED = 20_000
+NO_WAITING = -np.inf  # what it is worth to wait: "neither agent can wait" (section VI)
+
+Rows = NDArray[np.uint8]
+
+
+@dataclass(frozen=True, slots=True)
+class RhpState:
+    """The state of `RecedingHorizonPlanner`.
+
+    Attributes:
+        track: Where every goal stands.
+        sequences: The candidate sequences C_h: what the human may have done for its goal.
+        plausible: For each of them the goals that it is consistent with, as bits.
+        human: All that the human has done.
+        robot: What the robot has done since the last declared change (H_r).
+        n_declared: How many changes of goal were declared.
+        belief: The state of a belief that follows all steps; None if it looks at sets of steps.
+        ignored: Why the last observation told nothing; None if it did.
+    """
+
+    track: Progress
+    sequences: tuple[tuple[int, ...], ...]
+    plausible: tuple[int, ...]
+    human: tuple[int, ...] = ()
+    robot: tuple[int, ...] = ()
+    n_declared: int = 0
+    belief: Any = None
+    ignored: str | None = None
+
+    @property
+    def world(self) -> int:
+        """The state of the task, as bits."""
+        return self.track.world
+
+    @property
+    def last(self) -> int | None:
+        """The last step of the human."""
+        return self.human[-1] if self.human else None
+
+
+class RecedingHorizonPlanner:
+    """Guesses from what fits some plan, and steers the human to what tells its goal.
+
+    Args:
+        bank: The plans.
+        belief: What guesses the goal. One that looks at sets of steps (it has ``many``, or is a
+            `ForestBelief`) sees each candidate sequence with the robot's steps, and the guess is
+            their mean; ``presence`` is the exact one. Any other follows all steps by itself. By
+            default the paper's forest, which takes a minute to train.
+        n_sequences: Candidate sequences that are kept after a change (j).
+        branching: Steps that are tried at each depth of a tree (b).
+        depth: Of a tree (d).
+        consistency: ``subset``, ``subsequence``, ``sampled``, or an object; see
+            inference/consistency.py.
+        bigrams: Whose plans the 2-grams count: ``bank`` for all, ``plausible`` for the goals that
+            the sequences are consistent with.
+        n_sampled: Plans that are sampled for each goal.
+        seed: Of all samples.
+
+    Raises:
+        UsageError: if an option is none of its words.
+    """
+
+    learns = True  # its belief is trained, unless another one is given
+
+    def __init__(
+        self, bank: Bank, belief: Any = None, *, n_sequences: int = N_SEQUENCES,
+        branching: int = BRANCHING, depth: int = DEPTH,
+        consistency: str | Consistency = "subset", bigrams: str = BANK,
+        n_sampled: int = N_PLANS, seed: int = 0,
+    ) -> None:  # fmt: skip
+        if bigrams not in (BANK, PLAUSIBLE):
+            raise UsageError(f"there are no 2-grams '{bigrams}'", hint=f"{BANK} or {PLAUSIBLE}")
+        self.bank, self.n_sequences = bank, n_sequences
+        self.consistency = _consistency(bank, consistency, n_sampled, seed)
+        if belief is None:
+            belief = ForestBelief(bank, seed)
+        self.belief: Any = SetPosterior(bank) if belief == "presence" else belief
+        self._looks_at_sets = isinstance(self.belief, ForestBelief) or hasattr(self.belief, "many")
+        self.tracker: ProgressTracker = getattr(self.belief, "tracker", None) or ProgressTracker(
+            bank
+        )
+        self.outlook = StepValues(self.tracker)
+        grams = Bigrams(bank, n_sampled, seed)
+        self.tree = RecedingHorizonTree(
+            self.outlook, grams, people(bank.goals.problem), branching, depth
+        )
+        self._by_plausible = bigrams == PLAUSIBLE
+        self._label = self.tracker.joint.label
+        # How many goals have a step in their plans: its generality (III-D1).
+        self.generality: list[int] = self.tracker.joint.needs.sum(axis=0).tolist()
+        self._fields: dict[int, Field] = {}
+        self._predicted: dict[bytes, Floats] = {}
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The goals' names, in order."""
+        return self.bank.names
+
+    def start(self) -> RhpState:
+        """Return the state before anything was done: one empty sequence, any goal."""
+        belief = None if self._looks_at_sets else self.belief.start()
+        return RhpState(self.tracker.start, ((),), (self.consistency.everything,), belief=belief)
+
+    def observe(self, state: RhpState, step: int, *, robot: bool = False) -> RhpState:
+        """Return the state after one more step, done by the human or by the robot."""
+        followed = self.tracker.follow(state.track, step)
+        if followed is None:
+            return replace(state, ignored=IMPOSSIBLE)
+        belief = state.belief
+        if not self._looks_at_sets:
+            belief = self.belief.observe(belief, step, robot=robot)
+        moved = replace(state, track=followed[0], belief=belief, ignored=None)
+        if robot:
+            return replace(moved, robot=(*state.robot, step))
+        return self._watch(moved, step)
+
+    def _watch(self, state: RhpState, step: int) -> RhpState:
+        """Return the state after a human step: it is added to all sequences (III-C).
+
+        Those that fit no goal are dropped; a change is only declared if none is left.
+        """
+        human = (*state.human, step)
+        longer = [(*sequence, step) for sequence in state.sequences]
+        kept = [(s, goals) for s in longer if (goals := self.consistency.goals(s))]
+        if kept:
+            sequences, plausible = zip(*kept, strict=True)
+            return replace(state, human=human, sequences=sequences, plausible=plausible)
+        sequences, plausible = self._afresh(state.human, step)
+        return replace(
+            state, human=human, sequences=sequences, plausible=plausible, robot=(),
+            n_declared=state.n_declared + 1,
+        )  # fmt: skip
+
+    def _afresh(
+        self, earlier: Sequence[int], step: int
+    ) -> tuple[tuple[tuple[int, ...], ...], tuple[int, ...]]:
+        """Return the sequences after a change, out of all that the human ever did (III-D1)."""
+        worth = [self.generality[self._label[s]] for s in earlier]
+        found = self.consistency.largest(earlier, step, worth, self.n_sequences)
+        if not found:
+            # Not even the latest step alone fits a goal, as after a mistake that no goal has any
+            # use for. It tells nothing, so that all goals stay plausible until the next step.
+            return ((step,),), (self.consistency.everything,)
+        return tuple(found), tuple(self.consistency.goals(sequence) for sequence in found)
+
+    def posterior(self, state: RhpState) -> Floats:
+        """Return the probability of each goal, in order: the mean over the sequences."""
+        if not self._looks_at_sets:
+            found: Floats = self.belief.posterior(state.belief)
+            return found
+        rows = np.zeros((len(state.sequences), max(self._label, default=-1) + 1), dtype=np.uint8)
+        for row, sequence in zip(rows, state.sequences, strict=True):
+            row[[self._label[step] for step in (*sequence, *state.robot)]] = 1
+        by_sequence = self._predict(rows)
+        return weights_to_posterior(by_sequence.mean(axis=0))
+
+    def _predict(self, rows: Rows) -> Floats:
+        keys = [row.tobytes() for row in rows]
+        new = [i for i, key in enumerate(keys) if key not in self._predicted]
+        if new:
+            if len(self._predicted) >= MAX_REMEMBERED:
+                self._predicted.clear()
+                new = list(range(len(rows)))
+            for i, found in zip(new, _many(self.belief, rows[new]), strict=True):
+                self._predicted[keys[i]] = found
+        return np.stack([self._predicted[key] for key in keys])
+
+    def options(self, state: RhpState) -> StepChoice:
+        """Return the steps that the robot could do now; the worth of one is its branch's cost."""
+        root = TreeRoot(
+            state.track,
+            state.last,
+            tuple(self.field(goals) for goals in state.plausible),
+            state.plausible if self._by_plausible else (),
+            lambda: self.posterior(state),
+        )
+        costs = sorted(self.tree.costs(root).items())
+        return StepChoice(
+            tuple(step for step, _ in costs), tuple(float(-cost) for _, cost in costs), NO_WAITING
+        )
+
+    def choose(self, state: RhpState) -> int | None:
+        """Return the first step of the cheapest branch; None if there is nothing to do."""
+        return self.options(state).best
+
+    def field(self, goals: int) -> Field:
+        """Return the sum of the attractor fields of goals, given as bits (III-B2)."""
+        known = self._fields.get(goals)
+        if known is None:
+            if len(self._fields) >= MAX_REMEMBERED:
+                self._fields.clear()
+            known = self.tracker.joint.needs[list(bits(goals))].sum(axis=0).tolist()
+            self._fields[goals] = known
+        return known
+
+
+def _consistency(bank: Bank, wanted: str | Consistency, n_plans: int, seed: int) -> Consistency:
+    if not isinstance(wanted, str):
+        return wanted
+    makers: dict[str, Callable[[], Consistency]] = {
+        "subset": lambda: Subset(bank),
+        "subsequence": lambda: Subsequence(bank),
+        "sampled": lambda: Sampled(bank, n_plans, seed),
+    }
+    if wanted not in makers:
+        known = ", ".join(makers)
+        raise UsageError(f"there is no consistency '{wanted}'", hint=f"one of {known}")
+    return makers[wanted]()
+
+
+def _many(belief: Any, rows: Rows) -> Floats:
+    """Return what a belief about sets of steps says of several, each a row of labels."""
+    if hasattr(belief, "many"):
+        found: Floats = belief.many(rows)
+        return found
+    return np.stack([belief.posterior(ForestState(belief.bank.initial, row)) for row in rows])

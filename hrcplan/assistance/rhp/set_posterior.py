@@ -1,0 +1,138 @@
+"""The best that any classifier of done steps can do: Bayes' rule over the counts of plan graphs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hrcplan.assistance.rhp.consistency import labels
+from hrcplan.bank import Bank
+from hrcplan.inference.belief import Floats, weights_to_posterior
+
+ERROR = 0.01  # probability of a step that a goal has no use for
+
+
+class PrefixPosterior:
+    """The exact posterior of goals given which steps were done, in whatever order.
+
+    It is exact for beginnings of optimal plans, of uniform length, where one set of steps leads to
+    one state: of the plans of g, ``so_far * to_go`` pass through the node of the set, and one in
+    ``n_steps`` beginnings has its length.
+    """
+
+    def __init__(self, bank: Bank) -> None:
+        self.bank = bank
+        self._depth = [[cost for cost, _ in graph.layers] for graph in bank.graphs]
+        self._weights = [_weights(bank, goal) for goal in range(len(bank.graphs))]
+
+    def weights(self, steps: Sequence[int]) -> Floats:
+        """Return weights of goals, in order, in proportion to their probabilities."""
+        world: int | None = self.bank.initial
+        for step in steps:
+            world = None if world is None else self.bank.table.successor(world, step)
+        found = np.zeros(len(self.bank.graphs))
+        if world is not None:
+            found = self.beginnings(world, [len(steps)] * len(found))
+        return found
+
+    def beginnings(self, world: int, n_steps: Sequence[int]) -> Floats:
+        """Return the weight of each goal in a state that so many of its steps led to."""
+        found = np.zeros(len(self.bank.graphs))
+        for goal, (graph, n) in enumerate(zip(self.bank.graphs, n_steps, strict=True)):
+            node = graph.node_of(world)
+            if node is not None and self._depth[goal][graph.layer_of[node]] == n:
+                found[goal] = self._weights[goal][node]
+        return found
+
+    def accuracy(self, prefixes: Sequence[Sequence[int]], goals: Sequence[int]) -> float:
+        """Return how often the likeliest goal is right; of equals each counts its part."""
+        right = 0.0
+        for steps, goal in zip(prefixes, goals, strict=True):
+            weights = self.weights(steps)
+            best = np.isclose(weights, weights.max(), rtol=1e-9, atol=0)
+            right += float(best[goal]) / int(best.sum())
+        return right / max(1, len(goals))
+
+
+class SetPosterior:
+    """The exact posterior for any set of done steps, where no forest is to be trained.
+
+    A step that a goal has no use for is an error of probability ``error``. The others are weighed
+    as `PrefixPosterior` does if they are the beginning of a plan; if they are none, as when steps
+    that opened them are forgotten, all sets of as many of the goal's steps are alike.
+    """
+
+    def __init__(self, bank: Bank, error: float = ERROR) -> None:
+        self.bank, self.error, self._ceiling = bank, error, PrefixPosterior(bank)
+        self._label = labels(bank.table)
+        self._called: dict[int, list[int]] = {}
+        for step, label in enumerate(self._label):
+            self._called.setdefault(label, []).append(step)
+        self._uses = np.zeros((len(bank.graphs), len(self._called)), dtype=np.int64)
+        for goal, graph in enumerate(bank.graphs):
+            self._uses[goal, [self._label[step] for step in graph.used_steps]] = 1
+        self._sizes = [
+            max(g.n_steps, int(n)) for g, n in zip(bank.graphs, self._uses.sum(axis=1), strict=True)
+        ]
+        self._has_plan = np.array([graph.n_nodes > 0 for graph in bank.graphs])
+        self._alike = self._any_order()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The goals' names, in order."""
+        return self.bank.names
+
+    def many(self, rows: NDArray[np.uint8]) -> Floats:
+        """Return the probability of each goal for each row of done labels."""
+        found = np.zeros((len(rows), len(self.names)))
+        for place, row in enumerate(rows):
+            weights = self._weights(row) if row.any() else np.ones(len(self.names))
+            found[place] = weights_to_posterior(weights)
+        return found
+
+    def _weights(self, row: NDArray[np.uint8]) -> Floats:
+        done = np.flatnonzero(row)
+        n_used = self._uses @ row
+        found = self._ceiling.beginnings(self._world(done.tolist()), n_used.tolist())
+        found = np.where(found, found, self._alike[np.arange(len(found)), n_used])
+        errors = np.array([self.error**n for n in range(len(done) + 1)])
+        weights: Floats = np.where(self._has_plan, found * errors[len(done) - n_used], 0.0)
+        return weights
+
+    def _any_order(self) -> Floats:
+        """Return for each goal and number of its steps the weight of one set among all alike."""
+        most = max(self._sizes, default=0)
+        rows = {
+            size: [1 / math.comb(size, min(n, size)) / max(1, size) for n in range(most + 1)]
+            for size in set(self._sizes)
+        }
+        return np.array([rows[size] for size in self._sizes]).reshape(-1, most + 1)
+
+    def _world(self, done: Sequence[int]) -> int:
+        """Return the state after steps in an order in which they can be done, if there is one."""
+        world, waiting = self.bank.initial, list(done)
+        while waiting:
+            left = []
+            for label in waiting:
+                found = (self.bank.table.successor(world, s) for s in self._called[label])
+                after = next((w for w in found if w is not None), None)
+                if after is None:
+                    left.append(label)
+                else:
+                    world = after
+            if len(left) == len(waiting):
+                break
+            waiting = left
+        return world
+
+
+def _weights(bank: Bank, goal: int) -> Floats:
+    graph = bank.graphs[goal]
+    if not graph.n_steps:
+        return np.zeros(graph.n_nodes)
+    passing = graph.so_far.astype(np.float64) * graph.to_go.astype(np.float64)
+    found: Floats = passing / float(graph.plans) / graph.n_steps
+    return found

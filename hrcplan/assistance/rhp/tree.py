@@ -1,0 +1,137 @@
+"""The receding-horizon tree: what robot and human may do next, and what each branch costs.
+
+Ghose et al. (RA-L 2025, III-B, III-D2, IV-C2). A tree for each candidate sequence costs by its own
+attractor field; all trees have the same branches, so they are grown as one with a cost for each.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence, Set
+from dataclasses import dataclass
+
+from hrcplan.assistance.ahead import ImaginedSteps
+from hrcplan.assistance.bigrams import Bigrams
+from hrcplan.assistance.children import BRANCHING, Branching
+from hrcplan.assistance.step_values import StepValues
+from hrcplan.bank.progress import Progress
+from hrcplan.inference.belief import Floats
+
+DEPTH = 3
+
+Field = Sequence[int]
+"""For each label the number of goals that it helps to accomplish."""
+
+
+@dataclass(frozen=True)
+class TreeRoot:
+    """Where a tree begins.
+
+    Attributes:
+        track: Where everything stands.
+        last: The last step; None if nothing was done yet.
+        fields: The summed attractor field of each candidate sequence.
+        plausible: The goals that each sequence is consistent with, as bits; they weight the
+            2-grams. Empty if these count the plans of the whole bank.
+        belief: Returns the posterior of the goals; only asked where no 2-gram tells.
+    """
+
+    track: Progress
+    last: int | None
+    fields: tuple[Field, ...]
+    plausible: tuple[int, ...]
+    belief: Callable[[], Floats]
+
+
+@dataclass(frozen=True, slots=True)
+class TreeBranch:
+    """Steps in turn, the last one by the robot: what was before it, and the cost in each tree."""
+
+    first: int
+    track: Progress
+    step: int
+    costs: tuple[int, ...]
+
+
+class RecedingHorizonTree:
+    """Grows branches of the steps that are most likely to follow, and costs them.
+
+    Args:
+        outlook: Knows what goals have next; its agents are the robots.
+        bigrams: Which steps follow which.
+        people: The agents that are not robots.
+        branching: How many steps are tried at each depth.
+        depth: How many steps a branch has; the robot's are the first, the third and so on.
+    """
+
+    def __init__(
+        self, outlook: StepValues, bigrams: Bigrams, people: Set[str],
+        branching: int = BRANCHING, depth: int = DEPTH,
+    ) -> None:  # fmt: skip
+        self.outlook, self.bigrams, self.people = outlook, bigrams, people
+        self._children, self.n_levels = Branching(outlook, bigrams, branching), (depth + 1) // 2
+        self.ahead, self.label = ImaginedSteps(outlook), outlook.tracker.joint.label
+
+    def costs(self, root: TreeRoot) -> dict[int, int]:
+        """Return for each step that the robot may do first the cost of its cheapest branch.
+
+        Eqs. 1 and 2: the robot's steps lower the cost by their attraction, the human's do not. A
+        branch is only lowered further in the trees where it was among the cheapest one depth of
+        the robot's before; one that is nowhere among them is final and need not be grown.
+        """
+        found: dict[int, int] = {}
+        ended: list[TreeBranch] = []
+        now = self.ahead.begin(root.track)
+        level = [
+            TreeBranch(s, now, s, tuple(-field[self.label[s]] for field in root.fields))
+            for s in self.children(root, now, root.last, self.outlook.agents)
+        ]
+        for _ in range(1, self.n_levels):
+            if not level:
+                break
+            least = [min(costs) for costs in zip(*(b.costs for b in level + ended), strict=True)]
+            grown: list[TreeBranch] = []
+            for branch in level:
+                lowers = [cost == low for cost, low in zip(branch.costs, least, strict=True)]
+                if not any(lowers):
+                    _note(found, branch)
+                else:
+                    self._grow(root, branch, lowers, grown, ended)
+            level = grown
+        for branch in level + ended:
+            _note(found, branch)
+        return found
+
+    def _grow(
+        self, root: TreeRoot, branch: TreeBranch, lowers: Sequence[bool], grown: list[TreeBranch],
+        ended: list[TreeBranch],
+    ) -> None:  # fmt: skip
+        """Add a human and a robot step to a branch, in all ways; where there is none, it ends."""
+        after = self.ahead.after(branch.track, branch.step)
+        answers = self.children(root, after, branch.step, self.people)
+        if not answers:
+            ended.append(branch)
+        for answer in answers:
+            track = self.ahead.after(after, answer)
+            steps = self.children(root, track, answer, self.outlook.agents)
+            if not steps:
+                ended.append(branch)
+            for step in steps:
+                label = self.label[step]
+                costs = tuple(
+                    cost - field[label] if lower else cost
+                    for cost, field, lower in zip(branch.costs, root.fields, lowers, strict=True)
+                )
+                grown.append(TreeBranch(branch.first, track, step, costs))
+
+    def children(
+        self, root: TreeRoot, track: Progress, last: int | None, agents: Set[str]
+    ) -> list[int]:
+        """Return the steps that are tried after a step, the likeliest first."""
+        wanted = self.ahead.wanted(track)
+        return self._children.of(track, wanted, last, agents, root.belief, root.plausible)
+
+
+def _note(found: dict[int, int], branch: TreeBranch) -> None:
+    """Note the summed costs of a branch if they are the lowest after its first step."""
+    total = sum(branch.costs)
+    found[branch.first] = min(total, found.get(branch.first, total))

@@ -1,0 +1,253 @@
+"""All plan graphs of a bank in one set of arrays, so that one look-up serves every goal."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from functools import cached_property
+from weakref import WeakValueDictionary
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hrcplan.bank import Bank, PlanGraph
+from hrcplan.task import Task
+
+Ids = NDArray[np.int64]
+Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+
+_Rule = tuple[int, int, int, int]
+"""Mask and value of a test, touched facts, added facts."""
+_BitRules = tuple[tuple[int, int, int, int, int], ...]
+_Part = tuple[int, _BitRules, tuple[tuple[int, tuple[int, ...]], ...]]
+"""Labels: all others as bits, their rules with their bits, and their actions that are no rules."""
+
+
+class CombinedGraph:
+    """Nodes and edges of all graphs, numbered through.
+
+    A *label* is what a step is called without its agent: where agents are kept, several steps
+    share one. ``off`` is the number of a node without edges, for goals that have left their graph.
+
+    Attributes:
+        bank: The bank.
+        label: The label of each step.
+        roots: The first node of each goal.
+        n_next: How many labels can follow each node.
+        step_of: The step of each edge.
+        first: Where the edges of each node begin; those of ``off`` are none.
+        off: The node of goals that have left their graph.
+    """
+
+    def __init__(self, bank: Bank) -> None:
+        self.bank = bank
+        labels: dict[tuple[str, ...], int] = {}
+        table = bank.table
+        self.label = tuple(labels.setdefault(table[i].name, len(labels)) for i in range(len(table)))
+        self.n_labels, self.n_steps = len(labels), len(table)
+        self.one_label_each = self.n_labels == self.n_steps
+        self._concerned: dict[tuple[int, int], Ids] = {}
+        sizes = [graph.n_nodes for graph in bank.graphs]
+        self.off = sum(sizes)
+        self.offsets = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)
+        empty = np.array(sizes) == 0
+        self.roots = np.where(empty, self.off, self.offsets[:-1])
+        self._lay_out_edges()
+
+    def _lay_out_edges(self) -> None:
+        graphs, starts = self.bank.graphs, self.offsets
+        sources = _joined(
+            np.repeat(np.arange(g.n_nodes), np.diff(g.first)) + o
+            for g, o in zip(graphs, starts, strict=False)
+        )
+        steps = _joined(g.steps.astype(np.int64) for g in graphs)
+        self.targets = _joined(g.targets + o for g, o in zip(graphs, starts, strict=False))
+        self._moves = _closed(sources * self.n_steps + steps)
+        self.step_of = steps.astype(np.int32)
+        self.first = np.searchsorted(sources, np.arange(self.off + 2))
+        shares = np.concatenate([np.zeros(0), *map(_shares, graphs)])
+        label = np.array(self.label, dtype=np.int64)
+        pairs = sources * self.n_labels + (label[steps] if len(steps) else steps)
+        if self.one_label_each:
+            self._pairs, owners = self._moves, sources
+        else:
+            distinct, which = np.unique(pairs, return_inverse=True)
+            self._pairs, owners = _closed(distinct), distinct // self.n_labels
+            shares = np.bincount(which, weights=shares, minlength=len(distinct))
+        self.log_shares = np.append(np.log(shares), -math.inf)
+        self.n_next = np.bincount(owners, minlength=self.off + 1).astype(np.int64)
+
+    def edges(self, nodes: Ids, step: int) -> tuple[Bools, Ids]:
+        """Return which nodes have an edge for a step, and the places of these edges."""
+        wanted = nodes * self.n_steps + step
+        places = self._moves.searchsorted(wanted)
+        return self._moves.take(places) == wanted, places
+
+    def labeled(self, nodes: Ids, label: int) -> tuple[Bools, Ids]:
+        """Return which nodes a label can follow, and the places of its shares."""
+        wanted = nodes * self.n_labels + label
+        places = self._pairs.searchsorted(wanted)
+        return self._pairs[places] == wanted, places
+
+    def concerned(self, step: int, pattern: int) -> Ids:
+        """Return the goals whose nodes a step may move, or that it may say something about.
+
+        Args:
+            step: The step.
+            pattern: The facts that it has changed, as bits.
+        """
+        known = self._concerned.get((step, pattern))
+        if known is None:
+            users = self._users[self.label[step]]
+            touched = (g for g, facts in enumerate(self._relevant) if facts & pattern)
+            known = np.array(sorted(users.union(touched)), dtype=np.int64)
+            self._concerned[step, pattern] = known
+        return known
+
+    @cached_property
+    def _relevant(self) -> list[int]:
+        return [graph.relevant for graph in self.bank.graphs]
+
+    @cached_property
+    def needs(self) -> Bools:
+        """For each goal and label, whether some plan of the goal has it."""
+        found = np.zeros((len(self.bank.graphs), self.n_labels), dtype=np.bool_)
+        for label, goals in enumerate(self._users):
+            found[sorted(goals), label] = True
+        return found
+
+    @cached_property
+    def _users(self) -> list[set[int]]:
+        found: list[set[int]] = [set() for _ in range(self.n_labels)]
+        for goal, graph in enumerate(self.bank.graphs):
+            for step in graph.used_steps:
+                found[self.label[step]].add(goal)
+        return found
+
+
+_SHARED: WeakValueDictionary[int, CombinedGraph] = WeakValueDictionary()
+
+
+def combined_graph_of(bank: Bank) -> CombinedGraph:
+    """Return the graphs of a bank in one; beliefs about the same bank share it.
+
+    Of 30 goals with 13,000 nodes each it takes 80 MB. It is gone when nobody uses it any more.
+    """
+    found = _SHARED.get(id(bank))  # while it lives, so does its bank: no other one has that id
+    if found is None:
+        found = _SHARED[id(bank)] = CombinedGraph(bank)
+    return found
+
+
+class ApplicableSteps:
+    """Which labels someone can do in a state, as bits; kept up to date from state to state."""
+
+    def __init__(self, joint: CombinedGraph) -> None:
+        table, task = joint.bank.table, joint.bank.goals.task
+        self._task = task
+        self._rules: list[list[_Rule]] = [[] for _ in range(joint.n_labels)]
+        self._odd: list[list[int]] = [[] for _ in range(joint.n_labels)]
+        self._mentions: dict[int, set[int]] = {}
+        for step in range(len(table)):
+            for index in table[step].actions:
+                self._take(index, joint.label[step])
+        self._affected: dict[int, _Part] = {}
+        self._all = self._part(range(joint.n_labels))
+
+    def _take(self, index: int, label: int) -> None:
+        action = self._task.actions[index]
+        if len(action.tests) == 1 and not action.conditional:
+            mask, value = action.tests[0]
+            self._rules[label].append((mask, value, action.adds | action.deletes, action.adds))
+        else:
+            self._odd[label].append(index)
+        for position in _positions(_mentioned(self._task, index)):
+            self._mentions.setdefault(position, set()).add(label)
+
+    def _part(self, labels: Iterable[int]) -> _Part:
+        """Return how some labels are looked at."""
+        chosen = sorted(labels)
+        rules = tuple(
+            (1 << label, *rule) for label in chosen for rule in dict.fromkeys(self._rules[label])
+        )
+        odd = tuple((1 << label, tuple(self._odd[label])) for label in chosen if self._odd[label])
+        return ~sum(1 << label for label in chosen), rules, odd
+
+    def of(self, state: int) -> int:
+        """Return the labels that can be done in a state, as bits."""
+        return self._update(state, 0, self._all)
+
+    def after(self, doable: int, before: int, state: int) -> int:
+        """Return the labels that can be done in ``state``, from those of a state ``before``."""
+        pattern = before ^ state
+        part = self._affected.get(pattern)
+        if part is None:
+            found: set[int] = set()
+            for position in _positions(pattern):
+                found |= self._mentions.get(position, set())
+            part = self._affected[pattern] = self._part(found)
+        return self._update(state, doable, part)
+
+    def _update(self, state: int, doable: int, part: _Part) -> int:
+        others, rules, odd = part
+        doable &= others
+        for bit, mask, value, touched, adds in rules:
+            if state & mask == value and state & touched != adds:
+                doable |= bit
+        for bit, actions in odd:
+            if any(self._task.is_applicable(state, index) for index in actions):
+                doable |= bit
+        return doable
+
+
+def _joined(parts: object) -> Ids:
+    return np.concatenate([np.zeros(0, dtype=np.int64), *parts])  # type: ignore[misc]
+
+
+def _closed(keys: Ids) -> Ids:
+    """Return keys with one behind them that is never looked for."""
+    return np.append(keys, np.iinfo(np.int64).max)
+
+
+def _shares(graph: PlanGraph) -> Floats:
+    """Return for each edge the share of the plans of its node that go along it."""
+    sources = np.repeat(np.arange(graph.n_nodes), np.diff(graph.first))
+    try:
+        counts = graph.to_go.astype(np.float64)
+    except OverflowError:  # beyond what a float holds
+        logs = np.array([math.log(count) for count in graph.to_go])
+        large: Floats = np.exp(logs[graph.targets] - logs[sources])
+        return large
+    found: Floats = counts[graph.targets] / counts[sources]
+    return found
+
+
+def _positions(bits: int) -> list[int]:
+    found = []
+    while bits:
+        low = bits & -bits
+        found.append(low.bit_length() - 1)
+        bits ^= low
+    return found
+
+
+def _touched(task: Task, actions: tuple[int, ...]) -> int:
+    found = 0
+    for index in actions:
+        action = task.actions[index]
+        found |= action.adds | action.deletes
+        for change in (*action.at_start, *action.at_end):
+            found |= change.adds | change.deletes
+    return found
+
+
+def _mentioned(task: Task, index: int) -> int:
+    found = _touched(task, (index,))
+    action = task.actions[index]
+    for mask, _ in action.tests:
+        found |= mask
+    for change in (*action.at_start, *action.at_end):
+        for mask, _ in change.tests:
+            found |= mask
+    return found

@@ -1,0 +1,205 @@
+"""Where the plans of every goal stand after what has been done: on its graph, or off it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hrcplan.bank import Bank, BuildLimits, PlanGraph
+from hrcplan.bank.combined_graph import ApplicableSteps, Ids, combined_graph_of
+from hrcplan.errors import LimitError
+from hrcplan.search.relevance import relevant
+
+Floats = NDArray[np.float64]
+
+REROOT_MIB = 256  # for one graph from a state off the graph
+_NOWHERE: Mapping[int, OffGraph] = MappingProxyType({})
+
+
+@dataclass(frozen=True, slots=True)
+class OffGraph:
+    """A goal that has left its graph: where it stands on the graph from ``state`` on.
+
+    The graph is only made when the next step asks for it; None until then.
+    """
+
+    state: int
+    graph: PlanGraph | None = None
+    node: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Progress:
+    """The state of the world, where each goal stands, and which labels can be done, as bits."""
+
+    world: int
+    nodes: Ids
+    doable: int
+    off: Mapping[int, OffGraph] = field(default_factory=lambda: _NOWHERE)
+
+
+@dataclass(frozen=True, slots=True)
+class Evidence:
+    """What one step says.
+
+    Attributes:
+        goals: The goals that explain it: it is a next step of one of their plans.
+        log_shares: For each of these the logarithm of the share of its plans that go on so.
+        n_next: For every goal, how many labels could come next in its plans.
+        n_doable: How many labels somebody could do.
+    """
+
+    goals: Ids
+    log_shares: Floats
+    n_next: Ids
+    n_doable: int
+
+
+class ProgressTracker:
+    """Follows observed steps through the graphs of a bank; see DESIGN, "States off the graph"."""
+
+    def __init__(self, bank: Bank) -> None:
+        self.bank = bank
+        self.joint = combined_graph_of(bank)
+        self._doable = ApplicableSteps(self.joint)
+        self._quick = [self._rule(step) for step in range(len(bank.table))]
+        self._relevant = [graph.relevant for graph in bank.graphs]
+        self._known: dict[tuple[int, int], int] = {}
+        self._matters: dict[int, int] = {}
+        world = bank.initial
+        self.start = Progress(world, self.joint.roots, self._doable.of(world))
+
+    def _rule(self, step: int) -> tuple[int, int, int, int] | None:
+        """Return mask, value, kept and added facts of a step with one condition and effect."""
+        task = self.bank.goals.task
+        actions = [task.actions[index] for index in self.bank.table[step].actions]
+        if any(action.conditional for action in actions):
+            return None
+        rules = {(test, ~a.deletes, a.adds) for a in actions for test in a.tests}
+        if len(rules) != 1:
+            return None
+        (mask, value), keeps, adds = rules.pop()
+        return mask, value, keeps, adds
+
+    def follow(self, track: Progress, step: int) -> tuple[Progress, Evidence] | None:
+        """Return where everything stands after a step, and what it says; None if nobody can do it.
+
+        What it says, it says about the moment before.
+        """
+        joint = self.joint
+        before, world = track.world, self.successor(track.world, step)
+        if world is None:
+            return None
+        goals = joint.concerned(step, before ^ world)
+        old = track.nodes.take(goals)
+        hit, places = joint.edges(old, step)
+        found = goals[hit], places[hit]
+        if joint.one_label_each:
+            says = found
+        else:
+            same, named = joint.labeled(old, joint.label[step])
+            says = goals[same], named[same]
+        n_next, shares = joint.n_next.take(track.nodes), joint.log_shares.take(says[1])
+        seen = Evidence(says[0], shares, n_next, track.doable.bit_count())
+        if track.off:
+            seen = self._look_off(track, step, seen)
+        if before == world:
+            return track, seen
+        nodes = track.nodes.copy()
+        nodes[found[0]] = joint.targets.take(found[1])
+        missed = [] if len(found[0]) == len(goals) else goals[~hit].tolist()
+        off = self._jumps(track, step, world, missed, nodes)
+        doable = self._doable.after(track.doable, before, world)
+        return Progress(world, nodes, doable, off), seen
+
+    def successor(self, world: int, step: int) -> int | None:
+        """Return the state after a step; None if nobody can do it."""
+        quick = self._quick[step]
+        if quick is None:
+            return self.bank.table.successor(world, step)
+        mask, value, keeps, adds = quick
+        return world & keeps | adds if world & mask == value else None
+
+    def _look_off(self, track: Progress, step: int, seen: Evidence) -> Evidence:
+        label, n_next = self.joint.label, seen.n_next
+        more: list[tuple[int, float]] = []
+        for goal, place in track.off.items():
+            graph, node = self.resolve(goal, place)
+            following = graph.next(node) if graph.n_nodes else {}
+            n_next[goal] = len({label[s] for s in following})
+            ways = sum(graph.plans_from(t) for s, t in following.items() if label[s] == label[step])
+            if ways:
+                more.append((goal, math.log(ways) - math.log(graph.plans_from(node))))
+        if not more:
+            return seen
+        goals = np.append(seen.goals, [goal for goal, _ in more])
+        shares = np.append(seen.log_shares, [share for _, share in more])
+        return replace(seen, goals=goals, log_shares=shares)
+
+    def resolve(self, goal: int, place: OffGraph) -> tuple[PlanGraph, int]:
+        """Return graph and node of a goal that has left its graph."""
+        if place.graph is not None:
+            return place.graph, place.node
+        if goal not in self._matters:
+            bank = self.bank
+            self._matters[goal] = relevant(bank.table.ops, bank.goals.tests[goal])[1].facts
+        state = place.state & self._matters[goal]
+        try:
+            graph = self.bank.reroot(goal, state, BuildLimits(REROOT_MIB))
+        except LimitError:  # nothing is known about how this goal goes on
+            from hrcplan.bank.construct import empty_graph
+
+            graph = empty_graph(self.bank.names[goal], self.bank.graphs[goal].packing)
+        return graph, 0
+
+    def _jumps(
+        self, track: Progress, step: int, world: int, goals: list[int], nodes: Ids
+    ) -> Mapping[int, OffGraph]:
+        """Put goals for which a step is no edge where they stand; return those off the graph."""
+        if not goals and not track.off:
+            return _NOWHERE
+        off = dict(track.off)
+        for goal in {*goals, *off}:
+            nodes[goal] = self._jump(goal, int(nodes[goal]), step, track, world, off)
+        return off or _NOWHERE
+
+    def _jump(
+        self, goal: int, node: int, step: int, track: Progress, world: int, off: dict[int, OffGraph]
+    ) -> int:
+        """Return the node of a goal after a step that is no edge; ``off`` notes it has none."""
+        if node != self.joint.off:
+            moved = (track.world ^ world) & self._relevant[goal]
+            if not moved:
+                return node
+            known = self._known.get((node, moved))
+            if known is None:
+                known = self._known[node, moved] = self._find(goal, world)
+            if known == self.joint.off:
+                off[goal] = OffGraph(world)
+            return known
+        found = self._find(goal, world)
+        if found != self.joint.off:
+            off.pop(goal, None)
+            return found
+        off[goal] = self._follow_off(goal, off.get(goal) or OffGraph(track.world), step, world)
+        return found
+
+    def _find(self, goal: int, world: int) -> int:
+        node = self.bank.node(goal, world)
+        return self.joint.off if node is None else int(self.joint.offsets[goal]) + node
+
+    def _follow_off(self, goal: int, place: OffGraph, step: int, world: int) -> OffGraph:
+        graph = place.graph
+        if graph is None:
+            graph, _ = self.resolve(goal, place)
+        if not graph.n_nodes:
+            return OffGraph(world)
+        node = graph.next(place.node).get(step)
+        if node is None:
+            node = graph.node_of(world)
+        return OffGraph(world) if node is None else OffGraph(world, graph, node)

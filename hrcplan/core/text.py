@@ -1,0 +1,54 @@
+"""Text for messages: quoted, cut, counted, and the nearest known name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+MAX_QUOTE = 60  # characters of a file that a message repeats at a time
+
+
+def quote(text: str) -> str:
+    r"""Return ``text`` in quotes, shortened, and harmless to a terminal.
+
+    >>> quote("wp1"), quote("a\x1b[31m")
+    ("'wp1'", "'a\\x1b[31m'")
+    """
+    shown = cut(text, MAX_QUOTE)
+    return f"'{shown}'" if shown.isprintable() else f"'{ascii(shown)[1:-1]}'"
+
+
+def plural(n: int, word: str) -> str:
+    """Return ``n`` and the word, with an ``s`` unless there is one.
+
+    >>> plural(1, "part"), plural(2, "part")
+    ('1 part', '2 parts')
+    """
+    return f"{n} {word}" if n == 1 else f"{n} {word}s"
+
+
+def cut(text: str, limit: int) -> str:
+    """Return the text, shortened to ``limit`` characters."""
+    return text if len(text) <= limit else f"{text[: limit - 1]}…"
+
+
+def nearest_name(word: str, known: Iterable[str], similarity: float = 0.6) -> str | None:
+    """Return the known name that is most like ``word``, or None if none is close."""
+    from rapidfuzz import distance, process
+
+    found = process.extractOne(
+        word[:MAX_QUOTE],
+        [name for name in known if name != word],
+        scorer=distance.OSA.normalized_similarity,
+        score_cutoff=similarity,
+    )
+    return None if found is None else str(found[0])
+
+
+def nearest(word: str, known: Iterable[str]) -> str | None:
+    """Return a "did you mean" hint for ``word``, or None if nothing known is close.
+
+    >>> nearest("motivaton", ["motivation", "capacity"])
+    "did you mean 'motivation'?"
+    """
+    name = nearest_name(word, known)
+    return None if name is None else f"did you mean {quote(name)}?"

@@ -1,0 +1,234 @@
+"""A human and a robot take turns: the human acts first, nobody speaks, and all is written down.
+
+Time is counted in turns: every action of either agent takes one timestep, and so does waiting.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hrcplan.bank import Bank, StepTable
+from hrcplan.episodes.humans import Course, EpisodeHuman
+from hrcplan.errors import UsageError
+from hrcplan.pddl.conventions import robots
+
+PATIENCE = 4  # an episode ends after that many times the steps that its goals need
+
+NEAR = 1e-6  # to what probabilities sum to
+
+REACHED, STUCK, UNFINISHED = "reached", "stuck", "unfinished"
+
+
+class TurnWorld(Protocol):
+    """Where steps happen; its state is held as bits of the task."""
+
+    def begin(self) -> int:
+        """Return the initial state, and forget what was done."""
+        ...
+
+    def do(self, state: int, action: int) -> int:
+        """Return the state after a ground action of the task, given by its index."""
+        ...
+
+
+class SimulatedTurns:
+    """The world as the PDDL says."""
+
+    def __init__(self, bank: Bank) -> None:
+        self._task = bank.goals.task
+
+    def begin(self) -> int:
+        """Return the initial state."""
+        return self._task.initial
+
+    def do(self, state: int, action: int) -> int:
+        """Return the state after a ground action."""
+        return self._task.successor(state, action)
+
+
+@dataclass(frozen=True, slots=True)
+class EpisodeTurn:
+    """One timestep: who did what, for which goal of the human, and whether that goal wanted it.
+
+    ``step`` is None for a wait. After an action of the human, ``guess`` is the goal that the robot
+    thinks likeliest, ``rank`` how many it thinks likelier than the right one, and ``n_declared``
+    how many changes it has declared so far. ``is_needed`` says whether the step is next in a valid
+    plan of the goal.
+    """
+
+    t: int
+    is_human: bool
+    step: int | None
+    goal: int
+    is_needed: bool
+    is_mistake: bool = False
+    guess: int | None = None
+    rank: int | None = None
+    n_declared: int = 0
+
+
+@dataclass(frozen=True)
+class EpisodeRecord:
+    """An episode: what happened, how it ended, and how long the robot thought, in ms."""
+
+    course: Course
+    turns: tuple[EpisodeTurn, ...]
+    ending: str
+    decisions_ms: tuple[float, ...] = ()
+
+    @property
+    def n_turns(self) -> int:
+        """Timesteps until the last goal was reached, or until the end."""
+        return len(self.turns)
+
+
+EpisodeWatch = Callable[[EpisodeTurn, Any], None]
+"""Is called with every turn and the robot's state after it."""
+
+
+def play(
+    bank: Bank, human: EpisodeHuman, robot: Any, course: Course, world: TurnWorld | None = None,
+    watch: EpisodeWatch | None = None,
+) -> EpisodeRecord:  # fmt: skip
+    """Return the record of one episode: turns until the human's last goal is reached.
+
+    Args:
+        bank: The plans; they decide what is needed.
+        human: Who acts first.
+        robot: An assistant (see assistance/assistant.py); one with a method ``told`` is told the
+            human's goal after each of its turns.
+        course: What the human wants and when; the human was made from the same one.
+        world: Where it happens; by default as the PDDL says.
+        watch: Is told about every turn.
+
+    Raises:
+        UsageError: if somebody's own human or robot chooses what is no step or cannot be done, or
+            believes what are no probabilities.
+    """
+    return _Play(bank, human, robot, course, world or SimulatedTurns(bank), watch).run()
+
+
+class _Play:
+    def __init__(
+        self, bank: Bank, human: EpisodeHuman, robot: Any, course: Course, world: TurnWorld,
+        watch: EpisodeWatch | None,
+    ) -> None:  # fmt: skip
+        self.bank, self.human, self.robot = bank, human, robot
+        self.course, self.world, self.watch = course, world, watch
+        self.robots = robots(bank.goals.problem)
+        self.people = frozenset(bank.goals.problem.agents) - self.robots
+        self.state, self.belief = world.begin(), robot.start()
+        self.turns: list[EpisodeTurn] = []
+        self.decisions_ms: list[float] = []
+        self.last: int | None = None
+        self.n_waits = 0
+
+    def run(self) -> EpisodeRecord:
+        """Return the record."""
+        lengths = [self.bank.graphs[goal].n_steps for goal in self.course.goals]
+        most = PATIENCE * sum(lengths) + len(lengths)
+        turn = 0
+        while (ending := self._ending(turn, most)) is None:
+            self._human(turn)
+            if self._is_done(turn):
+                ending = REACHED
+                break
+            self._robot(self.course.goal(turn))
+            turn += 1
+        return EpisodeRecord(self.course, tuple(self.turns), ending, tuple(self.decisions_ms))
+
+    def _ending(self, turn: int, most: int) -> str | None:
+        """Return how an episode has ended before a turn of the human; None if it goes on."""
+        if self._is_done(turn):
+            return REACHED
+        # Both may wait by choice, and go on afterwards.
+        is_last = turn > max(self.course.turns, default=0)
+        if is_last and self.n_waits > 1 and not self._can_help(turn):
+            return STUCK
+        return UNFINISHED if len(self.turns) >= most else None
+
+    def _can_help(self, turn: int) -> bool:
+        """Return whether the human can do a step that its goal has next."""
+        graph, node = self.bank.locate(self.course.goal(turn), self.state)
+        steps = graph.next(node) if node is not None else ()
+        return any(True for _ in self.bank.table.able(self.state, steps, self.people))
+
+    def _is_done(self, turn: int) -> bool:
+        wanted = self.course.goal(turn)
+        is_last = turn >= max(self.course.turns, default=0)
+        return is_last and self.bank.goals.is_reached(wanted, self.state)
+
+    def _human(self, turn: int) -> None:
+        goal = self.course.goal(turn)
+        move = self.human.move(turn, self.state, self.last)
+        needed = self._do(move.step, goal, self.people)
+        if move.step is not None:
+            self.last = move.step
+            self.belief = self.robot.observe(self.belief, move.step)
+        if hasattr(self.robot, "told"):
+            self.belief = self.robot.told(self.belief, goal)
+        if move.step is None:
+            self._note(EpisodeTurn(len(self.turns), True, None, goal, False))
+            return
+        posterior = _posterior(self.robot, self.belief, len(self.bank.names))
+        likelier = posterior > posterior[goal]
+        rank = int(likelier.sum() + (posterior[:goal] == posterior[goal]).sum())
+        self._note(
+            EpisodeTurn(
+                len(self.turns), True, move.step, goal, needed, move.is_mistake,
+                int(posterior.argmax()), rank, int(getattr(self.belief, "n_declared", 0)),
+            )
+        )  # fmt: skip
+
+    def _robot(self, goal: int) -> None:
+        began = time.perf_counter()
+        step = self.robot.choose(self.belief)
+        self.decisions_ms.append((time.perf_counter() - began) * 1e3)
+        needed = self._do(step, goal, self.robots)
+        if step is not None:
+            self.belief = self.robot.observe(self.belief, step, robot=True)
+        self._note(EpisodeTurn(len(self.turns), False, step, goal, needed))
+
+    def _do(self, step: int | None, goal: int, agents: frozenset[str]) -> bool:
+        """Do a step in the world; return whether it is next in a valid plan of a goal."""
+        self.n_waits = self.n_waits + 1 if step is None else 0
+        if step is None:
+            return False
+        action = _action(self.bank.table, self.state, step, agents)
+        graph, node = self.bank.locate(goal, self.state)
+        self.state = self.world.do(self.state, action)
+        return node is not None and step in graph.next(node)
+
+    def _note(self, turn: EpisodeTurn) -> None:
+        self.turns.append(turn)
+        if self.watch is not None:
+            self.watch(turn, self.belief)
+
+
+def _action(table: StepTable, state: int, step: Any, agents: frozenset[str]) -> int:
+    if not isinstance(step, int | np.integer) or not 0 <= step < len(table):
+        raise UsageError(f"{step!r} is no step", code="bad-step")
+    action = table.doer(state, int(step), agents)
+    if action is None:
+        who = " or ".join(sorted(agents)) or "anybody"
+        raise UsageError(f"{table[int(step)]} cannot be done by {who} here", code="bad-step")
+    return action
+
+
+def _posterior(robot: Any, state: Any, n_goals: int) -> NDArray[np.float64]:
+    """Return what a robot believes, which must be a probability for each goal."""
+    found = np.asarray(robot.posterior(state), dtype=object)
+    try:
+        numbers = found.astype(np.float64)
+    except (TypeError, ValueError):
+        numbers = np.zeros(0)
+    is_one = numbers.shape == (n_goals,) and (numbers >= 0).all()
+    if not is_one or abs(numbers.sum() - 1) > NEAR:
+        raise UsageError(f"{found} is no probability for each goal", code="bad-posterior")
+    return numbers

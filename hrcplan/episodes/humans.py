@@ -1,0 +1,191 @@
+"""Simulated humans who cook along: they have goals, change them, err, wait, and never explain.
+
+What chance decides about a human is drawn before the first step and kept in a `Course`. So every
+robot meets the same human, and differences between robots are paired.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Protocol
+
+from hrcplan.bank import Bank, PlanGraph
+from hrcplan.bank.htn import Htn, decompose
+from hrcplan.bank.walk import shortest
+from hrcplan.core.registry import Registry
+from hrcplan.pddl.conventions import people
+
+MAX_NETWORKS = 256  # that are remembered
+N_DRAWS = 64  # random numbers of one turn: whether to wait or err, and what to choose
+
+
+@dataclass(frozen=True, slots=True)
+class Course:
+    """What a human will want, and by which chances it acts.
+
+    Attributes:
+        goals: The goals, in the order in which they are wanted.
+        turns: The human's turn (from 0) at which each goal but the first begins to be wanted.
+        mistake_rate: The probability that an action is one that the goal does not need.
+        wait_rate: The probability of doing nothing in a turn.
+        seed: From which the chances of every turn are derived.
+    """
+
+    goals: tuple[int, ...]
+    turns: tuple[int, ...] = ()
+    mistake_rate: float = 0.0
+    wait_rate: float = 0.0
+    seed: str = ""
+
+    def goal(self, turn: int) -> int:
+        """Return the goal that is wanted in a turn."""
+        return self.goals[sum(turn >= change for change in self.turns)]
+
+
+@dataclass(frozen=True, slots=True)
+class HumanMove:
+    """What a human does in a turn: a step, or None to wait; and whether it is a mistake."""
+
+    step: int | None
+    is_mistake: bool = False
+
+
+class EpisodeHuman(Protocol):
+    """A human who takes turns with a robot; made from a bank and a course."""
+
+    def move(self, turn: int, world: int, last: int | None) -> HumanMove:
+        """Return what the human does in a turn, in a state, after its own last step."""
+        ...
+
+
+Draw = Callable[[], float]
+"""The next random number of a turn, in [0, 1)."""
+
+
+class Frontier:
+    """A human who takes any step that a valid plan of its goal has next, all alike.
+
+    Args:
+        bank: The plans.
+        course: What is wanted and when.
+    """
+
+    def __init__(self, bank: Bank, course: Course) -> None:
+        self.bank, self.course = bank, course
+        self._doers = people(bank.goals.problem)
+
+    def move(self, turn: int, world: int, last: int | None) -> HumanMove:
+        """Return what the human does in a turn, in a state, after its own last step."""
+        course, draws = self.course, iter(_draws(self.course.seed, turn))
+        if next(draws) < course.wait_rate:
+            return HumanMove(None)
+        goal, errs = course.goal(turn), next(draws) < course.mistake_rate
+        graph, node = self.bank.locate(goal, world)
+        if errs and (wrong := self._not_needed(graph, world)):
+            return HumanMove(wrong[int(next(draws) * len(wrong))], is_mistake=True)
+        steps = [] if node is None else list(self._able(world, graph.next(node)))
+        if node is None or not steps:
+            return HumanMove(None)
+        return HumanMove(self.choose(graph, node, steps, last, draws.__next__))
+
+    def choose(
+        self, graph: PlanGraph, node: int, steps: Sequence[int], last: int | None, draw: Draw
+    ) -> int:
+        """Return one of ``steps``, which follow ``node`` in the plans of a goal.
+
+        Args:
+            graph: The plans of the goal.
+            node: Where they stand.
+            steps: Those of the next steps that the human can do, in order.
+            last: The human's last step.
+            draw: Gives random numbers.
+        """
+        return steps[int(draw() * len(steps))]
+
+    def _able(self, world: int, steps: Sequence[int] | dict[int, int]) -> list[int]:
+        return list(self.bank.table.able(world, steps, self._doers))
+
+    def _not_needed(self, graph: PlanGraph, world: int) -> list[int]:
+        needed = graph.used_steps
+        can = self.bank.table.applicable(world)
+        return self._able(world, [step for step in can if step not in needed])
+
+
+class ByPlans(Frontier):
+    """A human who follows any valid plan, all plans alike: steps with more plans are likelier."""
+
+    def choose(
+        self, graph: PlanGraph, node: int, steps: Sequence[int], last: int | None, draw: Draw
+    ) -> int:
+        """Return a step in proportion to the plans that go on with it."""
+        counts = [graph.plans_from(graph.next(node)[step]) for step in steps]
+        left = draw() * sum(counts)
+        for step, count in zip(steps, counts, strict=True):
+            left -= count
+            if left < 0:
+                return step
+        return steps[-1]
+
+
+class CliqueChain(Frontier):
+    """A human who works through a network of chains and cliques, and finishes what it has begun.
+
+    The paper models its humans so (IV-B). The network is derived from the plans of the goal, and
+    orders some steps that plans leave open; what the robot does out of this order is simply done.
+    """
+
+    def choose(
+        self, graph: PlanGraph, node: int, steps: Sequence[int], last: int | None, draw: Draw
+    ) -> int:
+        """Return the step that the network allows next; any other if the human cannot do that."""
+        left = [step for step, _ in shortest(graph, node)]
+        found = _network(graph).choose(left, last, lambda n: int(draw() * n))
+        if found is None or found not in steps:
+            return super().choose(graph, node, steps, last, draw)
+        return found
+
+
+class Scripted(Frontier):
+    """A human who does given steps first, in order, and then goes on with any valid plan.
+
+    A step that is done already is left out; one that cannot be done yet lets the next ones pass.
+
+    Args:
+        bank: The plans.
+        course: What is wanted and when.
+        steps: The steps, as ids of the bank's table.
+    """
+
+    def __init__(self, bank: Bank, course: Course, steps: Sequence[int]) -> None:
+        super().__init__(bank, course)
+        self.steps = tuple(steps)
+
+    def move(self, turn: int, world: int, last: int | None) -> HumanMove:
+        """Return the next step of the script that can be done, else what follows in a plan."""
+        able = self._able(world, self.steps)
+        return HumanMove(able[0]) if able else super().move(turn, world, last)
+
+
+@lru_cache(maxsize=MAX_NETWORKS)
+def _network(graph: PlanGraph) -> Htn:
+    return decompose(graph)
+
+
+@lru_cache(maxsize=64)
+def _draws(seed: str, turn: int) -> tuple[float, ...]:
+    stream = random.Random(f"{seed}/{turn}")
+    return tuple(stream.random() for _ in range(N_DRAWS))
+
+
+HUMANS = Registry(
+    "human",
+    {
+        "frontier": "hrcplan.episodes.humans:Frontier",
+        "cc-htn": "hrcplan.episodes.humans:CliqueChain",
+        "plans": "hrcplan.episodes.humans:ByPlans",
+    },
+    "hrcplan.humans",
+)

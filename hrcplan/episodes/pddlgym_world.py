@@ -1,0 +1,154 @@
+"""pddlgym as the world of an episode in turns: a simulator by others says what comes of a step.
+
+It reads files that our own writer makes, grounds nothing beforehand, and knows no numbers. It is
+the optional extra ``pddlgym``, imported only when a world is made; nothing it says is printed.
+"""
+
+from __future__ import annotations
+
+import io
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager, redirect_stderr, redirect_stdout
+from dataclasses import replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from hrcplan.bank import Bank
+from hrcplan.errors import UnsupportedError, UsageError
+from hrcplan.pddl.classical import classical, classical_texts
+from hrcplan.pddl.model import TRUE, And, Atom, Equal, Fact, Not, Problem, fact_text
+
+MAX_NAMED = 3  # facts that an error names
+
+
+class PddlgymWorld:
+    """The world as pddlgym says; one environment serves all episodes.
+
+    Args:
+        bank: Whose task it is; goals play no part, since the world does not know them.
+
+    Raises:
+        UsageError: if pddlgym is not installed.
+        UnsupportedError: if it cannot hold the task.
+    """
+
+    def __init__(self, bank: Bank) -> None:
+        self._task = bank.goals.task
+        if self._task.reached:
+            raise UnsupportedError("pddlgym has no numbers, and an action changes one")
+        self._core = _core()
+        self._env = environment(replace(bank.goals.problem, goal=TRUE))
+        self._objects: dict[str, Any] = {}
+        self._literals: dict[int, Any] = {}
+        self._now = self.begin()
+
+    def begin(self) -> int:
+        """Return the initial state, and forget what was done."""
+        state, _ = self._env.reset()
+        self._objects = {entity.name: entity for entity in state.objects}
+        self._now = self._bits()
+        return self._now
+
+    def do(self, state: int, action: int) -> int:
+        """Return the state after a ground action of the task, given by its index.
+
+        Raises:
+            UsageError: if pddlgym is in another state, or the action cannot be done in it.
+        """
+        if state != self._now:
+            raise UsageError(f"the world is in another state: {self._differences(state)}")
+        # Not the environment's step(): it enumerates all literals, which takes ten times as long.
+        try:
+            after = self._core.get_successor_state(
+                self._env.get_state(), self._literal(action), self._env.domain,
+                raise_error_on_invalid_action=True,
+            )  # fmt: skip
+        except self._core.InvalidAction:
+            raise UsageError(f"{self._task.actions[action]} cannot be done here") from None
+        self._env.set_state(after)
+        self._now = self._bits()
+        return self._now
+
+    def _literal(self, action: int) -> Any:
+        if action not in self._literals:
+            ground = self._task.actions[action]
+            predicate = self._env.domain.predicates[ground.name]
+            self._literals[action] = predicate(*(self._objects[arg] for arg in ground.args))
+        return self._literals[action]
+
+    def _bits(self) -> int:
+        return self._task.state_of(map(named, self._env.get_state().literals))
+
+    def _differences(self, state: int) -> str:
+        facts = sorted(self._task.facts_of(state ^ self._now))
+        shown = ", ".join(map(fact_text, facts[:MAX_NAMED]))
+        more = len(facts) - MAX_NAMED
+        return f"{shown} and {more} more differ" if more > 0 else f"{shown} differs"
+
+
+def named(literal: Any) -> Fact:
+    """Return a literal of pddlgym as a fact, or an action of its as name and arguments."""
+    return (literal.predicate.name, *(entity.name for entity in literal.variables))
+
+
+def environment(problem: Problem) -> Any:
+    """Return pddlgym's environment of a problem, its operators as actions; ``reset()`` begins.
+
+    The files that it reads are gone afterwards; its own messages about them name them still.
+
+    Raises:
+        UsageError: if pddlgym is not installed.
+        UnsupportedError: if it cannot hold the problem.
+    """
+    core = _core()
+    _check_conditions(problem)
+    domain, text = classical_texts(problem)
+    with TemporaryDirectory(prefix="hrcplan-") as folder, _silence():
+        problems = Path(folder, "problems")
+        problems.mkdir()
+        Path(folder, "domain.pddl").write_text(domain)
+        (problems / "problem.pddl").write_text(text)
+        try:
+            return core.PDDLEnv(
+                str(Path(folder, "domain.pddl")), str(problems),
+                operators_as_actions=True, dynamic_action_space=True,
+            )  # fmt: skip
+        except Exception as error:
+            raise UnsupportedError(f"pddlgym cannot hold this problem: {error}") from error
+
+
+def _check_conditions(problem: Problem) -> None:
+    """Refuse what it would misread: conditions on constants alone, or on one thing twice."""
+    for action in classical(problem).domain.actions:
+        for condition in action.conditions:
+            assert isinstance(condition.formula, And)
+            for part in condition.formula.parts:
+                atom = part.body if isinstance(part, Not) else part
+                terms = atom.args if isinstance(atom, Atom) else ()
+                if isinstance(atom, Equal) or len(set(terms)) < len(terms):
+                    raise UnsupportedError(f"pddlgym cannot hold {atom} in '{action.name}'")
+                if terms and problem.domain.constants.keys() >= set(terms):
+                    raise UnsupportedError(f"pddlgym never looks at {atom} in '{action.name}'")
+
+
+def _core() -> Any:
+    with _silence():
+        try:
+            from pddlgym import core
+        except ImportError as error:
+            message = f"pddlgym cannot be imported: {error}"
+            hint = "pip install 'hrcplan[pddlgym]', on a Python before 3.12"
+            raise UsageError(message, code="missing-extra", hint=hint) from error
+    return core
+
+
+@contextmanager
+def _silence() -> Iterator[None]:
+    """Keep what pddlgym and its imports print and warn of from our own output."""
+    with (
+        warnings.catch_warnings(), redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO())
+    ):  # fmt: skip
+        warnings.simplefilter("ignore")
+        yield

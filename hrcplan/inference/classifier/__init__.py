@@ -1,0 +1,1 @@
+"""The random forest of the changed-mind paper: training, evaluation, cache."""

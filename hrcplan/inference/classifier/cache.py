@@ -1,0 +1,154 @@
+"""Forests that are trained once and found again, in a file of the user's cache folder.
+
+The file is named after a hash of everything that the forest depends on, so another bank or another
+seed is another file. Of several processes that miss the same forest, one trains and the others
+wait. Its arrays are mapped, not read: processes share them.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import hashlib
+import json
+import os
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import asdict, replace
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from hrcplan.bank import Bank
+from hrcplan.bank.store import digest
+from hrcplan.core.array_file import Arrays, Format, array, mapped
+from hrcplan.core.files import write_atomically
+from hrcplan.errors import InputError, UsageError
+from hrcplan.inference.classifier.flat_forest import FlatForest
+from hrcplan.inference.classifier.training import HELD_OUT, MIN_LEAF, MIN_SPLIT, Trained, Training
+
+VERSION = 1  # to be raised whenever the same bank and seed give another forest than before
+_FORMAT = Format(b"HRCPTREE", VERSION, "forest", "trained forest", "it may be deleted")
+_ARRAYS = {"nodes": "<i4", "leaves": "<f4", "roots": "<i4"}
+_PACKAGES = ("numpy", "scikit-learn")  # whose version decides which samples and trees a seed gives
+
+Key = Mapping[str, Any]
+
+_unsaved: dict[Path, Trained] = {}
+"""Forests that could not be written: this process at least need not train them twice."""
+
+
+def key_of(bank: Bank, seed: int, n_samples: int, n_trees: int) -> Key:
+    """Return everything that a forest depends on."""
+    return {
+        "bank": digest(bank), "seed": int(seed),
+        "n_samples": int(n_samples), "n_trees": int(n_trees),
+        "held_out": HELD_OUT, "min_leaf": MIN_LEAF, "min_split": MIN_SPLIT,
+        **{name: metadata.version(name) for name in _PACKAGES},
+    }  # fmt: skip
+
+
+def kept(folder: Path, key: Key, make: Callable[[], Trained]) -> Trained:
+    """Return the forest of a key: from its file, or made and put there.
+
+    A file that is damaged or of something else is replaced. Where nothing can be written, nothing
+    is kept.
+
+    Args:
+        folder: The cache folder; it is made if it is missing.
+        key: What ``key_of`` returns.
+        make: Trains the forest.
+    """
+    path = path_of(folder, key)
+    found, fault = _look(path, key)
+    found = found or _unsaved.get(path)
+    if found is not None:
+        return found
+    with _alone(path.with_suffix(".lock")) as alone:
+        if alone:  # while this process waited, another may have made it
+            found, fault = _look(path, key)
+            if found is not None:
+                return found
+        made = make()
+        if alone and _saved(path, key, made):
+            made = _look(path, key)[0] or made
+        else:
+            _unsaved[path] = made
+        return replace(made, is_kept=False, fault=fault)
+
+
+def path_of(folder: Path, key: Key) -> Path:
+    """Return where the forest of a key is kept, or would be."""
+    text = json.dumps([VERSION, key], sort_keys=True)
+    return folder / f"{hashlib.sha256(text.encode()).hexdigest()[:32]}.forest"
+
+
+def load(path: Path, key: Key) -> Trained:
+    """Return the forest in a file.
+
+    Raises:
+        OSError: if there is no such file, or it may not be read.
+        InputError: if it is damaged, or no forest, or that of another key.
+    """
+    header, body = _FORMAT.unpacked(mapped(path), str(path))
+    try:
+        if header["key"] != key:
+            raise InputError(f"'{path}' is the forest of something else", code="not-a-forest")
+        model = FlatForest(
+            **{name: array(body, header[name], kind) for name, kind in _ARRAYS.items()}
+        )
+        classes = np.array(header["classes"], dtype=np.int64)
+        return Trained(model, classes, Training(**header["training"]), is_kept=True)
+    except (KeyError, TypeError, ValueError) as error:
+        message = f"'{path}' has a header that makes no sense: {error!r}"
+        raise InputError(message, code="not-a-forest", path=str(path)) from None
+
+
+def _look(path: Path, key: Key) -> tuple[Trained | None, str | None]:
+    """Return the forest, or what is wrong with its file: nothing, if there is none."""
+    try:
+        return load(path, key), None
+    except FileNotFoundError:
+        return None, None
+    except OSError as error:
+        return None, f"cannot read '{path}': {error.strerror or error}"
+    except InputError as error:
+        return None, error.message
+
+
+def _saved(path: Path, key: Key, made: Trained) -> bool:
+    """Return whether a forest could be written to its file."""
+    arrays = Arrays()
+    header = {
+        "key": key, "classes": made.classes.tolist(), "training": asdict(made.training),
+        **{name: arrays.add(getattr(made.model, name), kind) for name, kind in _ARRAYS.items()},
+    }  # fmt: skip
+    try:
+        write_atomically(path, _FORMAT.packed(header, arrays))
+    except UsageError:
+        return False
+    return True
+
+
+@contextmanager
+def _alone(path: Path) -> Iterator[bool]:
+    """Keep others out who use the same lock file; the value is False where that is impossible."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        lock = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
+    except OSError:
+        yield False
+        return
+    try:
+        yield _locked(lock)
+    finally:
+        os.close(lock)
+
+
+def _locked(lock: int) -> bool:
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+    except OSError:
+        return False  # some network drives have no locks
+    return True

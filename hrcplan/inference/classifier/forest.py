@@ -1,0 +1,157 @@
+"""The paper's belief: a random forest over which steps were done, in no order.
+
+Ghose et al. (RA-L 2025, IV-C). `hrcplan.inference.classifier.training` says how it is trained.
+Training takes minutes, so the forest is kept in the user's cache folder.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import chain, islice
+from pathlib import Path
+
+import numpy as np
+
+from hrcplan.bank import Bank
+from hrcplan.core.files import cache_folder
+from hrcplan.errors import UsageError
+from hrcplan.inference.belief import Floats, weights_to_posteriors
+from hrcplan.inference.classifier.cache import kept, key_of
+from hrcplan.inference.classifier.flat_forest import Rows
+from hrcplan.inference.classifier.training import (
+    N_SAMPLES,
+    N_TREES,
+    Classifier,
+    Trained,
+    Training,
+    columns,
+    forest,
+    train,
+)  # fmt: skip
+from hrcplan.inference.exact import IMPOSSIBLE
+
+MAX_KNOWN = 4096  # rows whose posterior is remembered: someone who looks ahead asks again
+
+
+@dataclass(frozen=True, slots=True)
+class ForestState:
+    """The state of `ForestBelief`: the world, and which labels were done."""
+
+    world: int
+    row: Rows
+    ignored: str | None = None
+
+
+class ForestBelief:
+    """A classifier as a belief; both agents' steps are features, as in the paper.
+
+    Args:
+        bank: The plans to sample from.
+        seed: Of the samples and of the forest.
+        n_samples: Sampled beginnings of plans, over all goals.
+        n_trees: Trees of the forest.
+        classifier: Any other scikit-learn classifier; it is not kept.
+        n_jobs: Processes that train; the forest is the same.
+        cache: The folder where the forest is kept, True for the user's; False: it is not kept.
+
+    Raises:
+        UsageError: if no goal has a plan.
+    """
+
+    def __init__(
+        self, bank: Bank, seed: int = 0, n_samples: int = N_SAMPLES, n_trees: int = N_TREES,
+        classifier: Classifier | None = None, n_jobs: int = 1, cache: Path | bool = True,
+    ) -> None:  # fmt: skip
+        self.bank, self.table = bank, bank.table
+        self._column = columns(bank)
+        self.n_labels = int(self._column.max(initial=-1)) + 1
+
+        def make() -> Trained:
+            model = forest(seed, n_trees, n_jobs) if classifier is None else classifier
+            return train(bank, seed, n_samples, model)
+
+        folder = cache_folder() if cache is True else cache or None
+        if folder is None or classifier is not None:
+            self._trained = make()
+        else:
+            self._trained = kept(folder, key_of(bank, seed, n_samples, n_trees), make)
+        self._known: dict[bytes, Floats] = {}
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The goals' names, in order."""
+        return self.bank.names
+
+    @property
+    def training(self) -> Training:
+        """What it was trained on, how long it took, and how often it is right."""
+        return self._trained.training
+
+    @property
+    def note(self) -> str:
+        """What training took and reached, in words."""
+        t, found = self.training, self._trained
+        text = (
+            f"trained on {t.n_train} beginnings of plans in {t.train_s:.0f} s"
+            f"{', and kept since' if found.is_kept else ''}; "
+            f"right on {100 * t.accuracy:.1f} % of {t.n_held_out} held out"
+        )
+        return text if found.fault is None else f"{text}; trained anew, since {found.fault}"
+
+    def start(self) -> ForestState:
+        """Return the belief before any step."""
+        return ForestState(self.bank.initial, np.zeros(self.n_labels, dtype=np.uint8))
+
+    def observe(self, state: ForestState, step: int, *, robot: bool = False) -> ForestState:
+        """Return the belief after one more step, whoever did it."""
+        world = self.table.successor(state.world, step)
+        if world is None:
+            return replace(state, ignored=IMPOSSIBLE)
+        row = state.row.copy()
+        row[self._column[step]] = 1
+        return ForestState(world, row)
+
+    def posterior(self, state: ForestState) -> Floats:
+        """Return the probability of each goal, in order; uniform before any step."""
+        found: Floats = self.many(state.row[None])[0]
+        return found
+
+    def extended(self, row: Rows, extensions: Sequence[Sequence[int]]) -> Floats:
+        """Return the posterior after each of several continuations.
+
+        Args:
+            row: The labels that were done, as in the state.
+            extensions: Steps that are done in addition; whether they can be is not looked at.
+
+        Returns:
+            (extensions, goals) probabilities.
+        """
+        rows = np.repeat(row[None], len(extensions), axis=0)
+        steps = np.fromiter(chain.from_iterable(extensions), dtype=np.int64)
+        which = np.repeat(np.arange(len(extensions)), [len(more) for more in extensions])
+        rows[which, self._column[steps]] = 1
+        return self.many(rows)
+
+    def many(self, rows: Rows) -> Floats:
+        """Return (rows, goals) posteriors; equal rows and those of before cost nothing.
+
+        Raises:
+            UsageError: if the rows do not have a column for each label.
+        """
+        if rows.shape[1:] != (self.n_labels,):
+            raise UsageError(f"a row has {self.n_labels} labels, not {rows.shape[1:]}")
+        known, keys = self._known, [row.tobytes() for row in rows]
+        new = {key: i for i, key in enumerate(keys) if key not in known}
+        if new:
+            known.update(zip(new, self._posteriors(rows[list(new.values())]), strict=True))
+        found = np.array([known[key] for key in keys]).reshape(-1, len(self.names))
+        for key in list(islice(known, max(0, len(known) - MAX_KNOWN))):
+            del known[key]
+        return found
+
+    def _posteriors(self, rows: Rows) -> Floats:
+        found = np.zeros((len(rows), len(self.names)))
+        found[:, self._trained.classes] = self._trained.model.predict_proba(rows)
+        found[~rows.any(axis=1)] = 1
+        return weights_to_posteriors(found)

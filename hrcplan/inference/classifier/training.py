@@ -1,0 +1,132 @@
+"""How the paper's classifier comes about: sampled beginnings of plans, and a random forest.
+
+Ghose et al. (RA-L 2025, IV-C): 200 trees, at least 2 samples in a leaf and 10 to split, 300,000
+sampled sequences of which a fifth is held out. A sequence is read as the beginning of a plan, of
+uniform length: on whole plans any classifier is right, and useless early on.
+"""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hrcplan.bank import Bank
+from hrcplan.errors import UsageError
+from hrcplan.inference.classifier.flat_forest import FlatForest, Rows
+
+N_SAMPLES = 300_000
+N_TREES = 200
+MIN_LEAF, MIN_SPLIT = 2, 10
+HELD_OUT = 0.2
+
+Ids = NDArray[np.int64]
+
+
+class Predictor(Protocol):
+    """What knows probabilities."""
+
+    def predict_proba(self, rows: Any) -> Any:
+        """Return a row of probabilities for each row of features, by class."""
+        ...
+
+
+class Classifier(Predictor, Protocol):
+    """What scikit-learn calls a classifier with probabilities."""
+
+    def fit(self, rows: Any, goals: Any) -> Any:
+        """Learn goals from rows of features."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class Training:
+    """What a classifier was trained on, how long it took, and how often it is right."""
+
+    n_train: int
+    n_held_out: int
+    train_s: float
+    accuracy: float
+
+
+@dataclass(frozen=True, slots=True)
+class Trained:
+    """A classifier that has been trained.
+
+    ``classes[c]`` is the goal of class ``c``. ``fault`` says what is wrong with the file in which
+    it should have been.
+    """
+
+    model: Predictor
+    classes: Ids
+    training: Training
+    is_kept: bool = False
+    fault: str | None = None
+
+
+def columns(bank: Bank) -> Ids:
+    """Return the column of each step: steps that differ only in who acts share one."""
+    found: dict[tuple[str, ...], int] = {}
+    steps = range(len(bank.table))
+    return np.array([found.setdefault(bank.table[i].name, len(found)) for i in steps], dtype=int)
+
+
+def prefixes(bank: Bank, n: int, rng: np.random.Generator) -> tuple[Rows, Ids]:
+    """Return about ``n`` sampled beginnings of plans, shuffled: done labels, and goals.
+
+    The length of each is uniform from 1 to that of its plan.
+
+    Raises:
+        UsageError: if no goal has a plan.
+    """
+    reachable = [g for g, graph in enumerate(bank.graphs) if graph.n_steps]
+    if not reachable:
+        raise UsageError("no goal has a plan to learn from", code="no-plan")
+    column, each = columns(bank), -(-n // len(reachable))
+    rows = np.zeros((each * len(reachable), column.max() + 1), dtype=np.uint8)
+    for i, goal in enumerate(reachable):
+        plans = bank.sampler(goal).draw(each, rng)
+        lengths = (plans >= 0).sum(axis=1)
+        cut = rng.integers(1, lengths + 1)
+        kept = np.arange(plans.shape[1]) < cut[:, None]
+        where, place = np.nonzero(kept)
+        rows[i * each + where, column[plans[where, place]]] = 1
+    goals = np.repeat(np.array(reachable), each)
+    order = rng.permutation(len(rows))
+    return rows[order], goals[order]
+
+
+def forest(seed: int, n_trees: int, n_jobs: int) -> Classifier:
+    """Return the paper's classifier, untrained."""
+    from sklearn.ensemble import RandomForestClassifier
+
+    found: Classifier = RandomForestClassifier(
+        n_trees, min_samples_leaf=MIN_LEAF, min_samples_split=MIN_SPLIT, random_state=seed,
+        n_jobs=n_jobs,
+    )  # fmt: skip
+    return found
+
+
+def train(bank: Bank, seed: int, n_samples: int, classifier: Classifier) -> Trained:
+    """Return a classifier, trained on a bank and tried on what was held out; forests are flattened.
+
+    Raises:
+        UsageError: if no goal has a plan.
+    """
+    from sklearn.ensemble import RandomForestClassifier
+
+    rows, goals = prefixes(bank, n_samples, np.random.default_rng(seed))
+    n_test = int(HELD_OUT * len(rows))
+    began = time.monotonic()
+    classifier.fit(rows[n_test:], goals[n_test:])
+    train_s = time.monotonic() - began
+    is_forest = isinstance(classifier, RandomForestClassifier)
+    model: Predictor = FlatForest.of(classifier) if is_forest else classifier
+    classes = np.asarray(getattr(classifier, "classes_", np.arange(len(bank.names))))
+    right = classes[model.predict_proba(rows[:n_test]).argmax(axis=1)] == goals[:n_test]
+    return Trained(
+        model, classes, Training(len(rows) - n_test, n_test, train_s, float(right.mean()))
+    )

@@ -1,0 +1,1 @@
+"""Goal recognition from costs, for goals that have no plan graphs."""

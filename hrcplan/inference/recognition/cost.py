@@ -1,0 +1,196 @@
+"""Goals without plan graphs: what someone does costs more or less on the way to each goal.
+
+The likelihood of an action under a goal falls with what it adds to the cost of reaching the goal
+(Ramírez and Geffner, AAAI 2010; from the present state only: Masters and Sardina, JAIR 2019), and
+with the number of actions that would have served as well. Distances are proven where time allows,
+and relaxed plans stand in where it does not.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from hrcplan.bank import Goals, StepTable
+from hrcplan.inference.belief import Floats, normalized
+from hrcplan.inference.changes import NEVER, ChangeFilter, FilterState, GoalChange
+from hrcplan.inference.exact import IMPOSSIBLE
+from hrcplan.inference.recognition.distances import Distances, GoalDistance, apply
+from hrcplan.task.steps import STEPS, TASK
+
+TIMEOUT_S = 25.0
+BETA = 1.0  # per cost of an average step
+CHOICE = 0.5  # weight of the number of actions that would have served as well
+HAZARD = 0.01
+MAX_DETOUR = 10.0  # no single action speaks more strongly against a goal
+PROGRESS = 1e-3  # between goals that are otherwise alike, the one that is nearer to its end
+MAX_SIBLINGS, FEW_SIBLINGS = 48, 8  # as long as there is time, and when it runs short
+LATE = 0.1  # beyond this part of the time nothing is spent on actions that were not taken
+MAX_PRICE = 10_000
+
+
+@dataclass(frozen=True, slots=True)
+class CostState:
+    """The state of `CostBelief`: the world, its distance to each goal, and the filter."""
+
+    world: int
+    places: tuple[GoalDistance, ...]
+    filtered: FilterState
+    n_observed: int = 0
+    is_human: bool = False
+    ignored: str | None = None
+    n_bridged: int = 0
+    note: str | None = None
+
+
+class CostBelief:
+    """A belief from cost differences, for any classical task.
+
+    Actions that cannot be done where the world is believed to be are evidence of unobserved ones:
+    a cheapest way to where they can be done is put before them.
+
+    Args:
+        goals: The goals.
+        timeout_s: Seconds for proven distances, all in all.
+        hazard: The probability of a change of goal before each action.
+        never: The prior probability that the goal never changes.
+    """
+
+    takes_goals = True
+
+    def __init__(
+        self, goals: Goals, timeout_s: float = TIMEOUT_S, hazard: float = HAZARD,
+        never: float = NEVER,
+    ) -> None:  # fmt: skip
+        self.goals = goals
+        self.table = StepTable(goals.task, _cost_kind(goals))
+        self.ops = self.table.ops
+        self.distances = Distances(self.ops, goals.tests, timeout_s)
+        self.unit = sum(op.cost for op in self.ops) / max(1, len(self.ops)) or 1.0
+        self.filter = ChangeFilter(len(goals), 1, hazard, never)
+        self._ops_of: list[list[int]] = [[] for _ in range(len(self.table))]
+        for i, op in enumerate(self.ops):
+            self._ops_of[op.step].append(i)
+        self._first: tuple[GoalDistance, ...] | None = None
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The goals' names, in order."""
+        return self.goals.names
+
+    def start(self) -> CostState:
+        """Return the uniform belief in the initial state."""
+        initial = self.goals.task.initial
+        if self._first is None:
+            self._first = self.distances.first(initial)
+        return CostState(initial, self._first, self.filter.start(), note=self._note(self._first))
+
+    def observe(self, state: CostState, step: int, *, robot: bool = False) -> CostState:
+        """Return the belief after one more action; the robot's own are no evidence."""
+        done = self._done(state.world, step)
+        if done is None:
+            return replace(state, is_human=False, ignored=IMPOSSIBLE)
+        *bridge, last = done
+        before = state.world
+        for op in bridge:
+            before = _must(apply(self.ops[op], before))
+        after = _must(apply(self.ops[last], before))
+        n_observed = state.n_observed + 1
+        siblings = self._siblings(before, n_observed) if not robot else []
+        costs = self.distances.estimates([after, *siblings])
+        order = np.argsort(-self.posterior(state), kind="stable").tolist()
+        places = self.distances.next(state.places, after, done, costs[0], order, n_observed)
+        note = state.note or self._note(places)
+        n_bridged = state.n_bridged + len(bridge)
+        moved = CostState(
+            after, places, state.filtered, n_observed, not robot, n_bridged=n_bridged, note=note
+        )
+        if robot:
+            return moved
+        paid = sum(self.ops[op].cost for op in done)
+        log_likelihood = self._log_likelihood(state.places, places, paid, costs[1:])
+        likelihood = np.exp(log_likelihood - log_likelihood.max())[None, :]
+        return replace(moved, filtered=self.filter.step(state.filtered, likelihood))
+
+    def _done(self, world: int, step: int) -> list[int] | None:
+        """Return the ops that a step stands for: itself, after unobserved ones where needed."""
+        ops = self._ops_of[step]
+        for op in ops:
+            if apply(self.ops[op], world) is not None:
+                return [op]
+        found = self.distances.bridge(world, [test for op in ops for test in self.ops[op].tests])
+        if found is None:
+            return None
+        there = world
+        for op in found.ops:
+            there = _must(apply(self.ops[op], there))
+        last = next((op for op in ops if apply(self.ops[op], there) is not None), None)
+        return None if last is None else [*found.ops, last]
+
+    def _siblings(self, world: int, n_observed: int) -> list[int]:
+        """Return the states that one action leads to; an even choice of them if there are many."""
+        clock = self.distances.clock
+        left_s = clock.left_s(n_observed)
+        if left_s < -LATE * clock.timeout_s:
+            return []
+        most = MAX_SIBLINGS if left_s > 0 else FEW_SIBLINGS
+        task = self.goals.task
+        found = list(dict.fromkeys(task.successor(world, i) for i in task.applicable(world)))
+        stride = -(-len(found) // most) or 1
+        return found[::stride]
+
+    def _log_likelihood(
+        self, before: Sequence[GoalDistance], after: Sequence[GoalDistance], paid: float,
+        siblings: Sequence[Sequence[float | None]],
+    ) -> Floats:  # fmt: skip
+        beta = BETA / self.unit
+        found = np.zeros(len(before))
+        for goal, (old, new) in enumerate(zip(before, after, strict=True)):
+            if old.distance is None or new.distance is None:
+                detour = MAX_DETOUR
+            else:
+                detour = min(MAX_DETOUR, beta * (paid + new.distance - old.distance))
+            reached = [cost for row in siblings if (cost := row[goal]) is not None]
+            least = min(reached, default=0.0)
+            choices = sum(math.exp(beta * (least - cost)) for cost in reached) or 1.0
+            found[goal] = -detour - CHOICE * math.log(choices)
+        return found
+
+    def posterior(self, state: CostState) -> Floats:
+        """Return the probability of each goal, in order."""
+        with np.errstate(divide="ignore"):
+            scores = np.log(self.filter.goals(state.filtered))
+        first = self._first or state.places
+        progress = [_progress(a, b) for a, b in zip(first, state.places, strict=True)]
+        return normalized(scores + PROGRESS * np.array(progress))
+
+    def changes(self, states: Sequence[CostState]) -> tuple[GoalChange, ...]:
+        """Return the changes that are probable once everything was seen."""
+        return self.filter.changes([(i, s.filtered) for i, s in enumerate(states) if s.is_human])
+
+    def _note(self, places: Sequence[GoalDistance]) -> str | None:
+        n = sum(place.way is None and place.estimate is not None for place in places)
+        if not n:
+            return None
+        return f"distances to {n} of {len(places)} goals are estimates by relaxed plans"
+
+
+def _progress(first: GoalDistance, now: GoalDistance) -> float:
+    if first.distance is None or now.distance is None:
+        return 0.0
+    return 1 - now.distance / max(1.0, first.distance)
+
+
+def _cost_kind(goals: Goals) -> str:
+    """Return ``task`` if all costs are positive whole numbers, and not large; else ``steps``."""
+    costs = goals.task.costs
+    fine = all(isinstance(cost, int) and 0 < cost <= MAX_PRICE for cost in costs)
+    return TASK if fine else STEPS
+
+
+def _must(state: int | None) -> int:
+    assert state is not None
+    return state

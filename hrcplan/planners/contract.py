@@ -1,0 +1,135 @@
+"""What planners are asked and what they answer; every planner speaks these types."""
+
+from __future__ import annotations
+
+import enum
+import time
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Protocol
+
+from hrcplan.errors import HrcplanError, LimitError, UnsupportedError
+from hrcplan.pddl.model import TOTAL_TIME, Number, Problem, functions_in
+from hrcplan.plans import Plan
+from hrcplan.task import Task
+
+
+class Status(enum.Enum):
+    """How a planner ended; the values are those of the JSON output."""
+
+    OPTIMAL = "solved-optimally"
+    SOLVED = "solved"
+    UNSOLVABLE = "unsolvable"
+    UNSOLVED = "unsolved"
+
+
+@dataclass(frozen=True, slots=True)
+class Capabilities:
+    """What a planner can do; ``auto`` chooses by it and ``hrcplan planners`` prints it.
+
+    ``temporal``: plans with durations and concurrency. ``numeric``: numbers that actions change.
+    ``metric``: which metrics its plans are good for: ``none``, ``cost``, ``cost+time``.
+    ``proves``: it can prove optimality for that metric. ``limits``: it keeps the time limit by
+    itself (hrcplan enforces it anyway). ``needs``: what to install, in words.
+    """
+
+    name: str
+    summary: str
+    classical: bool = True
+    temporal: bool = False
+    numeric: bool = False
+    metric: str = "cost"
+    proves: bool = False
+    limits: bool = False
+    needs: str = "nothing"
+    licence: str = "Apache-2.0"
+
+
+@dataclass(frozen=True)
+class Request:
+    """One problem for one planner: until when, and whether the first plan is enough."""
+
+    problem: Problem
+    deadline: float = field(default_factory=lambda: time.monotonic() + 60)
+    any_plan: bool = False
+    memory_bytes: int = 4 << 30
+
+    @property
+    def time_left_s(self) -> float:
+        """Seconds until the deadline; never below zero."""
+        return max(0.0, self.deadline - time.monotonic())
+
+    @cached_property
+    def task(self) -> Task:
+        """The grounded task, made when it is first needed, in at most half of the time left.
+
+        Raises:
+            UnsupportedError: if bits cannot hold it.
+            LimitError: if there are too many ground actions, or too little time.
+        """
+        failure = self.__dict__.get("failure")
+        if isinstance(failure, HrcplanError):
+            raise failure  # what failed once is not tried again for the next planner
+        try:
+            return Task(self.problem, time.monotonic() + self.time_left_s / 2)
+        except (UnsupportedError, LimitError) as error:
+            self.__dict__["failure"] = error
+            raise
+
+    def until(self, deadline: float) -> Request:
+        """Return the same request until another time; what was grounded already is kept."""
+        other = replace(self, deadline=deadline)
+        kept: dict[str, object] = {
+            key: value for key, value in self.__dict__.items() if key in ("task", "failure")
+        }
+        other.__dict__.update(kept)
+        return other
+
+    @cached_property
+    def weighs_time(self) -> bool:
+        """Whether the metric looks at total-time."""
+        return any(f.name == TOTAL_TIME for f in functions_in(self.problem.metric))
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What a planner said, unchecked: its claim, its plan, and the cost it reported, if any.
+
+    ``objective`` is the planner's own figure for the plan, in units of the problem's metric (number
+    of steps, or makespan of a temporal plan, where there is none); the cost guard compares it with
+    hrcplan's. None if the planner reports none.
+    """
+
+    status: Status
+    plan: Plan | None = None
+    objective: Number | None = None
+    note: str = ""
+
+    def __post_init__(self) -> None:
+        """Hold status and plan together.
+
+        Raises:
+            ValueError: if there is a plan without a solved status, or the other way round.
+        """
+        solved = self.status in (Status.OPTIMAL, Status.SOLVED)
+        if solved != (self.plan is not None):
+            raise ValueError(f"{self.status} with plan {self.plan!r}")
+
+
+class Planner(Protocol):
+    """Anything that solves a request.
+
+    ``solve`` returns an Answer for whatever can happen to a search (solved, unsolvable, out of
+    time). It raises UnsupportedError for a task outside its card, MissingPlannerError if a program
+    or package is not there, PlannerError if the program crashes.
+    """
+
+    @property
+    def card(self) -> Capabilities:
+        """What this planner can do."""
+
+    def missing(self) -> str | None:
+        """Return why the planner cannot run here and what to install; None if it can."""
+
+    def solve(self, request: Request) -> Answer:
+        """Return the planner's answer, at the latest shortly after the deadline."""

@@ -1,0 +1,1 @@
+"""Pictures of plans, beliefs and studies, in one style."""

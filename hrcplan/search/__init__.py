@@ -1,0 +1,1 @@
+"""Heuristics and searches over the steps of a task."""

@@ -1,0 +1,161 @@
+"""Steps as arrays: which rows of states a step applies to, and what becomes of them, all at once.
+
+A state is a row of 64-bit words that hold only the facts that matter.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hrcplan.search.relevance import ALWAYS
+from hrcplan.task import BitEffect
+from hrcplan.task.conditions import Tests
+from hrcplan.task.steps import Operator
+
+Words = NDArray[np.uint64]
+Ids = NDArray[np.int64]
+Bools = NDArray[np.bool_]
+
+WORD = 64
+PAIRS = 1 << 20  # rows times steps that are looked at together
+_LOW = (1 << WORD) - 1
+
+
+def positions_of(bits: int) -> tuple[int, ...]:
+    """Return the positions of the bits that are set, lowest first."""
+    found: list[int] = []
+    while bits:
+        low = bits & -bits
+        found.append(low.bit_length() - 1)
+        bits ^= low
+    return tuple(found)
+
+
+@dataclass(frozen=True)
+class FactPacking:
+    """Task facts to bits of a row of words, in order."""
+
+    positions: tuple[int, ...]
+
+    @cached_property
+    def _index(self) -> dict[int, int]:
+        return {1 << position: 1 << i for i, position in enumerate(self.positions)}
+
+    @cached_property
+    def mask(self) -> int:
+        """The facts that are kept, as bits of the task."""
+        return sum(self._index)
+
+    @property
+    def n_words(self) -> int:
+        """Words in a row; at least one."""
+        return max(1, -(-len(self.positions) // WORD))
+
+    def small(self, state: int) -> int:
+        """Return the kept facts of a state as a dense integer."""
+        found, rest = 0, state & self.mask
+        while rest:
+            low = rest & -rest
+            found |= self._index[low]
+            rest ^= low
+        return found
+
+    def row(self, state: int) -> Words:
+        """Return the kept facts of a state as words."""
+        small = self.small(state)
+        return np.array([small >> WORD * i & _LOW for i in range(self.n_words)], dtype=np.uint64)
+
+    def rows(self, states: Sequence[int]) -> Words:
+        """Return the kept facts of states, one row each."""
+        if not states:
+            return np.zeros((0, self.n_words), dtype=np.uint64)
+        return np.stack([self.row(state) for state in states])
+
+    def states(self, rows: Words) -> list[int]:
+        """Return rows as states of the task; facts that are not kept are false."""
+        bits = np.unpackbits(rows.view(np.uint8), axis=1, bitorder="little")
+        n_bytes = -(-(max(self.positions, default=0) + 1) // 8)
+        wide = np.zeros((len(rows), 8 * n_bytes), dtype=np.uint8)
+        wide[:, list(self.positions)] = bits[:, : len(self.positions)]
+        packed = np.packbits(wide, axis=1, bitorder="little").tobytes()
+        return [
+            int.from_bytes(packed[i : i + n_bytes], "little")
+            for i in range(0, len(packed), n_bytes)
+        ]
+
+
+class PackedRules:
+    """Ops over packed states; ``expand`` applies all of them to all rows.
+
+    Args:
+        ops: What can be done; only facts of ``packing`` are looked at and changed.
+        packing: Which facts of the task the rows hold.
+    """
+
+    def __init__(self, ops: Sequence[Operator], packing: FactPacking) -> None:
+        self.ops = tuple(ops)
+        self.packing = packing
+        simple = [i for i, op in enumerate(ops) if _is_simple(op)]
+        self._simple = np.array(simple, dtype=np.int32)
+        self._complex = [i for i in range(len(ops)) if i not in set(simple)]
+        tests = [ops[i].tests[0] for i in simple]
+        self._masks = packing.rows([mask for mask, _ in tests])
+        self._values = packing.rows([value for _, value in tests])
+        self._adds = packing.rows([ops[i].at_start[0].adds for i in simple])
+        self._keeps = ~packing.rows([ops[i].at_start[0].deletes for i in simple]) | self._adds
+
+    def expand(self, states: Words) -> Iterator[tuple[Ids, NDArray[np.int32], Words]]:
+        """Yield (row, op, successor) arrays for all changes that can be made to ``states``."""
+        chunk = max(1, PAIRS // max(1, len(self._simple)))
+        for begin in range(0, len(states), chunk):
+            part = states[begin : begin + chunk]
+            rows, ops, after = self._expand_simple(part)
+            yield rows + begin, ops, after
+        for i in self._complex:
+            yield self._expand_complex(states, i)
+
+    def _expand_simple(self, states: Words) -> tuple[Ids, NDArray[np.int32], Words]:
+        fits = (states[:, None, 0] & self._masks[None, :, 0]) == self._values[None, :, 0]
+        for word in range(1, self.packing.n_words):
+            fits &= (states[:, None, word] & self._masks[None, :, word]) == self._values[
+                None, :, word
+            ]
+        rows, rules = np.divmod(np.flatnonzero(fits), max(1, len(self._simple)))
+        before = states[rows]
+        after = before & self._keeps[rules] | self._adds[rules]
+        moved = (after != before).any(axis=1)
+        return rows[moved], self._simple[rules[moved]], after[moved]
+
+    def _expand_complex(self, states: Words, index: int) -> tuple[Ids, NDArray[np.int32], Words]:
+        op = self.ops[index]
+        rows = np.flatnonzero(self.meets(states, op.tests))
+        before = states[rows]
+        after = self._apply(self._apply(before, op.at_start), op.at_end)
+        moved = (after != before).any(axis=1)
+        ops = np.full(int(moved.sum()), index, dtype=np.int32)
+        return rows[moved], ops, after[moved]
+
+    def meets(self, states: Words, tests: Tests) -> Bools:
+        """Return for each row whether any of the tests holds."""
+        found = np.zeros(len(states), dtype=np.bool_)
+        for mask, value in tests:
+            row = self.packing.row(mask)
+            found |= ((states & row) == self.packing.row(value)).all(axis=1)
+        return found
+
+    def _apply(self, states: Words, changes: Sequence[BitEffect]) -> Words:
+        adds, deletes = np.zeros_like(states), np.zeros_like(states)
+        for change in changes:
+            holds = self.meets(states, change.tests)
+            adds[holds] |= self.packing.row(change.adds)
+            deletes[holds] |= self.packing.row(change.deletes)
+        return states & ~deletes | adds
+
+
+def _is_simple(op: Operator) -> bool:
+    return len(op.tests) == 1 and not op.at_end and [c.tests for c in op.at_start] == [ALWAYS]

@@ -1,0 +1,201 @@
+"""How far goals are from states, estimated: relaxed plans (Hoffmann and Nebel, JAIR 2001).
+
+What makes a literal true cheapest, if nothing true ever becomes false, does not depend on the
+goal. So one pass over many states serves all goals, and what a goal needs is a union of bits.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hrcplan.search.packed_states import positions_of
+from hrcplan.task.conditions import Test
+from hrcplan.task.steps import Operator
+
+INFINITE = float("inf")
+HOLDS, NEVER = -1, -2
+
+Floats = NDArray[np.float64]
+Ids = NDArray[np.int64]
+
+
+@dataclass(frozen=True, slots=True)
+class _Rule:
+    """One thing that an op can do: literals before (as a test), and literals after.
+
+    Literal ``2 i`` says that fact i is true, ``2 i + 1`` that it is false.
+    """
+
+    op: int
+    needs: Test
+    gives: tuple[int, ...]
+
+
+class Relaxation:
+    """The ops without what they make false, for many states and goals at once.
+
+    Args:
+        ops: What can be done.
+        goals: The alternatives of each goal.
+    """
+
+    def __init__(self, ops: Sequence[Operator], goals: Sequence[Sequence[Test]]) -> None:
+        self._prices = [op.cost for op in ops]
+        self._is_unit = set(self._prices) <= {1}
+        self._ids: dict[int, int] = {}
+        self._goals = [[self._number(test) for test in tests] for tests in goals]
+        rules = self._that_matter(list(_rules(ops)))
+        self._op_bits = [1 << rule.op for rule in rules]
+        self._needs = [self._number(rule.needs) for rule in rules]
+        self._lay_out(rules)
+
+    def _number(self, test: Test) -> tuple[int, ...]:
+        """Return the numbers of the literals of a test, new ones where there are none yet."""
+        return tuple(self._ids.setdefault(x, len(self._ids)) for x in _literals(test))
+
+    def _that_matter(self, rules: list[_Rule]) -> list[_Rule]:
+        """Return the rules that can help with a goal; number the literals that they need."""
+        makers: dict[int, list[int]] = {}
+        for i, rule in enumerate(rules):
+            for literal in rule.gives:
+                makers.setdefault(literal, []).append(i)
+        chosen: set[int] = set()
+        waiting, seen = list(self._ids), set(self._ids)
+        while waiting:
+            for i in makers.get(waiting.pop(), ()):
+                if i not in chosen:
+                    chosen.add(i)
+                    new = [x for x in _literals(rules[i].needs) if x not in seen]
+                    seen.update(new)
+                    waiting += new
+                    self._number(rules[i].needs)
+        return [rules[i] for i in sorted(chosen)]
+
+    def _lay_out(self, rules: Sequence[_Rule]) -> None:
+        """Lay needs and makers out in tables for numpy."""
+        n = len(self._ids)  # the literal behind the last one always holds: it fills the table
+        width = max((len(needs) for needs in self._needs), default=0) or 1
+        rows = [[*needs, *[n] * (width - len(needs))] for needs in self._needs]
+        self._table = np.array(rows, dtype=np.int64).reshape(-1, width)
+        # What costs nothing costs a little here: a literal must not support itself.
+        prices = [self._prices[rule.op] or 1e-3 for rule in rules]
+        self._rule_prices = np.array(prices, dtype=np.float64).reshape(-1, 1)
+        made = sorted((self._ids[x], i) for i, rule in enumerate(rules)
+                      for x in rule.gives if x in self._ids)  # fmt: skip
+        literals = np.array([literal for literal, _ in made], dtype=np.int64)
+        self._makers = np.array([i for _, i in made], dtype=np.int64)
+        self._made, self._first = np.unique(literals, return_index=True)
+        self._segment = np.repeat(
+            np.arange(len(self._made)), np.diff([*self._first.tolist(), len(made)])
+        )
+        order = np.array(list(self._ids), dtype=np.int64)
+        self._fact, self._is_true = order >> 1, order & 1 == 0
+        self._n_bytes = -(-(int(self._fact.max(initial=0)) + 1) // 8)
+
+    def costs(self, states: Sequence[int]) -> list[list[float | None]]:
+        """Return for each state and goal the cost of a relaxed plan; None if there is none."""
+        supporters = self._supporters(states).T.tolist()
+        return [self._costs(supporter) for supporter in supporters]
+
+    def _holding(self, states: Sequence[int]) -> NDArray[np.bool_]:
+        size = self._n_bytes
+        cut = (1 << 8 * size) - 1
+        raw = b"".join((state & cut).to_bytes(size, "little") for state in states)
+        rows = np.frombuffer(raw, np.uint8).reshape(-1, size)
+        bits = np.unpackbits(rows, axis=1, bitorder="little")
+        found: NDArray[np.bool_] = (bits[:, self._fact] == self._is_true).T
+        return found
+
+    def _supporters(self, states: Sequence[int]) -> Ids:
+        """Return for each literal and state the rule that makes it true cheapest (h-add)."""
+        holds = self._holding(states)
+        n = len(self._ids)
+        found = np.where(holds, HOLDS, NEVER)
+        if not len(self._made):
+            return found
+        values = np.full((n + 1, len(states)), INFINITE)
+        values[:n][holds] = values[n] = 0
+        while True:
+            offers = self._offers(values)
+            best = np.minimum.reduceat(offers, self._first, axis=0)
+            now = values[self._made]
+            if (best >= now).all():
+                break
+            values[self._made] = np.minimum(now, best)
+        rank = np.where(offers == best[self._segment], np.arange(len(offers))[:, None], len(offers))
+        cheapest = np.minimum.reduceat(rank, self._first, axis=0)
+        rules = self._makers[np.minimum(cheapest, len(offers) - 1)]
+        found[self._made] = np.where(np.isfinite(values[self._made]), rules, NEVER)
+        found[holds] = HOLDS
+        return found
+
+    def _offers(self, values: Floats) -> Floats:
+        price = values[self._table[:, 0]]
+        for column in self._table.T[1:]:
+            price += values[column]
+        price += self._rule_prices
+        found: Floats = price[self._makers]
+        return found
+
+    def _costs(self, supporter: list[int]) -> list[float | None]:
+        known: dict[int, int] = {}
+        costs: list[float | None] = []
+        for tests in self._goals:
+            found: float | None = None
+            for literals in tests:
+                if all(supporter[literal] != NEVER for literal in literals):
+                    cost = self._cost(self._ops_for(literals, supporter, known))
+                    found = cost if found is None else min(found, cost)
+            costs.append(found)
+        return costs
+
+    def _ops_for(self, literals: Sequence[int], supporter: list[int], known: dict[int, int]) -> int:
+        """Return the ops of a relaxed plan for some literals, as bits.
+
+        ``known`` has those of single literals, and is added to. No recursion: chains may be long.
+        """
+        needs, op_bits = self._needs, self._op_bits
+        waiting = [literal for literal in literals if supporter[literal] != HOLDS]
+        while waiting:
+            literal = waiting[-1]
+            rule = supporter[literal]
+            if literal not in known:
+                known[literal] = op_bits[rule]
+                before = [n for n in needs[rule] if n not in known and supporter[n] != HOLDS]
+                if before:
+                    waiting += before
+                    continue
+            waiting.pop()
+            for need in needs[rule]:
+                if supporter[need] != HOLDS:
+                    known[literal] |= known[need]
+        ops = 0
+        for literal in literals:
+            if supporter[literal] != HOLDS:
+                ops |= known[literal]
+        return ops
+
+    def _cost(self, ops: int) -> float:
+        if self._is_unit:
+            return float(ops.bit_count())
+        return float(sum(self._prices[op] for op in positions_of(ops)))
+
+
+def _literals(test: Test) -> list[int]:
+    mask, value = test
+    return [2 * i + (not value >> i & 1) for i in positions_of(mask)]
+
+
+def _rules(ops: Sequence[Operator]) -> Iterator[_Rule]:
+    for index, op in enumerate(ops):
+        for test in op.tests:
+            for change in op.changes:
+                gives = [2 * i for i in positions_of(change.adds)]
+                gives += [2 * i + 1 for i in positions_of(change.deletes)]
+                for given in change.tests:
+                    needs = (test[0] | given[0], test[1] | given[1])
+                    yield _Rule(index, needs, tuple(gives))
