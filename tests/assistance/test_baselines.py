@@ -1,5 +1,6 @@
 """The baselines' choices, against what can be worked out by hand."""
 
+import functools
 from dataclasses import replace
 
 import numpy as np
@@ -291,7 +292,8 @@ def test_information_lost_counts_against_a_branch(desk):
 
 @pytest.mark.parametrize("kind", [DecisionPoints, InformationGain])
 def test_a_forest_is_the_belief_by_default(desk, kind, monkeypatch):
-    monkeypatch.setattr(f"{kind.__module__}.ForestBelief", lambda bank: ForestBelief(bank, 0, 100, 2))
+    small = functools.partial(ForestBelief, seed=0, n_samples=100, n_trees=2)
+    monkeypatch.setattr(f"{kind.__module__}.ForestBelief", small)
     assert isinstance(kind(desk).belief, ForestBelief)
 
 
