@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from hrcplan.bank import Bank, build, from_problems
 from hrcplan.pddl.check import domain_in, problem_in
 from hrcplan.pddl.source import SourceText
+from tests import worlds
 
 # A shared machine has slow moments, so no deadline; the same examples in every run, so that a
 # failure can be seen again. To look for new ones: tools/test --hypothesis-profile=explore
@@ -109,3 +110,20 @@ def _distances(bank: Bank, goal: int) -> dict[int, int]:
 def distances() -> Callable[[Bank, int], dict[int, int]]:
     """How many actions lead to a goal at least, from every state that can be and has a way."""
     return _distances
+
+
+@pytest.fixture(scope="session")
+def workshop() -> Bank:
+    """Five goals; agents' facts never change."""
+    return build(worlds.world(worlds.WORKSHOP, worlds.PACKED, worlds.PARCELS))
+
+
+@pytest.fixture(scope="session")
+def hall() -> Bank:
+    """Four goals; agents walk."""
+    return build(worlds.world(worlds.HALL, worlds.ERRAND, worlds.ERRANDS))
+
+
+@pytest.fixture(scope="session")
+def walk() -> worlds.Walk:
+    return worlds.random_walk

@@ -1,18 +1,9 @@
-"""The small worlds of the tests of beliefs, and one in which order decides what tells most."""
-
-from importlib.util import module_from_spec, spec_from_file_location
-from pathlib import Path
+"""A small world in which order decides what tells most."""
 
 import pytest
 
 from hrcplan.bank import build
-
-_SPEC = spec_from_file_location(
-    "inference_worlds", Path(__file__).parents[1] / "inference" / "conftest.py"
-)
-_worlds = module_from_spec(_SPEC)
-_SPEC.loader.exec_module(_worlds)
-workshop, hall, walk = _worlds.workshop, _worlds.hall, _worlds.walk
+from tests.worlds import world
 
 # Whoever unlocks lets everybody do what is behind the lock, which tells nothing.
 DESK = """
@@ -43,4 +34,4 @@ LETTERS = {
 
 @pytest.fixture(scope="session")
 def desk():
-    return build(_worlds.world(DESK, DAY, LETTERS))
+    return build(world(DESK, DAY, LETTERS))

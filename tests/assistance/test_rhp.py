@@ -1,9 +1,7 @@
 """The paper's assistant: sequences, changes, trees; beside trees that are grown in full."""
 
 from dataclasses import FrozenInstanceError
-from importlib.util import module_from_spec, spec_from_file_location
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -22,10 +20,7 @@ from hrcplan.inference.classifier.forest import ForestBelief, ForestState
 from hrcplan.inference.exact import IMPOSSIBLE
 from hrcplan.inference.switching import SwitchingBelief
 from hrcplan.pddl.conventions import people, robots
-
-_SPEC = spec_from_file_location("worlds", Path(__file__).parents[1] / "inference" / "conftest.py")
-_worlds = module_from_spec(_SPEC)
-_SPEC.loader.exec_module(_worlds)
+from tests.worlds import world
 
 # Dishes share a bowl; each has two things of its own, which wait for nothing.
 TABLE = """
@@ -50,18 +45,8 @@ MEALS = {
 
 
 @pytest.fixture(scope="session")
-def workshop() -> Bank:
-    return build(_worlds.world(_worlds.WORKSHOP, _worlds.PACKED, _worlds.PARCELS))
-
-
-@pytest.fixture(scope="session")
-def hall() -> Bank:
-    return build(_worlds.world(_worlds.HALL, _worlds.ERRAND, _worlds.ERRANDS))
-
-
-@pytest.fixture(scope="session")
 def meals() -> Bank:
-    return build(_worlds.world(TABLE, SET, MEALS))
+    return build(world(TABLE, SET, MEALS))
 
 
 @pytest.fixture(scope="session", params=["workshop", "hall", "meals"])

@@ -9,8 +9,7 @@ from hypothesis import strategies as st
 
 from hrcplan.execution import events as ev
 from hrcplan.execution.run import Phase
-
-from .scripted import PLAN, ROBOT_ONLY, Script, adopted, dispatched
+from tests.execution.scripted import PLAN, ROBOT_ONLY, Script, adopted, dispatched
 
 MOTIVATION = ("motivation", "human")
 

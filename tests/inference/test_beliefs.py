@@ -18,6 +18,7 @@ from hrcplan.inference.recognition.cost import CostBelief
 from hrcplan.inference.recursive import Attractor, Next, RecursiveBelief
 from hrcplan.inference.switching import SwitchingBelief
 from hrcplan.testing import check_belief
+from tests.inference import enumerated_beliefs
 
 WORLDS = ["workshop", "hall"]
 
@@ -33,9 +34,12 @@ def possible(bank, steps):
     return tuple(found)
 
 
-def runs(bank, walk, brute):
+def runs(bank, walk):
     """Return plans, walks without a purpose, and plans of one goal that turn to another."""
-    plans = [brute.optimal_plans(bank, goal, bank.initial)[0] for goal in range(len(bank.names))]
+    plans = [
+        enumerated_beliefs.optimal_plans(bank, goal, bank.initial)[0]
+        for goal in range(len(bank.names))
+    ]
     turned = [possible(bank, (*a[:2], *b)) for a, b in pairwise(plans)]
     return [*plans, *turned, *(walk(bank, seed, 6) for seed in range(4))]
 
@@ -75,24 +79,26 @@ def test_the_worlds_are_of_both_kinds(workshop, hall):
     ],
     ids=["exact", "switching", "recursive", "next", "attractor", "forest", "cost", "estimated"],
 )  # fmt: skip
-def test_every_belief_keeps_the_laws(bank, walk, brute, make):
+def test_every_belief_keeps_the_laws(bank, walk, make):
     belief = make(bank)
-    sequences = runs(bank, walk, brute)
+    sequences = runs(bank, walk)
     check_belief(belief, sequences[:6] if isinstance(belief, CostBelief) else sequences)
 
 
-def test_exact_equals_bayes_over_listed_plans(bank, walk, brute):
+def test_exact_equals_bayes_over_listed_plans(bank, walk):
     """Also after mistakes, steps that no goal explains, and on graphs from other states."""
     belief = ExactBelief(bank, mistake_rate=0.05)
-    for steps in runs(bank, walk, brute):
+    for steps in runs(bank, walk):
         for length, row in enumerate(batch(belief, steps)):
-            assert row.tolist() == pytest.approx(brute.exact(bank, steps[:length], 0.05), abs=1e-8)
+            assert row.tolist() == pytest.approx(
+                enumerated_beliefs.exact(bank, steps[:length], 0.05), abs=1e-8
+            )
 
 
-def test_the_share_of_plans_decides(workshop, brute):
+def test_the_share_of_plans_decides(workshop):
     """The first step of a plan is as likely as the share of plans that begin with it."""
     goal = 0
-    plans = brute.optimal_plans(workshop, goal, workshop.initial)
+    plans = enumerated_beliefs.optimal_plans(workshop, goal, workshop.initial)
     first = plans[0][0]
     belief = ExactBelief(workshop)
     seen = belief.tracker.follow(belief.start().track, first)
@@ -102,29 +108,31 @@ def test_the_share_of_plans_decides(workshop, brute):
     assert math.exp(seen[1].log_shares[place]) == pytest.approx(share)
 
 
-def test_switching_equals_all_histories(bank, walk, brute):
+def test_switching_equals_all_histories(bank, walk):
     rates, chances = (0.01, 0.2), {"hazard": 0.15, "never": 0.3, "settles": 0.6}
     belief = SwitchingBelief(bank, mistake_rates=rates, **chances)
-    for steps in [run[:4] for run in runs(bank, walk, brute)]:
+    for steps in [run[:4] for run in runs(bank, walk)]:
         rows = batch(belief, steps)
         for length in range(1, len(steps) + 1):
             expected = np.zeros(len(bank.names))
-            for goals, _, weight in brute.histories(bank, steps[:length], rates, **chances):
+            for goals, _, weight in enumerated_beliefs.histories(
+                bank, steps[:length], rates, **chances
+            ):
                 expected[goals[-1]] += weight
             assert rows[length].tolist() == pytest.approx((expected / expected.sum()).tolist())
 
 
-def test_smoothed_changes_equal_all_histories(bank, walk, brute):
+def test_smoothed_changes_equal_all_histories(bank, walk):
     rates, chances = (0.01, 0.2), {"hazard": 0.15, "never": 0.3, "settles": 0.6}
     belief = SwitchingBelief(bank, mistake_rates=rates, **chances)
-    for steps in [run[:4] for run in runs(bank, walk, brute)]:
+    for steps in [run[:4] for run in runs(bank, walk)]:
         states = [belief.start()]
         for step in steps:
             states.append(belief.observe(states[-1], step))
         found = belief.filter._smoothed([state.filtered for state in states[1:]])
         expected = np.zeros(len(steps))
         total = 0.0
-        for _, changed, weight in brute.histories(bank, steps, rates, **chances):
+        for _, changed, weight in enumerated_beliefs.histories(bank, steps, rates, **chances):
             expected += weight * np.array(changed)
             total += weight
         assert found.tolist() == pytest.approx((expected / total).tolist())
@@ -143,13 +151,13 @@ def test_more_changes_than_are_counted_keep_their_weight():
     assert state.n_declared >= 4
 
 
-def test_goal_order_does_not_matter(bank, walk, brute):
+def test_goal_order_does_not_matter(bank, walk):
     order = list(bank.names)
     random.Random(3).shuffle(order)
     other = build(bank.goals.only(order))
     for kind in (ExactBelief, SwitchingBelief, RecursiveBelief):
         mine, theirs = kind(bank), kind(other)
-        for steps in runs(bank, walk, brute):
+        for steps in runs(bank, walk):
             for a, b in zip(batch(mine, steps), batch(theirs, steps), strict=True):
                 named = dict(zip(order, b.tolist(), strict=True))
                 assert a.tolist() == pytest.approx([named[name] for name in bank.names], abs=1e-8)

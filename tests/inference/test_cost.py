@@ -14,6 +14,7 @@ from hrcplan.inference.run import infer, run
 from hrcplan.search.relaxed_plan import Relaxation
 from hrcplan.task import BitEffect
 from hrcplan.task.steps import Operator
+from tests.inference import enumerated_beliefs
 
 GRID, BLOCKS = "easy-ipc-grid_p5-5-5_hyp-0_full", "block-words_p01_hyp-0_full"
 LOGISTICS, KITCHEN = "logistics_p01_hyp-3_full", "kitchen_generic_hyp-0_full_0"
@@ -36,14 +37,14 @@ def bank(request):
     return request.getfixturevalue(request.param)
 
 
-def test_proven_distances_are_those_of_breadth_first_search(bank, brute):
+def test_proven_distances_are_those_of_breadth_first_search(bank):
     ops = bank.table.ops
     for state in reached(bank, 1, 4):
         for goal, tests in enumerate(bank.goals.tests):
             if len(tests) > 1:
                 continue
             way = search([Searcher(ops, tests[0]).text(state)], 5.0, 10.0)[0]
-            plans = brute.optimal_plans(bank, goal, state)
+            plans = enumerated_beliefs.optimal_plans(bank, goal, state)
             assert (way is None) == (not plans)
             if way is not None:
                 assert way.cost == len(plans[0]) == len(way.ops)

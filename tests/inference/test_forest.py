@@ -12,6 +12,7 @@ from hrcplan.inference import batch
 from hrcplan.inference.classifier.flat_forest import FlatForest
 from hrcplan.inference.classifier.forest import MAX_KNOWN, ForestBelief
 from hrcplan.inference.classifier.training import columns, prefixes
+from tests.inference import enumerated_beliefs
 
 MEALS = 10
 SAMPLES = 12_000
@@ -125,10 +126,12 @@ def test_accuracy_is_near_the_ceiling_and_not_above_it(some, forest, begun):
     assert forest.training.accuracy == pytest.approx(best, abs=0.04)
 
 
-def test_the_ceiling_is_bayes_over_listed_prefixes(workshop, brute):
+def test_the_ceiling_is_bayes_over_listed_prefixes(workshop):
     """The posterior of a set of steps is the share of beginnings of plans that have this set."""
     ceiling = PrefixPosterior(workshop)
-    plans = [brute.optimal_plans(workshop, goal, workshop.initial) for goal in range(5)]
+    plans = [
+        enumerated_beliefs.optimal_plans(workshop, goal, workshop.initial) for goal in range(5)
+    ]
     for plan in plans[1]:
         for length in range(1, len(plan) + 1):
             steps = frozenset(plan[:length])

@@ -59,7 +59,7 @@ class Standing:
 
 
 class Follower:
-    """DESIGN, "States off the graph", with lists instead of graphs."""
+    """The tracker of a goal, with lists of plans instead of graphs."""
 
     def __init__(self, bank: Bank, goal: int) -> None:
         self.first = self.now = Standing(bank, goal, bank.initial)
