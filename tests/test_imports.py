@@ -63,6 +63,10 @@ def test_check_loads_nothing_heavy(tmp_path: Path) -> None:
     assert not loaded_by(tmp_path, "check", str(domain)) & (HEAVY | GPL)
 
 
+def test_execute_loads_nothing_heavy(tmp_path: Path) -> None:
+    assert not loaded_by(tmp_path, "execute", "transport/two-boxes") & (HEAVY | GPL)
+
+
 @pytest.mark.parametrize("module", ["hrcplan", "hrcplan.pytest_plugin"])
 def test_import_is_light(module: str) -> None:
     """The plugin loads in every pytest run of whoever has hrcplan installed."""

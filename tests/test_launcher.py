@@ -180,6 +180,32 @@ def test_changed_pins_update_and_the_test_extra_stays(installed: Path) -> None:
     assert builds(installed) == before + 2
 
 
+@pytest.mark.parametrize(("args", "no_skips"), [([], ""), (["--all"], "1")])
+def test_every_check_runs_and_all_allows_no_skips(
+    tmp_path: Path, args: list[str], no_skips: str
+) -> None:
+    root = make_project(tmp_path / "checkout")
+    outcome(start(root, "--version", tool=root / "tools" / "test"))
+    for name in ("ruff", "mypy", "lint-imports", "pytest"):
+        tool = root / ".venv" / "bin" / name
+        tool.write_text(f'#!/bin/sh\necho "called {name} <$HRCPLAN_NO_SKIPS> $*"\n')
+        tool.chmod(0o755)
+    code, stdout, stderr = outcome(
+        start(root, *args, tool=root / "tools" / "test", HRCPLAN_NO_SKIPS="")
+    )
+    assert code == 0, stderr
+    called = [line for line in stdout.splitlines() if line.startswith("called ")]
+    assert [line.split()[1] for line in called] == [
+        "ruff",
+        "ruff",
+        "mypy",
+        "lint-imports",
+        "pytest",
+    ]
+    assert f"<{no_skips}>" in called[-1]
+    assert "--durations=15" in called[-1]
+
+
 def test_two_first_calls_at_once_install_once(tmp_path: Path) -> None:
     root = make_project(tmp_path / "checkout")
     (root / "wait").touch()

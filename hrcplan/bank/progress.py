@@ -61,7 +61,7 @@ class Evidence:
 
 
 class ProgressTracker:
-    """Follows observed steps through the graphs of a bank; see DESIGN, "States off the graph"."""
+    """Follows observed steps through the graphs of a bank (docs/design.md)."""
 
     def __init__(self, bank: Bank) -> None:
         self.bank = bank

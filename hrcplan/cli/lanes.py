@@ -1,4 +1,4 @@
-"""A result of planning as JSON (DESIGN, section 6) and as a table with a lane per agent."""
+"""A result of planning as JSON and as a table with a lane per agent."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The measures of an episode in turns, as the second paper's section IV-E reads; see DESIGN."""
+"""The measures of an episode in turns (section IV-E of the changed-mind paper)."""
 
 from __future__ import annotations
 

@@ -47,7 +47,7 @@ class SwitchingState:
 
 
 class SwitchingBelief:
-    """The posterior of the present goal; see DESIGN, "Beliefs".
+    """The posterior of the present goal.
 
     A step of the goal has likelihood (1 - p) over the number of steps that could come next in its
     plans; a mistake p over the number of steps that could be done and would not.

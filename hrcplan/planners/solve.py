@@ -232,7 +232,7 @@ def _checked(
 
 
 def check_answer(planner: Planner, problem: Problem, answer: Answer) -> Report:
-    """Return the replay of an answer's plan: the cost guard (DESIGN, lowering).
+    """Return the replay of an answer's plan: the cost guard.
 
     Raises:
         PlannerError: if the plan is invalid.

@@ -1,0 +1,128 @@
+"""Rules about the whole package: one definition per name, no import cycles, true references."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections import defaultdict
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parent.parent
+PACKAGE = ROOT / "hrcplan"
+MODULES = {
+    ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__"): path
+    for path in sorted(PACKAGE.rglob("*.py"))
+}
+TREES = {name: ast.parse(path.read_text(encoding="utf-8")) for name, path in MODULES.items()}
+
+
+def type_names(tree: ast.Module) -> Iterator[tuple[str, str]]:
+    """Yield the public classes and type aliases of a module, each with what it stands for.
+
+    Two aliases of one type are the same definition; a class never is that of another module.
+    """
+    for node in tree.body:
+        if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
+            yield node.name, f"class {node.name} {id(node)}"
+        elif isinstance(node, ast.Assign):
+            for target in node.targets:
+                if isinstance(target, ast.Name) and re.fullmatch(r"[A-Z]\w*[a-z]\w*", target.id):
+                    yield target.id, ast.unparse(node.value).replace("npt.", "")
+
+
+def definitions() -> dict[str, dict[str, str]]:
+    """Return what each type name stands for, by a module that says so."""
+    found: dict[str, dict[str, str]] = defaultdict(dict)
+    for module, tree in TREES.items():
+        for name, meaning in type_names(tree):
+            found[name].setdefault(meaning, module)
+    return found
+
+
+def test_every_type_name_has_one_definition() -> None:
+    assert {n: [*where.values()] for n, where in definitions().items() if len(where) > 1} == {}
+
+
+def glossary() -> list[str]:
+    """Return the words of the glossary."""
+    rows = re.findall(r"^\| (.+?) \|", (ROOT / "docs/glossary.md").read_text("utf-8"), re.MULTILINE)
+    return [re.sub(r"[*`]", "", word).strip() for row in rows for word in re.split(r"[,/]", row)]
+
+
+def test_a_glossary_word_is_explained_once() -> None:
+    words = [word for word in glossary() if word not in ("word", "---")]
+    assert len(words) > 60
+    assert [word for word in set(words) if words.count(word) > 1] == []
+
+
+def test_a_glossary_word_names_one_class() -> None:
+    classes = definitions()
+    names = {"".join(part.title() for part in re.split(r"[ -]", word)) for word in glossary()}
+    defined = {name: classes[name] for name in names & classes.keys()}
+    assert {"Plan", "PlanGraph", "Belief", "Assistant", "Course"} <= defined.keys()
+    assert all(len(modules) == 1 for modules in defined.values()), defined
+
+
+def imports(module: str) -> Iterator[str]:
+    """Yield the modules of the package that are loaded when a module is: not those in functions."""
+    waiting: list[ast.stmt] = list(TREES[module].body)
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, ast.ImportFrom) and node.module and not node.level:
+            yield from (
+                name if (name := f"{node.module}.{alias.name}") in MODULES else node.module
+                for alias in node.names
+            )
+        elif isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.If) and "TYPE_CHECKING" not in ast.unparse(node.test):
+            waiting += [*node.body, *node.orelse]
+        elif isinstance(node, ast.Try):
+            waiting += [*node.body, *node.orelse, *(s for h in node.handlers for s in h.body)]
+
+
+def test_no_imports_go_round() -> None:
+    edges = {name: {to for to in imports(name) if to in MODULES and to != name} for name in MODULES}
+    while leaves := [name for name, targets in edges.items() if not targets & edges.keys()]:
+        for name in leaves:
+            del edges[name]
+    assert edges == {}, "these modules import one another"
+
+
+def headings(document: Path) -> set[str]:
+    """Return the headings of a document, in small letters."""
+    text = document.read_text(encoding="utf-8")
+    return {line.lstrip("# ").strip().lower() for line in text.splitlines() if line[:1] == "#"}
+
+
+# `docs/design.md`, and docs/design.md, "Execution"
+CITED = re.compile(r"\b(docs/[\w/-]+\.md)(?:`{0,2},\s*(?:section\s+)?[\"“]([^\"”]+)[\"”])?")
+SOURCES = [*PACKAGE.rglob("*.py"), *PACKAGE.rglob("*.toml"), *(ROOT / "tests").rglob("*.py"),
+           *(ROOT / "tools").iterdir(), *(ROOT / "domains").glob("*.pddl")]  # fmt: skip
+
+
+def test_cited_documents_and_sections_exist() -> None:
+    faults = []
+    for source in (path for path in SOURCES if path.is_file() and path != Path(__file__)):
+        text = re.sub(r"\n\s*(#|;;?)?\s*", " ", source.read_text(encoding="utf-8"))
+        place = source.relative_to(ROOT)
+        for name, section in CITED.findall(text):
+            if not (ROOT / name).is_file():
+                faults.append(f"{place} cites {name}")
+            elif section and section.lower() not in headings(ROOT / name):
+                faults.append(f"{place} cites {name}, {section}")
+        if re.search(r"\bDESIGN\b", text):
+            faults.append(f"{place} cites DESIGN: the design is docs/design.md")
+    assert faults == []
+
+
+@pytest.mark.parametrize("name", ["CONTRIBUTING.md", "README.md"])
+def test_files_named_in_documents_exist(name: str) -> None:
+    text = (ROOT / name).read_text(encoding="utf-8")
+    paths = re.findall(r"`([\w-]+(?:/[\w-]+)*/(?:[\w-]+\.(?:py|md|toml))?)`", text)
+    assert paths
+    missing = [p for p in paths if not any((base / p).exists() for base in (ROOT, PACKAGE))]
+    assert missing == []
