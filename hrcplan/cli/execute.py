@@ -107,17 +107,17 @@ def command(
     """Carry out DOMAIN PROBLEM with a simulated human, and replan before actions fail."""
     from hrcplan.cli.arguments import problem_of, split_names
     from hrcplan.cli.live import Live
-    from hrcplan.execution.execute import carry_out, make_setting
+    from hrcplan.execution.execute import carry_out, make_setup
 
     domain, name, _ = split_names(names, 0)
     problem = problem_of(domain, name, settings)
-    setting = make_setting(
+    setup = make_setup(
         problem, profile=profile_name, human=human, model=not no_model, planner=planner, seed=seed,
         changes=[_change(text, problem) for text in changes], replan_limit=replan_limit,
         timeout_s=timeout,
     )  # fmt: skip
     live = Live(problem, speed)
-    done = carry_out(setting, journal=journal, resume=resume, timeout_s=timeout,
+    done = carry_out(setup, journal=journal, resume=resume, timeout_s=timeout,
                      watch=None if output.JSON else live.watch)  # fmt: skip
     if output.JSON:
         row = done.row

@@ -10,7 +10,7 @@ from hrcplan.cli import output
 from hrcplan.core.text import plural
 from hrcplan.execution import events as ev
 from hrcplan.execution.events import Command, Event
-from hrcplan.execution.row import Outcome
+from hrcplan.execution.outcome import Outcome
 from hrcplan.execution.run import Run, RunningAction
 from hrcplan.pddl.conventions import robots
 from hrcplan.pddl.model import Problem, fact_text, number_text

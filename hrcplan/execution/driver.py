@@ -31,10 +31,10 @@ class PlanProvider(Protocol):
 class RunRecord(Protocol):
     """Where events and decisions go before they are acted on."""
 
-    def take(self, event: Event) -> Event:
+    def record_event(self, event: Event) -> Event:
         """Write an event down and return it as it can be read again."""
 
-    def decided(self, commands: tuple[Command, ...]) -> None:
+    def record_decision(self, commands: tuple[Command, ...]) -> None:
         """Write down what the monitor decided."""
 
     def recorded_plan(self) -> ev.Planned | None:
@@ -44,11 +44,11 @@ class RunRecord(Protocol):
 class NullRecord:
     """A record that is not kept."""
 
-    def take(self, event: Event) -> Event:
+    def record_event(self, event: Event) -> Event:
         """Return the event."""
         return event
 
-    def decided(self, commands: tuple[Command, ...]) -> None:
+    def record_decision(self, commands: tuple[Command, ...]) -> None:
         """Forget the decision."""
 
     def recorded_plan(self) -> ev.Planned | None:
@@ -96,9 +96,9 @@ class Driver:
         return run
 
     def _step(self, run: Run, event: Event) -> tuple[Run, ev.AskPlan | None]:
-        event = self.record.take(event)
+        event = self.record.record_event(event)
         run, commands = self.monitor.step(run, event)
-        self.record.decided(commands)
+        self.record.record_decision(commands)
         if self.watch is not None:
             self.watch(run, event, commands)
         asked = None

@@ -1,4 +1,4 @@
-"""What can happen to the monitor (events) and what it asks for (commands), as values and as JSON.
+"""What can happen to the monitor (events) and what it asks for (commands), as values.
 
 Times are seconds on the world's clock. Events closer than ``INSTANT_S`` are one instant; within
 it they come in the order of ``RANK``, and ``Settled`` closes it.
@@ -6,15 +6,11 @@ it they come in the order of ``RANK``, and ``Settled`` closes it.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
-from fractions import Fraction
-from typing import Any
+from dataclasses import dataclass
 
-from hrcplan.errors import PlanFormatError
 from hrcplan.pddl.model import Fact, FluentKey, Number, fact_text
-from hrcplan.plans import Plan, PlannedAction, format_plan, parse_plan
+from hrcplan.plans import Plan, PlannedAction
 
 INSTANT_S = 0.01
 
@@ -162,101 +158,6 @@ class Finish:
 
 
 Command = AskPlan | Dispatch | Cancel | Wake | Adopt | Tell | Finish
-
-_KINDS: Mapping[str, type] = {
-    kind.__name__.lower(): kind
-    for kind in (Ended, Overdue, Observed, Sensed, Settled, Planned, StopAsked,
-                 AskPlan, Dispatch, Cancel, Wake, Adopt, Tell, Finish)
-}  # fmt: skip
-
-
-def to_json(item: Event | Command) -> dict[str, Any]:
-    """Return an event or command as a JSON object; ``kind`` comes first.
-
-    >>> to_json(Ended(50.0, 1, "done"))
-    {'kind': 'ended', 't': 50.0, 'number': 1, 'outcome': 'done'}
-    """
-    found: dict[str, Any] = {"kind": type(item).__name__.lower()}
-    for field in fields(item):
-        found[field.name] = _encoded(getattr(item, field.name))
-    return found
-
-
-def from_json(document: Mapping[str, Any]) -> Any:
-    """Return the event or command that ``to_json`` made a JSON object of.
-
-    Raises:
-        ValueError: if it is none.
-    """
-    try:
-        kind = _KINDS[document["kind"]]
-        found = kind(**{k: _decoded(k, v) for k, v in document.items() if k != "kind"})
-        if found.t >= 0 and isinstance(getattr(found, "number", 0), int):
-            return found
-        raise ValueError(f"no event: {document}")
-    except (KeyError, TypeError, AttributeError, PlanFormatError) as error:
-        raise ValueError(f"no event: {error}") from None
-
-
-def _encoded(value: Any) -> Any:
-    if isinstance(value, Plan):
-        return format_plan(value).splitlines()
-    if isinstance(value, frozenset):
-        return sorted(" ".join(fact) for fact in value)
-    if isinstance(value, Mapping):
-        return {" ".join(key): _number(number) for key, number in value.items()}
-    if isinstance(value, tuple):
-        return list(value)
-    return _number(value) if isinstance(value, Fraction) else value
-
-
-def _number(value: float | Number) -> float | int | str:
-    if isinstance(value, float) and not math.isfinite(value):
-        return str(value)  # JSON knows no such numbers
-    return value if isinstance(value, (int, float)) else float(value)
-
-
-def exact(number: float | str) -> float | Number:
-    """Return a number of a journal as it was before: what was exact is exact again.
-
-    >>> exact(58.00051), exact("nan")
-    (Fraction(5800051, 100000), nan)
-    """
-    if isinstance(number, str):
-        return float(number)
-    if isinstance(number, int):
-        return number
-    value = Fraction(repr(number))
-    return int(value) if value.denominator == 1 else value
-
-
-def _facts(words: list[str]) -> frozenset[Fact]:
-    return frozenset(tuple(word.split(" ")) for word in words)
-
-
-def _numbers(table: Mapping[str, float] | None) -> dict[FluentKey, Any] | None:
-    if table is None:
-        return None
-    return {tuple(key.split(" ")): exact(number) for key, number in table.items()}
-
-
-def _plan(lines: list[str] | None) -> Plan | None:
-    return None if lines is None else parse_plan("\n".join(lines))
-
-
-def _decoded(name: str, value: Any) -> Any:
-    match name:
-        case "facts":
-            return _facts(value)
-        case "numbers" | "values":
-            return _numbers(value)
-        case "plan":
-            return _plan(value)
-        case "args" | "reasons":
-            return tuple(value)
-        case "metric":
-            return None if value is None else exact(value)
-    return value
 
 
 def planned(dispatch: Dispatch) -> PlannedAction:

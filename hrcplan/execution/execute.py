@@ -11,9 +11,9 @@ from hrcplan.errors import UsageError
 from hrcplan.execution.driver import PlanProvider, RunWatch
 from hrcplan.execution.events import Command, Event
 from hrcplan.execution.humans import STEADY, WorldChange, nature_for
-from hrcplan.execution.journal import Journal, RunSetup, Writer, read_journal
+from hrcplan.execution.journal import Journal, JournalWriter, RunSetup, read_journal
+from hrcplan.execution.outcome import Outcome
 from hrcplan.execution.replanner import DEFAULT_TIMEOUT_S, Replanner
-from hrcplan.execution.row import Outcome
 from hrcplan.execution.run import Run
 from hrcplan.execution.simulate import Spec, make_engine
 from hrcplan.execution.timeline import Timeline
@@ -70,12 +70,12 @@ def execute(
     'goal reached'
     """
     loaded = load_problem(domain, problem).with_values(values or {})
-    setting = make_setting(loaded, profile=profile, human=human, changes=changes, model=model,
+    setup = make_setup(loaded, profile=profile, human=human, changes=changes, model=model,
                            planner=planner, seed=seed, replan_limit=replan_limit)  # fmt: skip
-    return carry_out(setting, journal=journal, resume=resume)
+    return carry_out(setup, journal=journal, resume=resume)
 
 
-def make_setting(
+def make_setup(
     problem: Problem, *, profile: str = "hrcplan", human: str = STEADY,
     changes: Sequence[WorldChange] = (), model: bool = True, planner: str = "auto",
     seed: int | str = 1, replan_limit: int | None = None, timeout_s: float = DEFAULT_TIMEOUT_S,
@@ -93,13 +93,13 @@ def make_setting(
 
 
 def carry_out(
-    setting: RunSetup, *, journal: Path | None = None, resume: bool = False,
+    setup: RunSetup, *, journal: Path | None = None, resume: bool = False,
     timeout_s: float = DEFAULT_TIMEOUT_S, watch: RunWatch | None = None,
     planner: PlanProvider | None = None,
 ) -> Executed:  # fmt: skip
-    """Return the finished run of a setting; a resumed one takes the setting of its journal.
+    """Return the finished run of a setup; a resumed one takes the setup of its journal.
 
-    ``planner`` answers instead of the planners that the setting names.
+    ``planner`` answers instead of the planners that the setup names.
 
     Raises:
         InputError: if the journal is damaged or of another run.
@@ -107,12 +107,14 @@ def carry_out(
     """
     known = _known(journal, resume)
     if known is not None:
-        setting = _same_problem(known, setting)
+        setup = _same_problem(known, setup)
     writer = None
     if journal is not None:
-        writer = Writer.begin(journal, setting) if known is None else Writer.resume(known)
-    answering = planner or Replanner(setting.problem, setting.planners, timeout_s)
-    engine = make_engine(setting.problem, setting.profile, setting.sensing, answering)
+        writer = (
+            JournalWriter.begin(journal, setup) if known is None else JournalWriter.resume(known)
+        )
+    answering = planner or Replanner(setup.problem, setup.planners, timeout_s)
+    engine = make_engine(setup.problem, setup.profile, setup.sensing, answering)
     timeline = Timeline()
 
     def both(run: Run, event: Event, commands: tuple[Command, ...]) -> None:
@@ -120,7 +122,7 @@ def carry_out(
         if watch is not None:
             watch(run, event, commands)
 
-    run = engine.run(setting.nature, writer, both)
+    run = engine.run(setup.nature, writer, both)
     row = engine.row(run)
     if writer is not None:
         writer.close(row)
@@ -142,9 +144,9 @@ def _known(path: Path | None, resume: bool) -> Journal | None:
     return known
 
 
-def _same_problem(known: Journal, setting: RunSetup) -> RunSetup:
-    found = known.setting()
-    ours, theirs = setting.problem, found.problem
+def _same_problem(known: Journal, setup: RunSetup) -> RunSetup:
+    found = known.setup()
+    ours, theirs = setup.problem, found.problem
     if (ours.domain.name, ours.name) != (theirs.domain.name, theirs.name):
         message = f"the journal is of {theirs.domain.name}/{theirs.name}"
         raise UsageError(message, path=str(known.path))

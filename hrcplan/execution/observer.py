@@ -13,6 +13,7 @@ from hrcplan.agents.state import LEAST, MOST
 from hrcplan.errors import UsageError
 from hrcplan.execution import events as ev
 from hrcplan.execution.acting import ActionModel, BoundAction
+from hrcplan.execution.codec import exact_number
 from hrcplan.execution.events import Command
 from hrcplan.execution.order import Waits
 from hrcplan.execution.run import Phase, Run, RunningAction, plus
@@ -165,7 +166,7 @@ class Observer:
 
 
 def _number(seconds: float) -> Number:
-    return int(seconds) if seconds == int(seconds) else ev.exact(seconds)  # type: ignore[return-value]
+    return int(seconds) if seconds == int(seconds) else exact_number(seconds)  # type: ignore[return-value]
 
 
 def _shown(step: BoundAction) -> str:

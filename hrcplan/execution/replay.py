@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from hrcplan.execution import events as ev
-from hrcplan.execution.events import from_json, to_json
+from hrcplan.execution.codec import from_json, to_json
 from hrcplan.execution.journal import Journal
 from hrcplan.execution.monitor import Monitor
-from hrcplan.execution.row import Outcome, row_of
+from hrcplan.execution.outcome import Outcome, outcome_of
 from hrcplan.execution.run import Run
 from hrcplan.validation import validate
 
@@ -41,8 +41,8 @@ def replay(journal: Journal) -> Replayed:
     Raises:
         InputError: if the journal has no beginning, or an event cannot be read.
     """
-    setting = journal.setting()
-    monitor = Monitor(setting.problem, setting.profile, setting.sensing)
+    setup = journal.setup()
+    monitor = Monitor(setup.problem, setup.profile, setup.sensing)
     run = monitor.begin()
     due: list[dict[str, Any]] | None = None
     n_events = n_decisions = 0
@@ -53,7 +53,7 @@ def replay(journal: Journal) -> Replayed:
             n_decisions += difference is None
             due = None
         elif "row" in line:
-            row = row_of(run, monitor.agents.robots).to_json()
+            row = outcome_of(run, monitor.agents.robots).to_json()
             difference = _differs(number, {"row": row}, line)
         else:
             difference = _unfounded(number, line, run, monitor)
@@ -63,7 +63,7 @@ def replay(journal: Journal) -> Replayed:
                 n_events += 1
         if difference is not None:
             break
-    return Replayed(n_events, n_decisions, row_of(run, monitor.agents.robots), difference)
+    return Replayed(n_events, n_decisions, outcome_of(run, monitor.agents.robots), difference)
 
 
 def _differs(

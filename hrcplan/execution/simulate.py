@@ -14,8 +14,8 @@ from hrcplan.errors import UsageError
 from hrcplan.execution import events as ev
 from hrcplan.execution.driver import Driver, NullRecord, PlanProvider, RunRecord, RunWatch
 from hrcplan.execution.monitor import Monitor
+from hrcplan.execution.outcome import Outcome, outcome_of
 from hrcplan.execution.replanner import Replanner
-from hrcplan.execution.row import Outcome, row_of
 from hrcplan.execution.run import Run
 from hrcplan.execution.worlds import chance
 from hrcplan.execution.worlds.simulated import (
@@ -95,7 +95,7 @@ class Engine:
 
     def row(self, run: Run) -> Outcome:
         """Return the row of a run."""
-        return row_of(run, self.monitor.agents.robots)
+        return outcome_of(run, self.monitor.agents.robots)
 
 
 def simulate(spec: Spec) -> Outcome:

@@ -9,7 +9,7 @@ import pytest
 from hrcplan.agents import profile
 from hrcplan.execution import Outcome, Spec, engine_for, means, simulate
 from hrcplan.execution import events as ev
-from hrcplan.execution.execute import carry_out, make_setting
+from hrcplan.execution.execute import carry_out, make_setup
 from hrcplan.execution.journal import read_journal
 from hrcplan.execution.replay import replay
 from hrcplan.execution.simulate import make_engine
@@ -87,9 +87,9 @@ def test_what_could_only_get_worse_is_no_state_of_the_task() -> None:
 def test_a_journal_of_interactions_replays(tmp_path: Any) -> None:
     problem = load_problem("transport-coached", "two-boxes")
     path = tmp_path / "run.jsonl"
-    setting = make_setting(problem, profile="estimated", human="case2", planner="exact", seed=3)
-    setting = replace(setting, profile=profile("hrcplan"))
-    done = carry_out(setting, journal=path)
+    setup = make_setup(problem, profile="estimated", human="case2", planner="exact", seed=3)
+    setup = replace(setup, profile=profile("hrcplan"))
+    done = carry_out(setup, journal=path)
     found = replay(read_journal(path))
     assert found.difference is None
     assert found.row == done.row
@@ -97,9 +97,9 @@ def test_a_journal_of_interactions_replays(tmp_path: Any) -> None:
 
 def test_estimates_are_replayed_too(tmp_path: Any) -> None:
     path = tmp_path / "run.jsonl"
-    setting = make_setting(load_problem("transport", "two-boxes"), profile="estimated", model=False,
+    setup = make_setup(load_problem("transport", "two-boxes"), profile="estimated", model=False,
                            human="case1", planner="exact", seed=5)  # fmt: skip
-    done = carry_out(setting, journal=path)
+    done = carry_out(setup, journal=path)
     found = replay(read_journal(path))
     assert (found.difference, found.row) == (None, done.row)
 

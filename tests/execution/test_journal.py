@@ -18,9 +18,9 @@ from hypothesis import strategies as st
 
 from hrcplan.errors import InputError, UsageError
 from hrcplan.execution import events as ev
-from hrcplan.execution.events import from_json, to_json
-from hrcplan.execution.execute import Executed, carry_out, execute, make_setting
-from hrcplan.execution.journal import RunSetup, Writer, read_journal, setting_of
+from hrcplan.execution.codec import from_json, to_json
+from hrcplan.execution.execute import Executed, carry_out, execute, make_setup
+from hrcplan.execution.journal import JournalWriter, RunSetup, read_journal, setup_from_json
 from hrcplan.execution.replanner import Replanner
 from hrcplan.execution.replay import replay
 from hrcplan.execution.worlds.simulated import FactChange, Nature, StateChange
@@ -38,8 +38,8 @@ CHANGES = (
 
 def eventful(journal: Path, resume: bool = False) -> Executed:
     problem = load_problem("transport", "two-boxes")
-    setting = make_setting(problem, profile="paper", changes=CHANGES, seed=5)
-    return carry_out(setting, journal=journal, resume=resume, planner=shared_planner())
+    setup = make_setup(problem, profile="paper", changes=CHANGES, seed=5)
+    return carry_out(setup, journal=journal, resume=resume, planner=shared_planner())
 
 
 @lru_cache
@@ -205,9 +205,9 @@ def test_two_processes_do_not_write_one_journal(
     whole: tuple[Path, Executed], tmp_path: Path
 ) -> None:
     path = tmp_path / "shared.jsonl"
-    writer = Writer.begin(path, read_journal(whole[0]).setting())
+    writer = JournalWriter.begin(path, read_journal(whole[0]).setup())
     with pytest.raises(UsageError, match="another process"):
-        Writer.resume(read_journal(path))
+        JournalWriter.resume(read_journal(path))
     writer.close(whole[1].row)
 
 
@@ -223,12 +223,12 @@ def test_not_a_journal(tmp_path: Path) -> None:
 def test_settings_survive_the_journal() -> None:
     problem = load_problem("kitchen", "salad-greek")
     nature = Nature("a/1", CHANGES[:1], CHANGES[1:], "after", "attempt", frozenset({"mix"}))
-    setting = make_setting(problem, profile="hrcplan", seed="x")
-    setting = RunSetup(setting.problem, setting.profile, False, nature, ("kairos",))
-    table = json.loads(json.dumps(setting.to_json()))
-    found = setting_of(table, "test")
-    assert found.to_json() == setting.to_json()
-    assert (found.profile, found.nature.can_fail) == (setting.profile, nature.can_fail)
+    setup = make_setup(problem, profile="hrcplan", seed="x")
+    setup = RunSetup(setup.problem, setup.profile, False, nature, ("kairos",))
+    table = json.loads(json.dumps(setup.to_json()))
+    found = setup_from_json(table, "test")
+    assert found.to_json() == setup.to_json()
+    assert (found.profile, found.nature.can_fail) == (setup.profile, nature.can_fail)
 
 
 def test_events_survive_the_journal() -> None:
@@ -249,3 +249,15 @@ def test_a_value_that_json_cannot_hold_survives_too() -> None:
     assert "NaN" not in text
     (value,) = from_json(json.loads(text)).values.values()
     assert value != value
+
+
+def test_a_journal_of_an_earlier_version_is_replayed_and_resumed(tmp_path: Path) -> None:
+    old = Path(__file__).parents[1] / "data" / "journals" / "version-0.1.jsonl"
+    found = replay(read_journal(old))
+    assert found.difference is None
+    row = found.row
+    assert min(row.replans_failure, row.replans_deviation) > 0
+    begun = tmp_path / "run.jsonl"
+    begun.write_bytes(b"".join(old.read_bytes().splitlines(keepends=True)[:12]))
+    again = execute("transport", "two-boxes", journal=begun, resume=True)
+    assert again.row == found.row

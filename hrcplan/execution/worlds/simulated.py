@@ -14,6 +14,7 @@ from hrcplan.agents import AgentModel
 from hrcplan.agents.state import LEAST, MOST
 from hrcplan.execution import events as ev
 from hrcplan.execution.acting import ActionModel, BoundAction, Undo
+from hrcplan.execution.codec import exact_number
 from hrcplan.execution.events import Command, Event
 from hrcplan.execution.worlds import chance
 from hrcplan.pddl.model import Fact, FluentKey, Number, Problem
@@ -122,7 +123,7 @@ class SimulatedWorld:
     def _begin(self, command: ev.Dispatch) -> None:
         step = self.acting.step(ev.planned(command))
         assert step is not None
-        duration = ev.exact(command.duration_s)
+        duration = exact_number(command.duration_s)
         self.state, undo = self.acting.begin(self.state, step, duration)  # type: ignore[arg-type]
         end_s = command.t + command.duration_s * self._stretch(step, command.number)
         self._acted[command.number] = _Acted(step, duration, end_s, undo)  # type: ignore[arg-type]

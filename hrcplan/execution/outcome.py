@@ -76,7 +76,7 @@ class Outcome:
         return asdict(self)
 
 
-def row_of(run: Run, robots: frozenset[str]) -> Outcome:
+def outcome_of(run: Run, robots: frozenset[str]) -> Outcome:
     """Return the row of a run; of an unfinished one as far as it has come."""
     tally = run.tally
 

@@ -1,0 +1,111 @@
+"""Events and commands as JSON objects, and back: the lines of journals."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import fields
+from fractions import Fraction
+from typing import Any
+
+from hrcplan.errors import PlanFormatError
+from hrcplan.execution import events as ev
+from hrcplan.execution.events import Command, Event
+from hrcplan.pddl.model import Fact, FluentKey, Number
+from hrcplan.plans import Plan, format_plan, parse_plan
+
+_KINDS: Mapping[str, type] = {
+    kind.__name__.lower(): kind
+    for kind in (ev.Ended, ev.Overdue, ev.Observed, ev.Sensed, ev.Settled, ev.Planned, ev.StopAsked,
+                 ev.AskPlan, ev.Dispatch, ev.Cancel, ev.Wake, ev.Adopt, ev.Tell, ev.Finish)
+}  # fmt: skip
+
+
+def to_json(item: Event | Command) -> dict[str, Any]:
+    """Return an event or command as a JSON object; ``kind`` comes first.
+
+    >>> from hrcplan.execution import events as ev
+    >>> to_json(ev.Ended(50.0, 1, "done"))
+    {'kind': 'ended', 't': 50.0, 'number': 1, 'outcome': 'done'}
+    """
+    document: dict[str, Any] = {"kind": type(item).__name__.lower()}
+    for field in fields(item):
+        document[field.name] = _encoded(getattr(item, field.name))
+    return document
+
+
+def from_json(document: Mapping[str, Any]) -> Any:
+    """Return the event or command that ``to_json`` made a JSON object of.
+
+    Raises:
+        ValueError: if it is none.
+    """
+    try:
+        kind = _KINDS[document["kind"]]
+        item = kind(**{k: _decoded(k, v) for k, v in document.items() if k != "kind"})
+        if item.t >= 0 and isinstance(getattr(item, "number", 0), int):
+            return item
+        raise ValueError(f"no event: {document}")
+    except (KeyError, TypeError, AttributeError, PlanFormatError) as error:
+        raise ValueError(f"no event: {error}") from None
+
+
+def _encoded(value: Any) -> Any:
+    if isinstance(value, Plan):
+        return format_plan(value).splitlines()
+    if isinstance(value, frozenset):
+        return sorted(" ".join(fact) for fact in value)
+    if isinstance(value, Mapping):
+        return {" ".join(key): _number(number) for key, number in value.items()}
+    if isinstance(value, tuple):
+        return list(value)
+    return _number(value) if isinstance(value, Fraction) else value
+
+
+def _number(value: float | Number) -> float | int | str:
+    if isinstance(value, float) and not math.isfinite(value):
+        return str(value)  # JSON knows no such numbers
+    return value if isinstance(value, (int, float)) else float(value)
+
+
+def exact_number(number: float | str) -> float | Number:
+    """Return a number of a journal as it was before: what was exact is exact again.
+
+    >>> exact_number(58.00051), exact_number("nan")
+    (Fraction(5800051, 100000), nan)
+    """
+    if isinstance(number, str):
+        return float(number)
+    if isinstance(number, int):
+        return number
+    value = Fraction(repr(number))
+    return int(value) if value.denominator == 1 else value
+
+
+def _facts(words: list[str]) -> frozenset[Fact]:
+    return frozenset(tuple(word.split(" ")) for word in words)
+
+
+def _numbers(table: Mapping[str, float] | None) -> dict[FluentKey, Any] | None:
+    if table is None:
+        return None
+    return {tuple(key.split(" ")): exact_number(number) for key, number in table.items()}
+
+
+def _plan(lines: list[str] | None) -> Plan | None:
+    return None if lines is None else parse_plan("\n".join(lines))
+
+
+def _decoded(name: str, value: Any) -> Any:
+    match name:
+        case "facts":
+            return _facts(value)
+        case "numbers" | "values":
+            return _numbers(value)
+        case "plan":
+            return _plan(value)
+        case "args" | "reasons":
+            return tuple(value)
+        case "metric":
+            return None if value is None else exact_number(value)
+    return value

@@ -1,0 +1,70 @@
+"""Journals are read: complete lines only, each checked."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from hrcplan.errors import InputError
+from hrcplan.execution.journal.setup import RunSetup, setup_from_json
+
+FORMAT = 1
+
+
+@dataclass(frozen=True)
+class Journal:
+    """What a journal file holds: complete lines only, and how many bytes they take."""
+
+    path: Path
+    lines: tuple[dict[str, Any], ...]
+    n_bytes: int
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether not even the first line was written."""
+        return not self.lines
+
+    def setup(self) -> RunSetup:
+        """Return what the run depends on.
+
+        Raises:
+            InputError: if the first line does not say so.
+        """
+        head = self.lines[0] if self.lines else {}
+        if head.get("journal") != FORMAT:
+            message = f"this is no journal of format {FORMAT}"
+            raise InputError(message, code="bad-journal", path=str(self.path), line=1)
+        return setup_from_json(head, str(self.path))
+
+
+def read_journal(path: Path) -> Journal:
+    """Return a journal without its torn last line, if there is one.
+
+    Raises:
+        InputError: if the file is missing, a line before the last is damaged, or a number is
+            missing or out of order.
+    """
+    try:
+        raw = path.read_bytes()
+    except OSError as error:
+        message = f"cannot read the journal: {error.strerror}"
+        raise InputError(message, code="no-file", path=str(path)) from None
+    lines: list[dict[str, Any]] = []
+    whole = raw[: raw.rfind(b"\n") + 1]
+    for number, text in enumerate(whole.splitlines(), start=1):
+        lines.append(_line(text, number, path))
+    return Journal(path, tuple(lines), len(whole))
+
+
+def _line(text: bytes, number: int, path: Path) -> dict[str, Any]:
+    try:
+        line = json.loads(text)
+        if isinstance(line, dict) and line["seq"] == number - 1:
+            return line
+        reason = f"its number is not {number - 1}"
+    except (ValueError, KeyError):
+        reason = "it is damaged"
+    message = f"line {number} of the journal cannot be used: {reason}"
+    raise InputError(message, code="bad-journal", path=str(path), line=number)
