@@ -1,48 +1,290 @@
-"""Parts by name: ours, those that other packages register, or anybody's as ``module:Class``."""
+"""Parts by name: built-in ones, those of installed packages, and a user's own as ``module:Class``.
+
+One rule holds for planners, beliefs, assistants, humans, worlds and studies. A name is looked up
+among (1) the built-in parts, (2) the installed entry points of the part's group, (3) the prefixes
+that the part declares, such as ``up:NAME``; then (4) it is read as ``module:Class``. The module of
+(4) may also lie in the current folder.
+
+Only names that a user types, on the command line or in Python, may import code: `Registry.find`.
+Names that come out of a data file (a script, a profile, rows) go through `Registry.find_listed`,
+which stops after (2).
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
-from importlib import import_module
-from importlib.metadata import entry_points
-from typing import Any
+import os
+import sys
+import warnings
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass, field
+from importlib import import_module, invalidate_caches
+from importlib.metadata import EntryPoint, entry_points
+from importlib.util import find_spec
+from inspect import isclass, isfunction
+from types import ModuleType
+from typing import Generic, ParamSpec, Protocol, TypeVar
 
 from hrcplan.core.text import nearest
-from hrcplan.errors import UsageError
+from hrcplan.errors import HrcplanError, UsageError
+
+P = ParamSpec("P")
+T = TypeVar("T")
 
 
-@dataclass(frozen=True, slots=True)
-class Registry:
-    """The parts of one kind: what it is called, where our own are, and its entry-point group."""
+@dataclass(frozen=True)
+class PartNames:
+    """The names of the parts of one kind, and where each of them is defined.
+
+    Attributes:
+        kind: What a part is called in messages and error codes (``unknown-<kind>``).
+        built_in: ``module:Name`` of each built-in part.
+        group: The entry-point group of parts that installed packages add.
+        protocol: The class that every part is an instance of: often a runtime-checkable protocol.
+        aliases: Names of earlier versions; they still work, with a DeprecationWarning.
+        prefixes: ``module:Class`` by prefix: ``up:tamer`` is that class, made from ``"tamer"``.
+        load_error: What is raised if a built-in or installed part cannot be imported.
+    """
 
     kind: str
-    own: Mapping[str, str]
+    built_in: Mapping[str, str]
     group: str
+    protocol: type
+    aliases: Mapping[str, str] = field(default_factory=dict)
+    prefixes: Mapping[str, str] = field(default_factory=dict)
+    load_error: type[HrcplanError] = UsageError
 
     def names(self) -> list[str]:
-        """Return the names of all parts, ours first."""
-        registered = (entry.name for entry in entry_points(group=self.group))
-        return [*self.own, *sorted(name for name in registered if name not in self.own)]
+        """Return the names of all parts, the built-in ones first."""
+        extra = {entry.name for entry in self._installed()} - set(self.built_in)
+        return [*self.built_in, *sorted(extra)]
 
-    def find(self, name: str) -> Any:
-        """Return the class of a part.
+    def canonical(self, name: str) -> str:
+        """Return the present name of a part; a name of an earlier version gives a warning."""
+        if name not in self.aliases:
+            return name
+        new = self.aliases[name]
+        message = f"the {self.kind} '{name}' is called '{new}' now"
+        warnings.warn(message, DeprecationWarning, stacklevel=3)
+        return new
+
+    def _installed(self) -> Iterable[EntryPoint]:
+        return entry_points(group=self.group)
+
+    def _listed(self, name: str) -> object | None:
+        """Return a built-in or installed part; None if there is none of this name.
 
         Raises:
-            UsageError: if there is none of this name, or it cannot be loaded.
+            HrcplanError: the ``load_error``, if the part cannot be imported.
         """
-        place = self.own.get(name, name if ":" in name else None)
+        place = self.built_in.get(name)
         if place is None:
-            found = next(iter(entry_points(group=self.group, name=name)), None)
-            if found is None:
-                known = f"{self.kind}s: {', '.join(self.names())}, or module:Class"
-                message = f"there is no {self.kind} '{name}'"
-                hint = nearest(name, self.names()) or known
-                raise UsageError(message, code=f"unknown-{self.kind}", hint=hint)
-            place = found.value
-        module, _, attribute = place.partition(":")
+            place = next((e.value for e in self._installed() if e.name == name), None)
+        if place is None:
+            return None
         try:
-            return getattr(import_module(module), attribute)
-        except (ImportError, AttributeError, ValueError) as error:
-            message = f"cannot load '{name}': {error}"
-            raise UsageError(message, code=f"unknown-{self.kind}") from None
+            return _member(place)
+        except Exception as error:
+            message = f"{self.kind} '{name}' cannot be loaded from {place}: {_in_words(error)}"
+            raise self.load_error(message, hint="is its package installed?") from error
+
+    def _own(self, name: str) -> object | None:
+        """Return a user's own part, named as ``module:Class``; None if it is no such name.
+
+        Raises:
+            UsageError: if the module is missing or raises, or has nothing of that name.
+        """
+        path, _, attribute = name.partition(":")
+        if not (attribute.isidentifier() and all(map(str.isidentifier, path.split(".")))):
+            return None
+        module = _user_module(path, self.kind, name)
+        if attribute not in vars(module):
+            hint = nearest(attribute, [n for n in vars(module) if not n.startswith("_")])
+            message = f"module '{path}' has no '{attribute}'"
+            raise UsageError(message, code=self._code, path=module.__file__, hint=hint)
+        found: object = vars(module)[attribute]
+        return found
+
+    @property
+    def _code(self) -> str:
+        return f"unknown-{self.kind}"
+
+    def _unknown(self, name: str, is_typed: bool) -> UsageError:
+        places = [f"{prefix}:…" for prefix in self.prefixes] + ["module:Class"] if is_typed else []
+        hint = nearest(name, self.names())
+        hint = hint or f"{self.kind}s: {', '.join([*self.names(), *places])}"
+        message = f"there is no {self.kind} '{name}'"
+        if not is_typed and ":" in name:
+            message = f"a file cannot name the {self.kind} '{name}'"
+            hint = f"code is only loaded if it is named on the command line; {self.kind}s for files"
+            hint += f": {', '.join(self.names())}"
+        return UsageError(message, code=self._code, hint=hint)
+
+
+class Registry(PartNames, Generic[P, T]):
+    """Classes by name; ``P`` are the arguments they are made from, ``T`` is their protocol.
+
+    >>> from hrcplan.planners.registry import PLANNERS
+    >>> PLANNERS.make("kairos").card.name
+    'kairos'
+    """
+
+    def find(self, name: str) -> Callable[P, T]:
+        """Return the class of a part that a user has named.
+
+        Raises:
+            UsageError: if there is none, it cannot be imported, or it is no such part.
+        """
+        name = self.canonical(name)
+        part = self._listed(name)
+        if part is None:
+            prefix, _, rest = name.partition(":")
+            if rest and prefix in self.prefixes:
+                kind = self._checked(name, _member(self.prefixes[prefix]))
+                return lambda *args, **options: kind(rest, *args, **options)  # type: ignore[arg-type]
+            part = self._own(name)
+        if part is None:
+            raise self._unknown(name, is_typed=True)
+        return self._checked(name, part)
+
+    def find_listed(self, name: str) -> Callable[P, T]:
+        """Return the class of a part that a data file names: a built-in or installed one.
+
+        Raises:
+            UsageError: if there is none, it cannot be imported, or it is no such part.
+        """
+        name = self.canonical(name)
+        part = self._listed(name)
+        if part is None:
+            raise self._unknown(name, is_typed=False)
+        return self._checked(name, part)
+
+    def make(self, name: str, *args: P.args, **options: P.kwargs) -> T:
+        """Return a part that a user has named, made from ``args`` and ``options``.
+
+        Raises:
+            UsageError: as `find` does; also if the object made lacks something of its protocol.
+        """
+        made = self.find(name)(*args, **options)
+        if not isinstance(made, self.protocol):
+            raise self._no_part(name, [n for n in members(self.protocol) if n not in dir(made)])
+        return made
+
+    def _checked(self, name: str, part: object) -> Callable[P, T]:
+        """Return a part if it is a class that has the methods of the protocol."""
+        if not isclass(part):
+            raise UsageError(f"{name} is no class", code=f"not-a-{self.kind}")
+        lacks = [n for n in methods(self.protocol) if n not in dir(part)]
+        if lacks:
+            raise self._no_part(name, lacks)
+        return part
+
+    def _no_part(self, name: str, lacks: Iterable[str]) -> UsageError:
+        message = f"{name} is no {self.kind}: it has no {', '.join(lacks)}"
+        hint = f"see {self.protocol.__name__} in {self.protocol.__module__}"
+        return UsageError(message, code=f"not-a-{self.kind}", hint=hint)
+
+
+class ObjectRegistry(PartNames, Generic[T]):
+    """Objects by name, such as studies; each is an instance of ``protocol``."""
+
+    def find(self, name: str) -> T:
+        """Return a part that a user has named.
+
+        Raises:
+            UsageError: if there is none, it cannot be imported, or it is no such part.
+        """
+        name = self.canonical(name)
+        part = self._listed(name)
+        return self._checked(name, self._own(name) if part is None else part, is_typed=True)
+
+    def find_listed(self, name: str) -> T:
+        """Return a part that a data file names: a built-in or installed one.
+
+        Raises:
+            UsageError: if there is none, it cannot be imported, or it is no such part.
+        """
+        name = self.canonical(name)
+        return self._checked(name, self._listed(name), is_typed=False)
+
+    def _checked(self, name: str, part: T | object | None, is_typed: bool) -> T:
+        if part is None:
+            raise self._unknown(name, is_typed)
+        if not isinstance(part, self.protocol):
+            message = f"{name} is no {self.protocol.__name__}"
+            raise UsageError(message, code=f"not-a-{self.kind}")
+        return part  # type: ignore[return-value]
+
+
+def members(protocol: type) -> list[str]:
+    """Return the public names that a protocol requires, in order."""
+    bases = [base for base in reversed(protocol.__mro__) if base not in (object, Generic, Protocol)]
+    names = [n for base in bases for n in (*vars(base).get("__annotations__", ()), *vars(base))]
+    return [name for name in dict.fromkeys(names) if not name.startswith("_")]
+
+
+def methods(protocol: type) -> list[str]:
+    """Return the methods that a protocol requires: a class has them before it is made."""
+    return [name for name in members(protocol) if isfunction(getattr(protocol, name, None))]
+
+
+def _member(place: str) -> object:
+    """Return what ``module:name`` is in an installed module."""
+    module, _, attribute = place.partition(":")
+    found: object = getattr(import_module(module), attribute)
+    return found
+
+
+def _user_module(path: str, kind: str, name: str) -> ModuleType:
+    """Import a module that a user has named, from the current folder if it is nowhere else.
+
+    Raises:
+        UsageError: if there is no such module, or it raises.
+    """
+    code = f"unknown-{kind}"
+    try:
+        with _current_folder(path.partition(".")[0]):
+            return import_module(path)
+    except (Exception, SystemExit) as error:
+        is_missing = isinstance(error, ModuleNotFoundError) and f"{path}.".startswith(
+            f"{error.name}."
+        )
+        if is_missing:
+            message = f"there is no module '{path}' for the {kind} '{name}'"
+            hint = f"looked among the installed packages and in '{_folder() or 'no folder'}'"
+            if path.endswith(".py"):
+                hint = f"name the module without its suffix: {name.replace('.py:', ':')}"
+            raise UsageError(message, code=code, hint=hint) from None
+        message = f"module '{path}' of the {kind} '{name}' cannot be imported: {_in_words(error)}"
+        hint = f"`python -c 'import {path}'` shows where"
+        raise UsageError(message, code=code, hint=hint) from error
+
+
+@contextmanager
+def _current_folder(module: str) -> Iterator[None]:
+    """Let imports search the current folder, last, if a module is not installed.
+
+    The folder is removed from the path afterwards, so that no other import can find a file there.
+    """
+    folder = _folder()
+    if folder is None or folder in sys.path or module in sys.modules or find_spec(module):
+        yield
+        return
+    invalidate_caches()
+    sys.path.append(folder)
+    try:
+        yield
+    finally:
+        with suppress(ValueError):
+            sys.path.remove(folder)
+
+
+def _folder() -> str | None:
+    try:
+        return os.getcwd()
+    except OSError:  # the folder was removed
+        return None
+
+
+def _in_words(error: BaseException) -> str:
+    return f"{type(error).__name__}: {error}" if str(error) else type(error).__name__

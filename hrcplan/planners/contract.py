@@ -6,7 +6,7 @@ import enum
 import time
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from hrcplan.errors import HrcplanError, LimitError, UnsupportedError
 from hrcplan.pddl.model import TOTAL_TIME, Number, Problem, functions_in
@@ -116,6 +116,7 @@ class Answer:
             raise ValueError(f"{self.status} with plan {self.plan!r}")
 
 
+@runtime_checkable
 class Planner(Protocol):
     """Anything that solves a request.
 

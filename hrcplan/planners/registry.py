@@ -1,13 +1,9 @@
-"""Planner names to planners: ours, an installed package's, ``up:NAME``, ``cmd:…``, a class."""
+"""Planners by name: built-in, installed, ``up:NAME``, ``cmd:PROGRAM …``, or ``module:Class``."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from importlib import import_module
-from importlib.metadata import EntryPoint, entry_points
-
-from hrcplan.core.text import nearest
-from hrcplan.errors import MissingPlannerError, UsageError
+from hrcplan.core.registry import Registry
+from hrcplan.errors import MissingPlannerError
 from hrcplan.planners.contract import Planner
 
 GROUP = "hrcplan.planners"
@@ -17,15 +13,22 @@ BUILT_IN = {
     "kairos": "hrcplan.planners.kairos:Kairos",
     "enhsp": "hrcplan.planners.enhsp:Enhsp",
 }
-_PREFIXES = {
-    "up": "hrcplan.planners.up:UnifiedPlanning",
-    "cmd": "hrcplan.planners.command:CommandPlanner",
-}
+PLANNERS: Registry[[], Planner] = Registry(
+    "planner",
+    BUILT_IN,
+    GROUP,
+    Planner,
+    prefixes={
+        "up": "hrcplan.planners.up:UnifiedPlanning",
+        "cmd": "hrcplan.planners.command:CommandPlanner",
+    },
+    load_error=MissingPlannerError,
+)
 
 
 def names() -> tuple[str, ...]:
-    """Return the planners that have a name of their own: ours first, then installed ones."""
-    return (*BUILT_IN, *sorted(entry.name for entry in _installed() if entry.name not in BUILT_IN))
+    """Return the planners that have a name of their own: built-in ones first, then installed."""
+    return tuple(PLANNERS.names())
 
 
 def make(name: str) -> Planner:
@@ -33,38 +36,9 @@ def make(name: str) -> Planner:
 
     Raises:
         UsageError: if there is no such planner.
-        MissingPlannerError: if the package that offers it cannot be imported.
+        MissingPlannerError: if a built-in or installed one cannot be imported.
 
     >>> make("kairos").card.name
     'kairos'
     """
-    if name in BUILT_IN:
-        return _load(name, BUILT_IN[name])
-    prefix, _, rest = name.partition(":")
-    if prefix in _PREFIXES and rest:
-        return _load(name, _PREFIXES[prefix], rest)
-    for entry in _installed():
-        if entry.name == name:
-            return _load(name, entry.value)
-    if rest and prefix.replace(".", "").isidentifier() and rest.isidentifier():
-        return _load(name, name)
-    hint = nearest(name, names()) or f"known: {', '.join(names())}, up:NAME, cmd:PROGRAM …"
-    raise UsageError(f"there is no planner '{name}'", code="unknown-planner", hint=hint)
-
-
-def _installed() -> Iterator[EntryPoint]:
-    yield from entry_points(group=GROUP)
-
-
-def _load(name: str, place: str, *args: str) -> Planner:
-    module, _, attribute = place.partition(":")
-    try:
-        kind = getattr(import_module(module), attribute)
-    except (ImportError, AttributeError) as error:
-        message = f"planner '{name}' cannot be loaded from {place}: {error}"
-        raise MissingPlannerError(message, hint="is its package installed?") from error
-    if not all(hasattr(kind, part) for part in ("missing", "solve")):
-        hint = "it needs card, missing() and solve(request): see hrcplan/planners/contract.py"
-        raise UsageError(f"{place} is no planner", code="not-a-planner", hint=hint)
-    planner: Planner = kind(*args)
-    return planner
+    return PLANNERS.make(name)
