@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Generic, Protocol, TypeVar
+from typing import Any, Generic, Protocol, TypeVar, runtime_checkable
 
 import numpy as np
 
@@ -21,6 +21,7 @@ TIES = 9  # decimals of values: what differs by less is equally good
 S = TypeVar("S", bound=State)
 
 
+@runtime_checkable
 class Assistant(Belief[S], Protocol[S]):
     """A belief that also chooses the robot's steps; whoever keeps this protocol can be studied.
 

@@ -1,11 +1,14 @@
 """Which assistants there are, by name; each is a class that is made from a bank."""
 
+from typing import Any
+
+from hrcplan.assistance.assistant import Assistant
 from hrcplan.core.registry import Registry
 
-ASSISTANTS = Registry(
+ASSISTANTS: Registry[..., Assistant[Any]] = Registry(
     "method",
     {
-        "paper": "hrcplan.assistance.rhp.assistant:RecedingHorizonPlanner",
+        "rhp": "hrcplan.assistance.rhp.assistant:RecedingHorizonPlanner",
         "recursive": "hrcplan.assistance.field_similarity:FieldSimilarity",
         "recursive-best": "hrcplan.assistance.field_similarity:BestFieldSimilarity",
         "cdp": "hrcplan.assistance.decision_points:DecisionPoints",
@@ -14,4 +17,6 @@ ASSISTANTS = Registry(
         "oracle": "hrcplan.assistance.oracle:Oracle",
     },
     "hrcplan.assistants",
+    Assistant,
+    aliases={"paper": "rhp"},
 )

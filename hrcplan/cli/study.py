@@ -71,12 +71,14 @@ def run(
 
 @command.command("report")
 @click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
+@click.option("--study", "name", metavar="NAME",
+              help="The study of the rows; needed for your own, as module:NAME.")  # fmt: skip
 @output.common_options
-def report(folder: Path) -> int:
+def report(folder: Path, name: str | None) -> int:
     """Write DIR/report.html and DIR/report.json from the rows in DIR."""
     from hrcplan.studies import report_study
 
-    found = report_study(folder)
+    found = report_study(folder, name)
     if output.JSON:
         output.document(found)
     else:

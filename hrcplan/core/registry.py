@@ -1,13 +1,13 @@
 """Parts by name: built-in ones, those of installed packages, and a user's own as ``module:Class``.
 
 One rule holds for planners, beliefs, assistants, humans, worlds and studies. A name is looked up
-among (1) the built-in parts, (2) the installed entry points of the part's group, (3) the prefixes
-that the part declares, such as ``up:NAME``; then (4) it is read as ``module:Class``. The module of
-(4) may also lie in the current folder.
+among (1) the built-in parts, (2) the entry points of installed packages, (3) the prefixes that the
+part declares, such as ``up:NAME``; then (4) it is read as ``module:Class``. The module of (4) may
+also lie in the current folder.
 
-Only names that a user types, on the command line or in Python, may import code: `Registry.find`.
-Names that come out of a data file (a script, a profile, rows) go through `Registry.find_listed`,
-which stops after (2).
+Only names that a user types, on the command line or in Python, may load any code: `Registry.find`.
+Names that come out of a data file (a script, a journal, rows) go through `Registry.find_listed`,
+which refuses (4), and the prefixes of (3) that run a program.
 """
 
 from __future__ import annotations
@@ -18,12 +18,13 @@ import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
+from functools import partial
 from importlib import import_module, invalidate_caches
 from importlib.metadata import EntryPoint, entry_points
 from importlib.util import find_spec
 from inspect import isclass, isfunction
 from types import ModuleType
-from typing import Generic, ParamSpec, Protocol, TypeVar
+from typing import Generic, ParamSpec, Protocol, TypeVar, cast
 
 from hrcplan.core.text import nearest
 from hrcplan.errors import HrcplanError, UsageError
@@ -43,6 +44,7 @@ class PartNames:
         protocol: The class that every part is an instance of: often a runtime-checkable protocol.
         aliases: Names of earlier versions; they still work, with a DeprecationWarning.
         prefixes: ``module:Class`` by prefix: ``up:tamer`` is that class, made from ``"tamer"``.
+        program_prefixes: The prefixes that run a program of any name; data files cannot use them.
         load_error: What is raised if a built-in or installed part cannot be imported.
     """
 
@@ -52,6 +54,7 @@ class PartNames:
     protocol: type
     aliases: Mapping[str, str] = field(default_factory=dict)
     prefixes: Mapping[str, str] = field(default_factory=dict)
+    program_prefixes: frozenset[str] = frozenset()
     load_error: type[HrcplanError] = UsageError
 
     def names(self) -> list[str]:
@@ -135,17 +138,7 @@ class Registry(PartNames, Generic[P, T]):
         Raises:
             UsageError: if there is none, it cannot be imported, or it is no such part.
         """
-        name = self.canonical(name)
-        part = self._listed(name)
-        if part is None:
-            prefix, _, rest = name.partition(":")
-            if rest and prefix in self.prefixes:
-                kind = self._checked(name, _member(self.prefixes[prefix]))
-                return lambda *args, **options: kind(rest, *args, **options)  # type: ignore[arg-type]
-            part = self._own(name)
-        if part is None:
-            raise self._unknown(name, is_typed=True)
-        return self._checked(name, part)
+        return self._find(self.canonical(name), is_typed=True)
 
     def find_listed(self, name: str) -> Callable[P, T]:
         """Return the class of a part that a data file names: a built-in or installed one.
@@ -153,11 +146,7 @@ class Registry(PartNames, Generic[P, T]):
         Raises:
             UsageError: if there is none, it cannot be imported, or it is no such part.
         """
-        name = self.canonical(name)
-        part = self._listed(name)
-        if part is None:
-            raise self._unknown(name, is_typed=False)
-        return self._checked(name, part)
+        return self._find(self.canonical(name), is_typed=False)
 
     def make(self, name: str, *args: P.args, **options: P.kwargs) -> T:
         """Return a part that a user has named, made from ``args`` and ``options``.
@@ -170,6 +159,19 @@ class Registry(PartNames, Generic[P, T]):
             raise self._no_part(name, [n for n in members(self.protocol) if n not in dir(made)])
         return made
 
+    def _find(self, name: str, is_typed: bool) -> Callable[P, T]:
+        prefix, _, rest = name.partition(":")
+        part = self._listed(name)
+        if part is None and rest and prefix in self.prefixes:
+            if is_typed or prefix not in self.program_prefixes:
+                made_from_text = self._checked(name, _member(self.prefixes[prefix]))
+                return partial(made_from_text, rest)  # type: ignore[arg-type]
+        elif part is None and is_typed:
+            part = self._own(name)
+        if part is None:
+            raise self._unknown(name, is_typed)
+        return self._checked(name, part)
+
     def _checked(self, name: str, part: object) -> Callable[P, T]:
         """Return a part if it is a class that has the methods of the protocol."""
         if not isclass(part):
@@ -177,7 +179,7 @@ class Registry(PartNames, Generic[P, T]):
         lacks = [n for n in methods(self.protocol) if n not in dir(part)]
         if lacks:
             raise self._no_part(name, lacks)
-        return part
+        return cast(Callable[P, T], part)
 
     def _no_part(self, name: str, lacks: Iterable[str]) -> UsageError:
         message = f"{name} is no {self.kind}: it has no {', '.join(lacks)}"
@@ -213,7 +215,7 @@ class ObjectRegistry(PartNames, Generic[T]):
         if not isinstance(part, self.protocol):
             message = f"{name} is no {self.protocol.__name__}"
             raise UsageError(message, code=f"not-a-{self.kind}")
-        return part  # type: ignore[return-value]
+        return cast(T, part)
 
 
 def members(protocol: type) -> list[str]:

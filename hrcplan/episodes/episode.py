@@ -8,7 +8,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +25,7 @@ NEAR = 1e-6  # to what probabilities sum to
 REACHED, STUCK, UNFINISHED = "reached", "stuck", "unfinished"
 
 
+@runtime_checkable
 class TurnWorld(Protocol):
     """Where steps happen; its state is held as bits of the task."""
 

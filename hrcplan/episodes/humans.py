@@ -10,7 +10,7 @@ import random
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from hrcplan.bank import Bank, PlanGraph
 from hrcplan.bank.htn import Htn, decompose
@@ -53,6 +53,7 @@ class HumanMove:
     is_mistake: bool = False
 
 
+@runtime_checkable
 class EpisodeHuman(Protocol):
     """A human who takes turns with a robot; made from a bank and a course."""
 
@@ -180,7 +181,7 @@ def _draws(seed: str, turn: int) -> tuple[float, ...]:
     return tuple(stream.random() for _ in range(N_DRAWS))
 
 
-HUMANS = Registry(
+HUMANS: Registry[[Bank, Course], EpisodeHuman] = Registry(
     "human",
     {
         "frontier": "hrcplan.episodes.humans:Frontier",
@@ -188,4 +189,5 @@ HUMANS = Registry(
         "plans": "hrcplan.episodes.humans:ByPlans",
     },
     "hrcplan.humans",
+    EpisodeHuman,
 )

@@ -19,6 +19,7 @@ from hrcplan.execution.simulate import Spec, make_engine
 from hrcplan.execution.timeline import Timeline
 from hrcplan.facade import load_problem
 from hrcplan.pddl.model import FluentKey, Number, Problem
+from hrcplan.planners.registry import PLANNERS
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,4 +151,7 @@ def _same_problem(known: Journal, setup: RunSetup) -> RunSetup:
     if (ours.domain.name, ours.name) != (theirs.domain.name, theirs.name):
         message = f"the journal is of {theirs.domain.name}/{theirs.name}"
         raise UsageError(message, path=str(known.path))
+    for name in found.planners:
+        if name not in ("auto", *setting.planners):
+            PLANNERS.find_listed(name)  # a journal must not choose which code runs
     return found

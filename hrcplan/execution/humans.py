@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from importlib import import_module
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
+from hrcplan.core.registry import Registry
 from hrcplan.core.text import nearest
 from hrcplan.errors import UsageError
 from hrcplan.execution.simulate import RANDOM, Engine, Spec, nature_of
@@ -51,11 +51,16 @@ def spec_of(text: str, spec: Spec) -> Spec:
     return spec
 
 
+@runtime_checkable
 class NatureSource(Protocol):
-    """A human of somebody's own, named as ``module:Class``."""
+    """A human defined by a class: it says how the world behaves with this human."""
 
     def nature(self, problem: Problem, seed: object) -> Nature:
         """Return how the world behaves with this human."""
+
+
+NATURES: Registry[[], NatureSource] = Registry("human", {}, "hrcplan.natures", NatureSource)
+"""Humans of other packages, or a user's own; the built-in ones are words (see `spec_of`)."""
 
 
 def nature_for(
@@ -69,8 +74,8 @@ def nature_for(
         UsageError: if there is no such human, a changed element is unknown, or its value is not
             in [0, 10].
     """
-    if ":" in text:
-        nature = _load(text).nature(engine.monitor.problem, spec.seed)
+    if ":" in text or text in NATURES.names():
+        nature = NATURES.make(text).nature(engine.monitor.problem, spec.seed)
     else:
         nature = nature_of(spec_of(text, spec), engine)
     agents = engine.monitor.agents
@@ -83,13 +88,3 @@ def nature_for(
     return replace(
         nature, changes=(*nature.changes, *checked), accidents=(*nature.accidents, *accidents)
     )
-
-
-def _load(text: str) -> NatureSource:
-    module, _, name = text.partition(":")
-    try:
-        human: NatureSource = getattr(import_module(module), name)()
-    except (ImportError, AttributeError, TypeError) as error:
-        message = f"human '{text}' cannot be loaded: {error}"
-        raise UsageError(message, code="unknown-human") from error
-    return human

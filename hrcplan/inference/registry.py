@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from hrcplan.core.registry import Registry
+from hrcplan.inference.belief import Belief
 
 BANK_METHOD, GOALS_METHOD = "switching", "cost"
-METHODS = Registry(
+METHODS: Registry[..., Belief[Any]] = Registry(
     "method",
     {
         "exact": "hrcplan.inference.exact:ExactBelief",
@@ -17,6 +18,7 @@ METHODS = Registry(
         "cost": "hrcplan.inference.recognition.cost:CostBelief",
     },
     "hrcplan.beliefs",
+    Belief,
 )
 
 

@@ -22,6 +22,7 @@ PLANNERS: Registry[[], Planner] = Registry(
         "up": "hrcplan.planners.up:UnifiedPlanning",
         "cmd": "hrcplan.planners.command:CommandPlanner",
     },
+    program_prefixes=frozenset({"cmd"}),
     load_error=MissingPlannerError,
 )
 

@@ -8,26 +8,31 @@ from pathlib import Path
 from typing import Any
 
 from hrcplan.core.files import write_atomically
-from hrcplan.errors import InputError
+from hrcplan.errors import InputError, UsageError
 from hrcplan.studies import page
 from hrcplan.studies.estimate import MeanEstimate, estimate, estimate_by
 from hrcplan.studies.store import FILE, Store
-from hrcplan.studies.study import Cell, Study, StudyRow, find
+from hrcplan.studies.study import STUDIES, Cell, Study, StudyRow
 
 JSON_FILE, PAGE_FILE = "report.json", "report.html"
 
 
-def report_study(folder: str | Path) -> dict[str, Any]:
+def report_study(folder: str | Path, study_name: str | None = None) -> dict[str, Any]:
     """Write the report of a folder of rows, and return what is in ``report.json``.
+
+    Args:
+        folder: The folder of the rows.
+        study_name: The study; needed if it is your own (``module:NAME``): the rows alone cannot
+            make hrcplan load code.
 
     Raises:
         InputError: if the folder has no rows, or they are damaged or of no known study.
-        UsageError: if the report cannot be written.
+        UsageError: if it is not the study of the rows, or the report cannot be written.
     """
     folder = Path(folder)
     with Store.to_read(folder) as store:
         about = store.about()
-        study = _study(about, folder)
+        study = _study(about, folder, study_name)
         options = about["options"]
         rows = {table.name: store.rows(table) for table in study.tables}
     main = study.tables[0]
@@ -49,10 +54,15 @@ def report_study(folder: str | Path) -> dict[str, Any]:
     return document
 
 
-def _study(about: dict[str, Any], folder: Path) -> Study:
+def _study(about: dict[str, Any], folder: Path, name: str | None) -> Study:
     if not {"study", "options"} <= about.keys():
         raise InputError("not the rows of a study", code="bad-rows", path=str(folder / FILE))
-    return find(about["study"])
+    own = about["study"]
+    if name is None:
+        return STUDIES.find_listed(str(own))
+    if name != own:
+        raise UsageError(f"the rows are of the study '{own}', not of '{name}'", path=str(folder))
+    return STUDIES.find(name)
 
 
 def cells_of(

@@ -5,12 +5,11 @@ A study names its cells and says how one episode is run; it knows nothing of fil
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import islice
 
-from hrcplan.core.text import nearest
+from hrcplan.core.registry import ObjectRegistry
 from hrcplan.errors import UsageError
 
 CellValue = int | float | str | None
@@ -18,11 +17,6 @@ StudyRow = dict[str, CellValue]
 Cell = tuple[str | int | float, ...]
 StudyOptions = Mapping[str, str]
 Say = Callable[[str], None]
-
-STUDIES = {
-    "failure-anticipation": "hrcplan.studies.failure_anticipation",
-    "changed-mind": "hrcplan.studies.changed_mind",
-}
 
 
 class Seed(str):
@@ -143,29 +137,24 @@ class Episode:
     run: int
 
 
+STUDIES: ObjectRegistry[Study] = ObjectRegistry(
+    "study",
+    {
+        "failure-anticipation": "hrcplan.studies.failure_anticipation:STUDY",
+        "changed-mind": "hrcplan.studies.changed_mind:STUDY",
+    },
+    "hrcplan.studies",
+    Study,
+)
+
+
 def find(name: str) -> Study:
-    """Return a study by its name, or somebody's own as ``module:NAME``.
+    """Return a study that a user has named, also their own as ``module:NAME``.
 
     Raises:
         UsageError: if there is none.
     """
-    if name.count(":") == 1:
-        return _own(*name.split(":"))
-    if name not in STUDIES:
-        hint = nearest(name, STUDIES) or f"studies: {', '.join(STUDIES)}"
-        raise UsageError(f"there is no study '{name}'", code="unknown-study", hint=hint)
-    study: Study = importlib.import_module(STUDIES[name]).STUDY
-    return study
-
-
-def _own(module: str, name: str) -> Study:
-    try:
-        found = getattr(importlib.import_module(module), name)
-    except (ImportError, AttributeError) as error:
-        raise UsageError(f"no study {module}:{name}: {error}", code="unknown-study") from None
-    if not isinstance(found, Study):
-        raise UsageError(f"{module}:{name} is no Study", code="unknown-study")
-    return found
+    return STUDIES.find(name)
 
 
 def episodes(

@@ -425,7 +425,9 @@ def test_plausible_bigrams_try_nothing_else_first(workshop):
 
 
 def test_it_is_the_method_of_the_paper():
-    assert ASSISTANTS.find("paper") is RecedingHorizonPlanner
+    assert ASSISTANTS.find("rhp") is RecedingHorizonPlanner
+    with pytest.warns(DeprecationWarning, match="'paper' is called 'rhp' now"):
+        assert ASSISTANTS.find("paper") is RecedingHorizonPlanner
 
 
 def test_why_names_what_was_weighed(of_meals):

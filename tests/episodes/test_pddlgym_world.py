@@ -10,8 +10,8 @@ from hrcplan.bank import Bank, build, build_bank, from_problems
 from hrcplan.episodes.episode import REACHED, SimulatedTurns, play
 from hrcplan.episodes.humans import Course, Frontier
 from hrcplan.episodes.pddlgym_world import PddlgymWorld, environment
+from hrcplan.episodes.worlds import WORLDS
 from hrcplan.errors import UnsupportedError, UsageError
-from hrcplan.execution.worlds import WORLDS
 from hrcplan.facade import load_problem
 from hrcplan.pddl.check import domain_in, problem_in
 from hrcplan.pddl.source import SourceText

@@ -60,7 +60,7 @@ def test_replay_names_the_first_difference(tmp_path: Path) -> None:
     [
         (["--profile", "nature"], 2, "there is no profile"),
         (["--human", "alien"], 2, "there is no human"),
-        (["--human", "nowhere:Human"], 2, "cannot be loaded"),
+        (["--human", "nowhere:Human"], 2, "no module 'nowhere'"),
         (["--change", "motivation human=9"], 2, "@SECONDS"),
         (["--change", "motivation human=11@0"], 2, "[0, 10]"),
         (["--change", "mood human=3@0"], 2, "no function 'mood'"),

@@ -4,15 +4,7 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from hrcplan.core.registry import Registry
 from hrcplan.execution.events import Command, Event
-
-WORLDS = Registry(
-    "world",
-    {"simulated": "hrcplan.episodes.episode:SimulatedTurns",
-     "pddlgym": "hrcplan.episodes.pddlgym_world:PddlgymWorld"},
-    "hrcplan.worlds",
-)  # fmt: skip
 
 
 class EventWorld(Protocol):

@@ -16,8 +16,8 @@ from hrcplan.bank import Bank, Goals, build, read_goals
 from hrcplan.core.text import nearest
 from hrcplan.episodes.episode import TurnWorld
 from hrcplan.episodes.humans import HUMANS, Course, EpisodeHuman
+from hrcplan.episodes.worlds import WORLDS
 from hrcplan.errors import UsageError
-from hrcplan.execution.worlds import WORLDS
 from hrcplan.inference.classifier.forest import ForestBelief
 from hrcplan.inference.registry import METHODS
 from hrcplan.pddl.conventions import people, robots
@@ -168,9 +168,9 @@ def robot(name: str, domain: str, goals: str) -> Any:
     bank = bank_of(domain, goals)
     kind = ASSISTANTS.find(changes.pop("part", name))
     belief = str(changes.get("belief"))
-    if belief in METHODS.own:
+    if belief in METHODS.built_in:
         changes["belief"] = METHODS.find(belief)(bank)
-    elif belief in ASSISTANTS.own:
+    elif belief in data()["methods"]:
         changes["belief"] = robot(belief, domain, goals)
     return kind(bank, **changes)
 
@@ -193,7 +193,7 @@ def _learns(method: str) -> bool:
     """Return whether a method has the forest as its belief."""
     changes = data()["methods"].get(method, {})
     if "belief" in changes:
-        return changes["belief"] in ASSISTANTS.own and _learns(changes["belief"])
+        return changes["belief"] in data()["methods"] and _learns(changes["belief"])
     return bool(getattr(ASSISTANTS.find(changes.get("part", method)), "learns", False))
 
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from hrcplan.assistance import Explanation, explain
+from hrcplan.assistance import ASSISTANTS, Explanation, explain
 from hrcplan.bank import Bank
 from hrcplan.core.text import nearest
 from hrcplan.episodes.episode import EpisodeTurn, play
@@ -103,6 +103,9 @@ def episodes(script: Mapping[str, Any], methods: Sequence[str] = ()) -> list[Nar
     wanted = tuple(_goal(bank, goal) for goal in script["wanted"])
     course = Course(wanted, tuple(script["change_turns"]), seed=str(script.get("seed", "")))
     steps = [_step(bank, text) for text in script["human"]]
+    for name in script["methods"] if not methods else ():
+        if name not in scenario.data()["methods"]:
+            ASSISTANTS.find_listed(name)  # a script must not choose which code runs
     chosen = methods or script["methods"]
     robots = {method: scenario.robot(method, *task) for method in chosen}
     return [_played(name, robot, bank, course, steps) for name, robot in robots.items()]
