@@ -152,6 +152,6 @@ def _same_problem(known: Journal, setup: RunSetup) -> RunSetup:
         message = f"the journal is of {theirs.domain.name}/{theirs.name}"
         raise UsageError(message, path=str(known.path))
     for name in found.planners:
-        if name not in ("auto", *setting.planners):
+        if name not in ("auto", *setup.planners):
             PLANNERS.find_listed(name)  # a journal must not choose which code runs
     return found
