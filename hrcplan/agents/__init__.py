@@ -1,6 +1,13 @@
-"""What is known about agents: their sensed state, and what the planner is told of it."""
+"""Agent state: its elements and sensed values, and the function values that planners get."""
 
-from hrcplan.agents.profile import Profile, profile, profile_names
+from hrcplan.agents.profile import REPLAN_ALWAYS, Profile, load_profile, profile, profile_names
 from hrcplan.agents.state import AgentModel
 
-__all__ = ["AgentModel", "Profile", "profile", "profile_names"]
+__all__ = [
+    "REPLAN_ALWAYS",
+    "AgentModel",
+    "Profile",
+    "load_profile",
+    "profile",
+    "profile_names",
+]

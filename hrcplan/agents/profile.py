@@ -16,11 +16,14 @@ from typing import Any
 from hrcplan.agents.estimate import AgentStateEstimate, Prior
 from hrcplan.agents.memory import Memory
 from hrcplan.agents.state import AgentModel
+from hrcplan.core.deprecation import current_name, warn_old_name
 from hrcplan.core.text import nearest
 from hrcplan.errors import InputError, UsageError
 from hrcplan.pddl.model import FluentKey, Number
 
 _SHIPPED = Path(__file__).with_name("profiles.toml")
+REPLAN_ALWAYS = "replan-always"
+OLD_NAMES = {"paper": REPLAN_ALWAYS}
 _ALONE = 2  # the length of an element that depends on its agent alone
 _SURE = 1e-9  # probabilities that differ by less are the same
 _PLACES = 100  # function values are rounded to hundredths: planners scale costs to integers
@@ -127,35 +130,42 @@ def profile_names() -> tuple[str, ...]:
     """Return the names of the shipped profiles.
 
     >>> profile_names()
-    ('paper', 'hrcplan', 'estimated')
+    ('replan-always', 'hrcplan', 'estimated')
     """
     return tuple(_read(_SHIPPED))
 
 
-def profile(name: str) -> Profile:
+def load_profile(name: str) -> Profile:
     """Return a shipped profile, or the one (or first) in a ``.toml`` file.
 
     Raises:
         UsageError: if there is no profile of this name.
-        InputError: if the file is missing or says something unknown.
+        InputError: if the file is missing, or a key or value in it is unknown.
 
-    >>> profile("paper").replan_limit
+    >>> load_profile("replan-always").replan_limit
     5
     """
     if name.endswith(".toml"):
-        own = _read(Path(name))
-        if not own:
+        tables = _read(Path(name))
+        if not tables:
             raise InputError("the file holds no [profile]", code="bad-profile", path=name)
-        first = next(iter(own))
-        return profile_of({"name": first, **own[first]}, name)
-    known = _read(_SHIPPED)
-    if name not in known:
-        hint = nearest(name, known) or f"shipped: {', '.join(known)}; or a .toml file"
+        first = next(iter(tables))
+        return profile_from_table({"name": first, **tables[first]}, name)
+    name = current_name("profile", name, OLD_NAMES)
+    shipped = _read(_SHIPPED)
+    if name not in shipped:
+        hint = nearest(name, shipped) or f"profiles: {', '.join(shipped)}; or a .toml file"
         raise UsageError(f"there is no profile '{name}'", code="unknown-profile", hint=hint)
-    return profile_of({"name": name, **known[name]})
+    return profile_from_table({"name": name, **shipped[name]})
 
 
-def profile_of(table: Mapping[str, Any], path: str | None = None) -> Profile:
+def profile(name: str) -> Profile:
+    """Return a profile: the earlier name of `load_profile`, deprecated."""
+    warn_old_name("function", "hrcplan.agents.profile", "hrcplan.agents.load_profile")
+    return load_profile(name)
+
+
+def profile_from_table(table: Mapping[str, Any], path: str | None = None) -> Profile:
     """Return the profile that a table describes.
 
     Raises:

@@ -25,7 +25,7 @@ WORLDS = ("simulated",)
     default="hrcplan",
     show_default=True,
     metavar="NAME",
-    help="paper, hrcplan, or a .toml file: when to replan, what planners are told.",
+    help="replan-always, hrcplan, or a .toml file: when to replan, what planners are told.",
 )
 @click.option(
     "--human",

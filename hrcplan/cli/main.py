@@ -7,14 +7,17 @@ import signal
 import sys
 import threading
 import traceback
-from collections.abc import Callable
-from typing import Any, NoReturn
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any, NoReturn, TextIO
 
 import rich_click as click
 from click.exceptions import Abort, ClickException, Exit
 
 from hrcplan import __version__
 from hrcplan.cli import output
+from hrcplan.core.deprecation import OldNameWarning
 from hrcplan.errors import HrcplanError, LimitError, PddlError, UsageError
 
 COMMANDS = {
@@ -57,7 +60,29 @@ class _Commands(click.RichGroup):
         if threading.current_thread() is threading.main_thread():
             signal.signal(signal.SIGTERM, lambda *_: sys.exit(TERMINATED))
         kwargs["standalone_mode"] = False
-        sys.exit(_guarded(lambda: run(*args, **kwargs)))
+        with _old_names_on_stderr():
+            status = _guarded(lambda: run(*args, **kwargs))
+        sys.exit(status)
+
+
+@contextmanager
+def _old_names_on_stderr() -> Iterator[None]:
+    """Print warnings about names of earlier versions; Python alone would not show them."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("once", OldNameWarning)
+        show = warnings.showwarning
+
+        def show_in_words(
+            message: Warning | str, category: type[Warning], filename: str, lineno: int,
+            file: TextIO | None = None, line: str | None = None,
+        ) -> None:  # fmt: skip
+            if issubclass(category, OldNameWarning):
+                output.warn(str(message))
+            else:
+                show(message, category, filename, lineno, file, line)
+
+        warnings.showwarning = show_in_words
+        yield
 
 
 def _guarded(run: Callable[[], Any]) -> int:

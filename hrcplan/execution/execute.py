@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from hrcplan.agents import profile as profile_named
+from hrcplan.agents import load_profile
 from hrcplan.errors import UsageError
 from hrcplan.execution.driver import PlanProvider, RunWatch
 from hrcplan.execution.events import Command, Event
@@ -52,7 +52,7 @@ def execute(
     Args:
         domain: A path or a shipped name.
         problem: A path or a shipped name.
-        profile: ``paper``, ``hrcplan``, or a ``.toml`` file.
+        profile: ``replan-always``, ``hrcplan``, or a ``.toml`` file.
         human: ``steady``, ``case1``, ``case2``, … (see ``humans.spec_of``), or ``module:Class``.
         changes: Changes of agent state or of facts at given times.
         values: Function values to put into the initial state.
@@ -86,7 +86,7 @@ def make_setup(
     Raises:
         UsageError: if a name is unknown or a value out of range.
     """
-    chosen = profile_named(profile).limited_to(replan_limit)
+    chosen = load_profile(profile).limited_to(replan_limit)
     planners = tuple(planner.split(",")) if not planner.startswith("cmd:") else (planner,)
     engine = make_engine(problem, chosen, model, Replanner(problem, planners, timeout_s))
     nature = nature_for(human, Spec(seed=seed), engine, changes)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import lru_cache
 
-from hrcplan.agents import Profile, profile
+from hrcplan.agents import REPLAN_ALWAYS, Profile, load_profile
 from hrcplan.errors import UsageError
 from hrcplan.execution import events as ev
 from hrcplan.execution.driver import Driver, NullRecord, PlanProvider, RunRecord, RunWatch
@@ -53,7 +53,7 @@ class Spec:
     problem: str = "two-boxes"
     case: int = 1
     model: bool = True
-    profile: str = "paper"
+    profile: str = REPLAN_ALWAYS
     seed: str | int = 0
     when: str = START
     sensed: str = DURING
@@ -127,7 +127,7 @@ def _engine(
     success: float | None,
 ) -> Engine:  # fmt: skip
     shared = _replanner(domain, problem, values, planner, success)
-    chosen = profile(profile_name).limited_to(replan_limit)
+    chosen = load_profile(profile_name).limited_to(replan_limit)
     return make_engine(shared.problem, chosen, model, shared)
 
 

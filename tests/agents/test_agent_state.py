@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from hrcplan.agents import AgentModel, profile
+from hrcplan.agents import AgentModel, load_profile
+from hrcplan.agents import profile as old_profile
 from hrcplan.agents.memory import Memory
 from hrcplan.agents.state import combined, failure_probability, sensed_value
 from hrcplan.errors import InputError, UsageError
@@ -60,14 +61,14 @@ def test_unknown_element_is_refused(agents: AgentModel) -> None:
 
 
 def test_paper_tells_the_planner_what_is_sensed(agents: AgentModel) -> None:
-    told = profile("paper").told(agents, {MOTIVATION: 9}, Memory().failed([KNOWLEDGE]))
+    told = load_profile("replan-always").told(agents, {MOTIVATION: 9}, Memory().failed([KNOWLEDGE]))
     assert told[MOTIVATION] == 9
     assert told[KNOWLEDGE] == 1
     assert set(told) == set(agents.low)
 
 
 def test_hrcplan_tells_log_losses_and_what_failed(agents: AgentModel) -> None:
-    own = profile("hrcplan")
+    own = load_profile("hrcplan")
     told = own.told(agents, {MOTIVATION: 5, CAPACITY: 10}, Memory())
     assert float(told[MOTIVATION]) == pytest.approx(1 - 10 * math.log(0.5), abs=0.01)
     assert told[CAPACITY] == 61  # low + cap
@@ -89,7 +90,7 @@ def test_success_before_a_failure_clears_nobody() -> None:
 def test_profile_of_the_user(tmp_path: Path) -> None:
     path = tmp_path / "mine.toml"
     path.write_text('[mine]\nvalues = "log"\nreplan_limit = 2\n')
-    assert (profile(str(path)).name, profile(str(path)).replan_limit) == ("mine", 2)
+    assert (load_profile(str(path)).name, load_profile(str(path)).replan_limit) == ("mine", 2)
 
 
 @pytest.mark.parametrize(
@@ -107,10 +108,17 @@ def test_bad_profiles_are_named(tmp_path: Path, text: str, words: str) -> None:
     path = tmp_path / "bad.toml"
     path.write_text(text)
     with pytest.raises(InputError, match=words):
-        profile(str(path))
+        load_profile(str(path))
 
 
 def test_unknown_profile_lists_the_shipped_ones() -> None:
     with pytest.raises(UsageError) as error:
-        profile("nature")
-    assert "paper" in str(error.value.hint)
+        load_profile("nature")
+    assert "replan-always" in str(error.value.hint)
+
+
+def test_the_name_of_an_earlier_version_still_works_and_says_so() -> None:
+    with pytest.warns(DeprecationWarning, match="profile 'paper'.*'replan-always'"):
+        assert load_profile("paper") == load_profile("replan-always")
+    with pytest.warns(DeprecationWarning, match="load_profile"):
+        assert old_profile("hrcplan") == load_profile("hrcplan")

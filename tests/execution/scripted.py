@@ -1,6 +1,6 @@
 """Helpers of the tests: a monitor that is fed events by hand, with plans written out."""
 
-from hrcplan.agents import profile
+from hrcplan.agents import load_profile
 from hrcplan.execution import events as ev
 from hrcplan.execution.events import Command, Event
 from hrcplan.execution.monitor import Monitor
@@ -35,9 +35,9 @@ ROBOT_ONLY = """
 class Script:
     """One run under the hands of a test: ``tell`` an event, look at ``commands``."""
 
-    def __init__(self, name: str = "paper", sensing: bool = True) -> None:
+    def __init__(self, name: str = "replan-always", sensing: bool = True) -> None:
         problem = load_problem("transport", "two-boxes")
-        self.monitor = Monitor(problem, profile(name), sensing)
+        self.monitor = Monitor(problem, load_profile(name), sensing)
         self.run: Run = self.monitor.begin()
         self.commands: tuple[Command, ...] = ()
 

@@ -32,7 +32,7 @@ def test_a_run_is_shown_in_two_lanes_with_its_replans(tmp_path: Path) -> None:
 
 
 def test_json_is_one_document() -> None:
-    run = hrcplan("execute", "transport", "two-boxes", "--profile", "paper", "--no-model",
+    run = hrcplan("execute", "transport", "two-boxes", "--profile", "replan-always", "--no-model",
                   "--change", "motivation human=10@0", "--json")  # fmt: skip
     assert run.returncode == 1  # the goal was not reached
     found = json.loads(run.stdout)
@@ -41,6 +41,14 @@ def test_json_is_one_document() -> None:
     assert found["measures"]["failed_pct"] == 60.0
     assert [a["outcome"] for a in found["actions"] if a["agent"] == "human"] == ["failed"] * 6
     assert len(found["plans"]) == 6
+
+
+def test_the_name_of_an_earlier_version_gives_a_note_on_stderr() -> None:
+    old = hrcplan("execute", "transport/two-boxes", "--profile", "paper", "--json")
+    new = hrcplan("execute", "transport/two-boxes", "--profile", "replan-always", "--json")
+    assert old.stderr == "warning: profile 'paper' is deprecated; its name is 'replan-always'\n"
+    assert (old.returncode, old.stdout) == (new.returncode, new.stdout)
+    assert new.stderr == ""
 
 
 def test_replay_names_the_first_difference(tmp_path: Path) -> None:

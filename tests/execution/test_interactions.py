@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from hrcplan.agents import profile
+from hrcplan.agents import load_profile
 from hrcplan.execution import Outcome, Spec, engine_for, means, simulate
 from hrcplan.execution import events as ev
 from hrcplan.execution.execute import carry_out, make_setup
@@ -30,7 +30,7 @@ def rows(n: int, **changes: Any) -> list[Outcome]:
 def coached(probability: float, seed: int = 0, value: float = 8) -> tuple[Outcome, list[str]]:
     """Return a run whose human is unmotivated from the start, and what was done in it."""
     problem = with_success(load_problem("transport-coached", "two-boxes"), probability)
-    engine = make_engine(problem, profile("hrcplan"))
+    engine = make_engine(problem, load_profile("hrcplan"))
     nature = Nature(seed, (StateChange(0.0, {MOTIVATION: value}),), sensed="before")
     done: list[str] = []
 
@@ -68,7 +68,7 @@ def test_what_never_works_is_not_tried() -> None:
 def test_an_interaction_that_leaves_more_is_worth_less() -> None:
     """What is left is a sensed value like others, and told to the planner like others."""
     problem = load_problem("transport-coached", "two-boxes").with_values({("residual",): 5})
-    engine = make_engine(problem, profile("hrcplan"))
+    engine = make_engine(problem, load_profile("hrcplan"))
     told = engine.monitor.told(engine.monitor.begin())
     assert float(told["residual",]) == pytest.approx(1 + 6.93, abs=0.01)
     assert told[MOTIVATION] == 1
@@ -88,7 +88,7 @@ def test_a_journal_of_interactions_replays(tmp_path: Any) -> None:
     problem = load_problem("transport-coached", "two-boxes")
     path = tmp_path / "run.jsonl"
     setup = make_setup(problem, profile="estimated", human="case2", planner="exact", seed=3)
-    setup = replace(setup, profile=profile("hrcplan"))
+    setup = replace(setup, profile=load_profile("hrcplan"))
     done = carry_out(setup, journal=path)
     found = replay(read_journal(path))
     assert found.difference is None

@@ -38,7 +38,7 @@ CHANGES = (
 
 def eventful(journal: Path, resume: bool = False) -> Executed:
     problem = load_problem("transport", "two-boxes")
-    setup = make_setup(problem, profile="paper", changes=CHANGES, seed=5)
+    setup = make_setup(problem, profile="replan-always", changes=CHANGES, seed=5)
     return carry_out(setup, journal=journal, resume=resume, planner=shared_planner())
 
 
@@ -86,7 +86,7 @@ def test_a_run_killed_at_any_position_goes_on_to_the_same_end(
 def test_a_killed_process_is_resumed(tmp_path: Path) -> None:
     """The real thing: kill -9 in the middle, then --resume; compared with an undisturbed run."""
     command = [sys.executable, "-m", "hrcplan", "execute", "transport/two-boxes", "--profile",
-               "paper", "--human", "case2", "--seed", "4", "--json"]  # fmt: skip
+               "replan-always", "--human", "case2", "--seed", "4", "--json"]  # fmt: skip
     path = tmp_path / "killed.jsonl"
     arguments = ["--journal", str(path)]
     running = subprocess.Popen([*command[:-1], *arguments, "--speed", "150"],

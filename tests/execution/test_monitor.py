@@ -101,7 +101,7 @@ def test_hrcplan_confirms_a_plan_that_stays_the_best() -> None:
 
 
 def test_paper_counts_a_replan_also_if_the_plan_stays_the_same() -> None:
-    script = Script("paper")
+    script = Script("replan-always")
     script.begin()
     script.tell(ev.Sensed(25.0, {("capacity", "human", "wp0"): 10}))
     script.tell(ev.Ended(50.0, 0, ev.DONE), ev.Ended(50.0, 1, ev.DONE))
@@ -287,7 +287,7 @@ ANY_EVENT = st.one_of(
 )
 
 
-@given(st.lists(ANY_EVENT, max_size=40), st.sampled_from(["paper", "hrcplan"]))
+@given(st.lists(ANY_EVENT, max_size=40), st.sampled_from(["replan-always", "hrcplan"]))
 def test_no_sequence_of_events_confuses_the_monitor(events: list[ev.Event], name: str) -> None:
     """Whatever comes, nobody does two things at once, counts add up, and an end is an end."""
     script = Script(name)

@@ -4,7 +4,7 @@ import time
 
 import pytest
 
-from hrcplan.agents import profile
+from hrcplan.agents import load_profile
 from hrcplan.errors import PlannerError
 from hrcplan.execution import events as ev
 from hrcplan.execution.monitor import Monitor
@@ -52,7 +52,7 @@ class Faulty:
 
 
 def engine_with(planner: Replanner) -> Engine:
-    return make_engine(planner.problem, profile("paper"), True, planner)
+    return make_engine(planner.problem, load_profile("replan-always"), True, planner)
 
 
 @pytest.mark.parametrize("fault", ["crash", "bug", "timeout", "lie"])
@@ -95,7 +95,7 @@ def test_without_any_planner_the_running_plan_goes_on_and_the_run_ends_by_name()
 def test_an_unsolvable_rest_is_a_named_ending() -> None:
     """The robot alone cannot hand a box over, and the human's actions have no cause to fail."""
     problem = load_problem("transport", "two-boxes")
-    stranded = Monitor(problem, profile("paper"))
+    stranded = Monitor(problem, load_profile("replan-always"))
     facts = problem.facts - {("free", "human"), ("free", "robot")}
     ask = ev.AskPlan(0.0, stranded.acting.changing(stranded.acting.initial()) & facts, {},
                      dict(stranded.agents.low), ("failure: x",))  # fmt: skip

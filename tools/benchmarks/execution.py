@@ -19,7 +19,7 @@ MOST_MB = 500
 
 def rows() -> Iterator[Row]:
     """Yield seconds per run of each profile, the replans' median, and the memory used."""
-    for profile in ("paper", "hrcplan"):
+    for profile in ("replan-always", "hrcplan"):
         taken = worked(lambda profile=profile: _run_all(profile)) / (N_RUNS * len(CASES))
         yield Row(
             f"a simulated run, profile {profile}, cases 1a to 2b",

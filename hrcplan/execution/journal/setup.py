@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from hrcplan.agents import Profile
-from hrcplan.agents.profile import profile_of
+from hrcplan.agents.profile import profile_from_table
 from hrcplan.errors import InputError
 from hrcplan.execution import events as ev
 from hrcplan.execution.codec import from_json, to_json
@@ -50,7 +50,7 @@ def setup_from_json(table: Mapping[str, Any], path: str) -> RunSetup:
     try:
         return RunSetup(
             _problem(table["domain"], table["problem"]),
-            profile_of(table["profile"], path),
+            profile_from_table(table["profile"], path),
             bool(table["sensing"]),
             _nature(table["nature"]),
             tuple(table["planners"]),
