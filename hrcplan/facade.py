@@ -6,9 +6,10 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from hrcplan import validation
+from hrcplan.core.numbers import Number
 from hrcplan.errors import InputError
 from hrcplan.pddl import check, library
-from hrcplan.pddl.model import Domain, FluentKey, Number, Problem
+from hrcplan.pddl.model import Domain, FluentKey, Problem
 from hrcplan.pddl.problem import named_domain
 from hrcplan.pddl.reader import read
 from hrcplan.pddl.source import read_source

@@ -10,10 +10,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 
+from hrcplan.core.numbers import Number, to_number
 from hrcplan.core.text import quote
 from hrcplan.errors import PlanFormatError
-from hrcplan.pddl.model import Number, Problem
-from hrcplan.pddl.scope import to_number
+from hrcplan.pddl.model import Problem
 
 EPSILON_S = Fraction(1, 1000)
 """Smallest gap, in seconds, between two happenings that interfere."""

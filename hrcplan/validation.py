@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from itertools import groupby
 from typing import NamedTuple
 
+from hrcplan.core.numbers import Number, number_text
 from hrcplan.pddl.interference import Access, access, clash
 from hrcplan.pddl.model import (
     DURATION,
@@ -19,10 +20,8 @@ from hrcplan.pddl.model import (
     Action,
     Fact,
     FluentKey,
-    Number,
     Problem,
     fact_text,
-    number_text,
 )
 from hrcplan.pddl.semantics import Binding, LiftedState, Undefined, bind, changes, evaluate, unmet
 from hrcplan.plans import EPSILON_S, Plan, PlannedAction, seconds_text

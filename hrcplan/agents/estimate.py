@@ -14,7 +14,8 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from hrcplan.agents.state import AgentModel
-from hrcplan.pddl.model import FluentKey, Number
+from hrcplan.core.numbers import Number
+from hrcplan.pddl.model import FluentKey
 
 LEVELS = tuple(range(1, 11))
 NOTICEABLE = 0.02

@@ -17,9 +17,10 @@ from hrcplan.agents.estimate import AgentStateEstimate, Prior
 from hrcplan.agents.memory import Memory
 from hrcplan.agents.state import AgentModel
 from hrcplan.core.deprecation import current_name, warn_old_name
+from hrcplan.core.numbers import Number, exact
 from hrcplan.core.text import nearest
 from hrcplan.errors import InputError, UsageError
-from hrcplan.pddl.model import FluentKey, Number
+from hrcplan.pddl.model import FluentKey
 
 _SHIPPED = Path(__file__).with_name("profiles.toml")
 REPLAN_ALWAYS = "replan-always"
@@ -122,8 +123,7 @@ class Profile:
 
 
 def _rounded(value: Fraction) -> Number:
-    exact = Fraction(round(value * _PLACES), _PLACES)
-    return int(exact) if exact.denominator == 1 else exact
+    return exact(Fraction(round(value * _PLACES), _PLACES))
 
 
 def profile_names() -> tuple[str, ...]:

@@ -9,20 +9,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from fractions import Fraction
 from functools import cached_property
 
+from hrcplan.core.numbers import Number, exact
 from hrcplan.errors import UsageError
 from hrcplan.pddl.conventions import robots
-from hrcplan.pddl.model import (
-    TOTAL_COST,
-    Action,
-    FluentKey,
-    Function,
-    Number,
-    Problem,
-    functions_in,
-)
+from hrcplan.pddl.model import TOTAL_COST, Action, FluentKey, Function, Problem, functions_in
 from hrcplan.pddl.semantics import ground_key
 from hrcplan.task.numbers import agent_state_functions
 
@@ -42,8 +34,7 @@ def sensed_value(value: float | Number) -> Number:
     number = float(value)
     if not math.isfinite(number) or not LEAST <= number <= MOST:
         raise UsageError(f"{value} is no value in [{LEAST}, {MOST}]", code="bad-sensed-value")
-    exact = Fraction(f"{number:.{_PLACES}f}")
-    return int(exact) if exact.denominator == 1 else exact
+    return exact(f"{number:.{_PLACES}f}")
 
 
 def failure_probability(value: Number, low: Number) -> float:

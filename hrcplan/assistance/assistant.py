@@ -12,7 +12,8 @@ import numpy as np
 from hrcplan.assistance.step_values import StepValues
 from hrcplan.bank import Bank
 from hrcplan.bank.progress import Progress, ProgressTracker
-from hrcplan.inference.belief import Belief, Floats, State
+from hrcplan.core.arrays import Floats
+from hrcplan.inference.belief import Belief, State
 from hrcplan.inference.exact import IMPOSSIBLE
 
 WAIT = None

@@ -9,17 +9,15 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hrcplan.assistance.rhp.consistency import labels
-from hrcplan.assistance.rhp.maximal_subsets import bits
 from hrcplan.bank import Bank
+from hrcplan.core.arrays import Ids
+from hrcplan.core.bits import positions
 
 N_PLANS = 10_000  # for each goal
 BANK, PLAUSIBLE = "bank", "plausible"
 MAX_REMEMBERED = 20_000
-
-Ids = NDArray[np.int64]
 
 
 class Bigrams:
@@ -103,6 +101,6 @@ class Bigrams:
         if goals != self._weighted[0]:  # one look ahead asks for the same ones again and again
             found = np.zeros(self._n_goals, dtype=np.int64)
             for mask in goals:
-                found[list(bits(mask))] += 1
+                found[list(positions(mask))] += 1
             self._weighted = goals, found
         return self._weighted[1]

@@ -11,8 +11,8 @@ from hrcplan.assistance.assistant import TIES
 from hrcplan.assistance.bigrams import Bigrams
 from hrcplan.assistance.step_values import NextSteps, StepValues
 from hrcplan.bank.progress import Progress
+from hrcplan.core.arrays import Floats
 from hrcplan.errors import UsageError
-from hrcplan.inference.belief import Floats
 
 BRANCHING = 5
 

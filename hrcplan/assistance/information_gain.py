@@ -19,8 +19,9 @@ from hrcplan.assistance.bigrams import Bigrams
 from hrcplan.assistance.children import BRANCHING
 from hrcplan.assistance.lookahead import Lookahead, StepSequence, TreePosition, entropy, futures
 from hrcplan.bank import Bank
+from hrcplan.core.arrays import Floats
 from hrcplan.errors import UsageError
-from hrcplan.inference.belief import Belief, Floats
+from hrcplan.inference.belief import Belief
 from hrcplan.inference.classifier.forest import ForestBelief
 
 # Bits that a step of the likeliest goal is worth, and any other one costs; from .1 to 3 it makes no

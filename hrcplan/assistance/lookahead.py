@@ -10,7 +10,6 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hrcplan.assistance.ahead import ImaginedSteps
 from hrcplan.assistance.assistant import AssistantState
@@ -18,7 +17,8 @@ from hrcplan.assistance.bigrams import Bigrams
 from hrcplan.assistance.children import BRANCHING, Branching
 from hrcplan.assistance.step_values import NextSteps, StepValues
 from hrcplan.bank.progress import Progress
-from hrcplan.inference.belief import Belief, Floats
+from hrcplan.core.arrays import Floats
+from hrcplan.inference.belief import Belief
 from hrcplan.pddl.conventions import people
 
 StepSequence = tuple[int, ...]
@@ -122,12 +122,12 @@ def futures(belief: Belief[Any], state: Any, branches: Sequence[StepSequence]) -
     return np.array([belief.posterior(states[branch]) for branch in branches])
 
 
-def entropy(beliefs: Floats) -> NDArray[np.float64]:
+def entropy(beliefs: Floats) -> Floats:
     """Return the entropy of each row, in bits.
 
     >>> entropy(np.array([[0.5, 0.5, 0.0], [0.0, 1.0, 0.0]])).tolist()
     [1.0, 0.0]
     """
     logs = np.log2(np.where(beliefs > 0, beliefs, 1.0))
-    found: NDArray[np.float64] = 0.0 - (beliefs * logs).sum(axis=-1)
+    found: Floats = 0.0 - (beliefs * logs).sum(axis=-1)
     return found

@@ -10,7 +10,7 @@ import numpy as np
 from hrcplan.assistance.step_values import StepValues
 from hrcplan.bank import Bank
 from hrcplan.bank.progress import Progress, ProgressTracker
-from hrcplan.inference.belief import Floats
+from hrcplan.core.arrays import Floats
 from hrcplan.inference.exact import IMPOSSIBLE
 
 

@@ -6,15 +6,12 @@ from collections.abc import Sequence, Set
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hrcplan.bank import PlanGraph
 from hrcplan.bank.progress import OffGraph, Progress, ProgressTracker
 from hrcplan.bank.walk import shortest
+from hrcplan.core.arrays import Floats, Ids
 from hrcplan.pddl.conventions import robots
-
-Ids = NDArray[np.int64]
-Floats = NDArray[np.float64]
 
 DEAD_END = 100.0  # steps lost where a goal can no longer be reached
 

@@ -17,7 +17,7 @@ from hrcplan.bank.construct import NO_LIMITS, assemble, empty_graph, optimal_wit
 from hrcplan.bank.graph import PlanGraph
 from hrcplan.bank.search import BuildLimits, Explored
 from hrcplan.search.lm_cut import Landmark, landmarks
-from hrcplan.search.packed_states import FactPacking, positions_of
+from hrcplan.search.packed_states import FactPacking
 from hrcplan.search.relevance import Literals, relevant
 from hrcplan.task.conditions import Tests, meets
 from hrcplan.task.steps import MAX_TIES, Operator, StepTable
@@ -42,7 +42,7 @@ def alternatives_graph(
     """
     _, price = optimal_with_price(table, goal, state, name=name, limits=limits)
     ops, needed = relevant(table.ops, goal)
-    packing = FactPacking(positions_of(needed.facts))
+    packing = FactPacking.of_facts(needed.facts)
     marks = landmarks(ops, state, goal)
     if price is None or marks is None:
         return empty_graph(name, packing)

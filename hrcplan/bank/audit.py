@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 from hrcplan.bank.bank import Bank
 from hrcplan.bank.graph import PlanGraph
 from hrcplan.bank.search import group_rows
-from hrcplan.search.packed_states import Ids, PackedRules, Words
+from hrcplan.core.arrays import Ids, Words
+from hrcplan.search.packed_states import PackedRules
 
 
 def fault(bank: Bank, goal: int) -> str | None:

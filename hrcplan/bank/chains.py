@@ -18,7 +18,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import comb
 
-from hrcplan.search.packed_states import positions_of
+from hrcplan.core.bits import positions
 
 NEVER_CUT = 1 << 30  # more than there are pairs of steps
 
@@ -101,7 +101,7 @@ class _Order:
         self.before, self.steps = before, steps
         after = dict.fromkeys(before, 0)
         for position in before:
-            for earlier in positions_of(before[position]):
+            for earlier in positions(before[position]):
                 after[earlier] |= 1 << position
         self.related = {i: before[i] | after[i] for i in before}
         self.free = {i: mask & ~self.related[i] & ~(1 << i) for i in before}
@@ -127,8 +127,8 @@ class _Order:
         """Return a chain of two parts, with what this adds; chains within it become part of it."""
         added = [
             (self.steps[i], self.steps[j])
-            for i in positions_of(first)
-            for j in positions_of(rest & self.free[i])
+            for i in positions(first)
+            for j in positions(rest & self.free[i])
         ]
         children: list[OrderNode] = []
         for node in (self.node(first), self.node(rest)):
@@ -142,16 +142,16 @@ class _Order:
         Every first part holds a step that nothing comes before and leaves out one that nothing
         comes after. For each such pair the smallest of the best cuts is a minimum cut.
         """
-        lowest = [i for i in positions_of(mask) if not self.before[i] & mask]
+        lowest = [i for i in positions(mask) if not self.before[i] & mask]
         inner = 0
-        for i in positions_of(mask):
+        for i in positions(mask):
             inner |= self.before[i]
         best = (NEVER_CUT, 0, [0], 0)
         for source in lowest:
-            for sink in positions_of(mask & ~inner & ~(1 << source)):
+            for sink in positions(mask & ~inner & ~(1 << source)):
                 value, part = self._minimum_cut(mask, source, sink, best[0])
                 if part:
-                    best = min(best, (value, part.bit_count(), list(positions_of(part)), part))
+                    best = min(best, (value, part.bit_count(), list(positions(part)), part))
         return best[3]
 
     def _minimum_cut(self, mask: int, source: int, sink: int, most: int) -> tuple[int, int]:
@@ -161,9 +161,9 @@ class _Order:
         pair carries one unit either way, and no cut goes between a step and what is before it.
         """
         room = {
-            i: dict.fromkeys(positions_of(self.free[i] & mask), 1)
-            | dict.fromkeys(positions_of(self.before[i] & mask), NEVER_CUT)
-            for i in positions_of(mask)
+            i: dict.fromkeys(positions(self.free[i] & mask), 1)
+            | dict.fromkeys(positions(self.before[i] & mask), NEVER_CUT)
+            for i in positions(mask)
         }
         onward = {i: (self.free[i] | self.before[i]) & mask for i in room}
         for value in range(most + 1):
@@ -188,7 +188,7 @@ def _reached(source: int, sink: int, onward: Mapping[int, int]) -> tuple[int, di
     for here in waiting:
         new = onward[here] & ~seen
         seen |= new
-        for there in positions_of(new):
+        for there in positions(new):
             came[there] = here
             waiting.append(there)
         if sink in came:

@@ -8,14 +8,11 @@ from functools import cached_property
 from weakref import WeakValueDictionary
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hrcplan.bank import Bank, PlanGraph
+from hrcplan.core.arrays import Bools, Floats, Ids
+from hrcplan.core.bits import positions
 from hrcplan.task import Task
-
-Ids = NDArray[np.int64]
-Floats = NDArray[np.float64]
-Bools = NDArray[np.bool_]
 
 _Rule = tuple[int, int, int, int]
 """Mask and value of a test, touched facts, added facts."""
@@ -162,7 +159,7 @@ class ApplicableSteps:
             self._rules[label].append((mask, value, action.adds | action.deletes, action.adds))
         else:
             self._odd[label].append(index)
-        for position in _positions(_mentioned(self._task, index)):
+        for position in positions(_mentioned(self._task, index)):
             self._mentions.setdefault(position, set()).add(label)
 
     def _part(self, labels: Iterable[int]) -> _Part:
@@ -184,7 +181,7 @@ class ApplicableSteps:
         part = self._affected.get(pattern)
         if part is None:
             found: set[int] = set()
-            for position in _positions(pattern):
+            for position in positions(pattern):
                 found |= self._mentions.get(position, set())
             part = self._affected[pattern] = self._part(found)
         return self._update(state, doable, part)
@@ -220,15 +217,6 @@ def _shares(graph: PlanGraph) -> Floats:
         large: Floats = np.exp(logs[graph.targets] - logs[sources])
         return large
     found: Floats = counts[graph.targets] / counts[sources]
-    return found
-
-
-def _positions(bits: int) -> list[int]:
-    found = []
-    while bits:
-        low = bits & -bits
-        found.append(low.bit_length() - 1)
-        bits ^= low
     return found
 
 

@@ -6,13 +6,13 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hrcplan.bank.graph import PlanGraph
 from hrcplan.bank.search import BuildLimits, Explored, Explorer, group_rows
-from hrcplan.pddl.model import Number
+from hrcplan.core.arrays import Ids, SmallIds, Words
+from hrcplan.core.numbers import Number
 from hrcplan.search.lm_cut import Landmark, landmarks
-from hrcplan.search.packed_states import WORD, FactPacking, Ids, PackedRules, Words, positions_of
+from hrcplan.search.packed_states import WORD, FactPacking, PackedRules
 from hrcplan.search.relevance import read_by, relevant
 from hrcplan.task.conditions import Tests
 from hrcplan.task.steps import Operator, StepTable
@@ -51,7 +51,7 @@ def optimal_with_price(
     paid on top. Otherwise the bound rises until the goal is reached.
     """
     ops, needed = relevant(table.ops, goal)
-    packing = FactPacking(positions_of(needed.facts))
+    packing = FactPacking.of_facts(needed.facts)
     start = packing.row(state)
     marks = landmarks(ops, state, goal)
     if marks is None:
@@ -147,8 +147,8 @@ def _nonempty(
 
 
 def _by_source(
-    sources: Ids, steps: NDArray[np.int32], targets: Ids, n_nodes: int
-) -> tuple[Ids, NDArray[np.int32], NDArray[np.int32]]:
+    sources: Ids, steps: SmallIds, targets: Ids, n_nodes: int
+) -> tuple[Ids, SmallIds, SmallIds]:
     """Return edges in order of their source and step, each once, and where a source's begin."""
     key = sources * (int(steps.max(initial=0)) + 1) + steps
     if (np.diff(key) < 0).any():  # searches with one cost find them in order
@@ -166,7 +166,7 @@ def narrowed(graph: PlanGraph, table: StepTable, goal: Tests) -> PlanGraph:
     States that agree on these and have paid the same go on alike, so they become one node.
     """
     used = (op for step in graph.used_steps for op in table.ways(step))
-    packing = FactPacking(positions_of(read_by(used, goal) & graph.relevant))
+    packing = FactPacking.of_facts(read_by(used, goal) & graph.relevant)
     if packing.positions == graph.packing.positions or not graph.n_nodes:
         return graph
     rows = _selected(graph.rows, graph.packing, packing)

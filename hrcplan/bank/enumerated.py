@@ -19,7 +19,7 @@ from hrcplan.bank.search import BuildLimits, Explored
 from hrcplan.pddl.model import Formula
 from hrcplan.planners import kstar, process
 from hrcplan.planners.lowering import lower
-from hrcplan.search.packed_states import FactPacking, positions_of
+from hrcplan.search.packed_states import FactPacking
 from hrcplan.search.relevance import relevant
 from hrcplan.task import Task
 from hrcplan.task.conditions import Tests, meets
@@ -74,7 +74,7 @@ def graph_of_plans(
     """Return the graph whose nodes are the states that optimal plans go through."""
     tests, name = goals.tests[goal], goals.names[goal]
     _, needed = relevant(table.ops, tests)
-    packing = FactPacking(positions_of(needed.facts))
+    packing = FactPacking.of_facts(needed.facts)
     if not plans:
         return empty_graph(name, packing)
     edges: dict[tuple[int, int, int], tuple[int, int]] = {}

@@ -8,9 +8,10 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
+from hrcplan.core.numbers import number_text
 from hrcplan.core.text import nearest
 from hrcplan.errors import InputError, UsageError
-from hrcplan.pddl.model import Formula, Problem, fact_text, number_text
+from hrcplan.pddl.model import Formula, Problem, fact_text
 from hrcplan.pddl.source import SourceText, decode
 from hrcplan.task import Task
 from hrcplan.task.conditions import Test

@@ -15,8 +15,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hrcplan.pddl.model import Number
-from hrcplan.search.packed_states import Bools, FactPacking, Ids, Words
+from hrcplan.core.arrays import Bools, Ids, SmallIds, Words
+from hrcplan.core.numbers import Number
+from hrcplan.search.packed_states import FactPacking
 
 BIG = float(1 << 62)  # above it counts are Python integers, below it 64-bit ones: both are exact
 
@@ -47,8 +48,8 @@ class PlanGraph:
     rows: Words
     layers: tuple[tuple[Number, int], ...]
     first: Ids
-    steps: NDArray[np.int32]
-    targets: NDArray[np.int32]
+    steps: SmallIds
+    targets: SmallIds
     is_goal: Bools
     complete: bool = True
 
@@ -116,7 +117,7 @@ class PlanGraph:
     # Counts.
 
     @cached_property
-    def layer_of(self) -> NDArray[np.int32]:
+    def layer_of(self) -> SmallIds:
         """The layer of each node."""
         starts = [first for _, first in self.layers] + [self.n_nodes]
         return np.repeat(np.arange(len(self.layers), dtype=np.int32), np.diff(starts))
@@ -190,7 +191,7 @@ class PlanGraph:
         return tuple(dict.fromkeys(self.layers[layer][0] for layer in self.final_layers))
 
     @cached_property
-    def steps_left(self) -> NDArray[np.int64]:
+    def steps_left(self) -> Ids:
         """How few steps lead from each node to a goal node."""
         found = np.where(self.is_goal, 0, np.iinfo(np.int64).max - 1)
         for edges, sources in reversed(list(self.edges_by_layer())):

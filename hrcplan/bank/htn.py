@@ -22,7 +22,7 @@ from hrcplan.bank.chains import (
 )
 from hrcplan.bank.graph import PlanGraph
 from hrcplan.bank.orders import Layout, kinds_of, order_of
-from hrcplan.search.packed_states import positions_of
+from hrcplan.core.bits import positions
 
 __all__ = ["Chain", "Clique", "Htn", "Kind", "Leaf", "OrderNode", "decompose"]
 
@@ -110,7 +110,7 @@ class Htn:
             if not mask & ~kind.root.mask:
                 found |= _available(kind.root, mask)
         steps = self.layout.steps
-        return tuple(dict.fromkeys(steps[i] for i in positions_of(found)))
+        return tuple(dict.fromkeys(steps[i] for i in positions(found)))
 
     def choose(self, remaining: Iterable[int], last: int | None, pick: Pick) -> int | None:
         """Return the next step of somebody who finishes what was begun.

@@ -18,9 +18,10 @@ from numpy.typing import NDArray
 
 from hrcplan.bank.graph import PlanGraph
 from hrcplan.bank.walk import Multiset, plans, step_multisets
+from hrcplan.core.arrays import Bools, Ids
+from hrcplan.core.bits import positions
+from hrcplan.core.numbers import Number
 from hrcplan.errors import LimitError
-from hrcplan.pddl.model import Number
-from hrcplan.search.packed_states import Bools, Ids, positions_of
 
 MAX_KINDS = 64
 MAX_LISTED = 10_000  # plans that are looked at for kinds where there are too many of these
@@ -149,7 +150,7 @@ def order_of(graph: PlanGraph, layout: Layout, kind: Multiset) -> KindOrder:
     left = ways.left[alive]
     before = {
         i: mask & ~int(np.bitwise_or.reduce(here[done == 1 << i], initial=0))
-        for i in positions_of(mask)
+        for i in positions(mask)
     }
     # What comes next in the graph can do so in the order. If no more can, they are the same.
     possible = sum(np.count_nonzero((left & (b | 1 << i)) == 1 << i) for i, b in before.items())

@@ -8,14 +8,12 @@ from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hrcplan.bank import Bank, BuildLimits, PlanGraph
-from hrcplan.bank.combined_graph import ApplicableSteps, Ids, combined_graph_of
+from hrcplan.bank.combined_graph import ApplicableSteps, combined_graph_of
+from hrcplan.core.arrays import Floats, Ids
 from hrcplan.errors import LimitError
 from hrcplan.search.relevance import relevant
-
-Floats = NDArray[np.float64]
 
 REROOT_MIB = 256  # for one graph from a state off the graph
 _NOWHERE: Mapping[int, OffGraph] = MappingProxyType({})

@@ -14,9 +14,10 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from hrcplan.core.arrays import Bools, Ids, SmallIds, Words
 from hrcplan.errors import LimitError
 from hrcplan.search.lm_cut import Landmark
-from hrcplan.search.packed_states import WORD, Bools, Ids, PackedRules, Words
+from hrcplan.search.packed_states import WORD, PackedRules
 from hrcplan.task.conditions import Tests
 from hrcplan.task.steps import MAX_TIES, Operator
 
@@ -24,7 +25,7 @@ MAX_MIB = 2048
 SALT = np.uint64(0x9E3779B97F4A7C15)
 
 
-Edges = tuple[Ids, NDArray[np.int32], Ids]
+Edges = tuple[Ids, SmallIds, Ids]
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +75,7 @@ class _Pending:
     states: list[Words] = field(default_factory=list)
     met: list[Words] = field(default_factory=list)
     sources: list[Ids] = field(default_factory=list)
-    steps: list[NDArray[np.int32]] = field(default_factory=list)
+    steps: list[SmallIds] = field(default_factory=list)
 
 
 class Explorer:
@@ -183,7 +184,7 @@ class Explorer:
             # Sorting the waiting states will take about as much again as they do, twice over.
             self.limits.check(self.name, self.n_bytes + 3 * self.n_waiting, self.n_nodes)
 
-    def _changes(self, states: Words) -> Iterator[tuple[Ids, NDArray[np.int32], Words]]:
+    def _changes(self, states: Words) -> Iterator[tuple[Ids, SmallIds, Words]]:
         """Yield what can follow; where a step can be done in several ways, the cheapest."""
         if self.one_way:
             yield from self.rules.expand(states)
@@ -196,9 +197,7 @@ class Explorer:
         first[1:] = (rows[1:] != rows[:-1]) | (self.step_of[ops[1:]] != self.step_of[ops[:-1]])
         yield rows[first], ops[first], after[first]
 
-    def _push(
-        self, paid: int, states: Words, met: Words, sources: Ids, steps: NDArray[np.int32]
-    ) -> None:
+    def _push(self, paid: int, states: Words, met: Words, sources: Ids, steps: SmallIds) -> None:
         if not len(states):
             return
         if paid not in self.pending:
@@ -248,7 +247,7 @@ class _Seen:
     """States met so far, as few tables of distinct sizes, each sorted by a hash."""
 
     def __init__(self) -> None:
-        self._tables: list[tuple[NDArray[np.uint64], Words]] = []
+        self._tables: list[tuple[Words, Words]] = []
 
     def add(self, states: Words) -> None:
         """Take in states, all of them new."""
@@ -276,7 +275,7 @@ class _Seen:
         return found
 
 
-def _hash(rows: Words) -> NDArray[np.uint64]:
+def _hash(rows: Words) -> Words:
     found = rows[:, 0].copy()
     for word in range(1, rows.shape[1]):
         found = (found ^ (found >> np.uint64(29))) * SALT + rows[:, word]

@@ -25,9 +25,9 @@ from hrcplan.bank.graph import PlanGraph
 from hrcplan.bank.sources import goals_in
 from hrcplan.core.array_file import Arrays, Format, array
 from hrcplan.core.files import write_atomically
+from hrcplan.core.numbers import exact
 from hrcplan.errors import InputError, UsageError
 from hrcplan.pddl import library
-from hrcplan.pddl.model import Number
 from hrcplan.search.packed_states import FactPacking
 from hrcplan.task.steps import StepTable
 
@@ -204,11 +204,6 @@ def _graph(entry: Mapping[str, Any], body: memoryview) -> PlanGraph:
     arrays = {name: array(body, entry["arrays"][name], kind) for name, kind in _ARRAYS.items()}
     return PlanGraph(
         goal=entry["name"], packing=FactPacking(tuple(entry["positions"])),
-        layers=tuple((_number(cost), first) for cost, first in entry["layers"]),
+        layers=tuple((exact(cost), first) for cost, first in entry["layers"]),
         complete=entry["complete"], **arrays,
     )  # fmt: skip
-
-
-def _number(text: str) -> Number:
-    value = Fraction(text)
-    return int(value) if value.denominator == 1 else value

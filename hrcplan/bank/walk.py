@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hrcplan.bank.graph import PlanGraph
+from hrcplan.core.arrays import Bools, Floats, Ids, SmallIds
 from hrcplan.errors import LimitError
-from hrcplan.search.packed_states import Bools, Ids
 
 MAX_MULTISETS = 10_000
 MAX_OBSERVED = 20  # steps that the subset test can look at where there are too many multisets
@@ -88,7 +88,7 @@ class Sampler:
         widest = int(degrees.max(initial=1))
         self._strides = [1 << i for i in reversed(range((widest - 1).bit_length()))]
 
-    def draw(self, n: int, rng: np.random.Generator) -> NDArray[np.int32]:
+    def draw(self, n: int, rng: np.random.Generator) -> SmallIds:
         """Return ``n`` plans as rows of step ids, shorter ones filled up with -1.
 
         Every plan has the same chance, up to the rounding of floats (about 1e-12).
@@ -100,10 +100,10 @@ class Sampler:
             found[i * CHUNK : i * CHUNK + len(part), : part.shape[1]] = part
         return found
 
-    def _draw(self, n: int, rng: np.random.Generator) -> NDArray[np.int32]:
+    def _draw(self, n: int, rng: np.random.Generator) -> SmallIds:
         graph = self.graph
         nodes = np.zeros(n, dtype=np.int32)
-        columns: list[NDArray[np.int32]] = []
+        columns: list[SmallIds] = []
         done = graph.is_goal[nodes]
         while not done.all():
             edges = self._choose(nodes, rng.random(n))
@@ -117,7 +117,7 @@ class Sampler:
             done = graph.is_goal[nodes]
         return np.stack(columns, axis=1) if columns else np.zeros((n, 0), dtype=np.int32)
 
-    def _choose(self, nodes: NDArray[np.integer], chance: NDArray[np.float64]) -> Ids:
+    def _choose(self, nodes: NDArray[np.integer], chance: Floats) -> Ids:
         """Return an edge for each node, by halving the range of its edges."""
         edges: Ids = self.graph.first[nodes]
         last = self._last[nodes]

@@ -56,8 +56,8 @@ def command(
     how far the value may move from where it is before another allocation is better.
     """
     from hrcplan.cli.arguments import function, problem_of, split_names
+    from hrcplan.core.numbers import exact
     from hrcplan.planners.allocation import LEAST, MOST, diagram
-    from hrcplan.task.numbers import exact
 
     domain, name, (element,) = split_names(names, 1)
     problem = problem_of(domain, name, settings)

@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
+from hrcplan.core.numbers import Number, to_number
 from hrcplan.core.text import nearest
 from hrcplan.errors import UsageError
 from hrcplan.facade import load_problem
-from hrcplan.pddl.model import FluentKey, Number, Problem
-from hrcplan.pddl.scope import to_number
+from hrcplan.pddl.model import FluentKey, Problem
 
 
 def split_names(words: Sequence[str], n_more: int) -> tuple[str, str, list[str]]:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from hrcplan.cli.output import number
-from hrcplan.pddl.model import Number, Problem, number_text
+from hrcplan.core.numbers import Number, number_text
+from hrcplan.pddl.model import Problem
 from hrcplan.planners.contract import Status
 from hrcplan.planners.solve import Result
 from hrcplan.plans import Plan, PlannedAction, lane, occupied, seconds_text

@@ -7,13 +7,14 @@ import time
 from dataclasses import dataclass, field
 
 from hrcplan.cli import output
+from hrcplan.core.numbers import number_text
 from hrcplan.core.text import plural
 from hrcplan.execution import events as ev
 from hrcplan.execution.events import Command, Event
 from hrcplan.execution.outcome import Outcome
 from hrcplan.execution.run import Run, RunningAction
 from hrcplan.pddl.conventions import robots
-from hrcplan.pddl.model import Problem, fact_text, number_text
+from hrcplan.pddl.model import Problem, fact_text
 from hrcplan.plans import lane
 
 _BEGUN, _MARK = "▶", {ev.DONE: "✓", ev.FAILED: "✗", ev.CANCELLED: "·"}

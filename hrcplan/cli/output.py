@@ -9,8 +9,8 @@ from typing import Any, TypeVar
 import rich_click as click
 
 from hrcplan.core.files import write_atomically as write_atomically
+from hrcplan.core.numbers import Number
 from hrcplan.errors import PddlError
-from hrcplan.pddl.model import Number
 
 FILE_WIDTH = 160  # characters of a table that goes to a file or a program
 

@@ -54,7 +54,7 @@ def _fluents(report: Report, problem: Problem) -> str:
 
 
 def _figures(report: Report) -> str:
-    from hrcplan.pddl.model import number_text
+    from hrcplan.core.numbers import number_text
 
     figures = {"cost": report.cost, "makespan": report.makespan_s, "metric": report.metric}
     return "".join(f", {name} {number_text(n)}" for name, n in figures.items() if n is not None)

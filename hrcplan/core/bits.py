@@ -7,6 +7,18 @@ from functools import reduce
 from operator import and_, or_
 
 
+def single_bits(bits: int) -> Iterator[int]:
+    """Yield the powers of two that add up to a number, lowest first.
+
+    >>> list(single_bits(0b1010))
+    [2, 8]
+    """
+    while bits:
+        low = bits & -bits
+        yield low
+        bits ^= low
+
+
 def positions(bits: int) -> Iterator[int]:
     """Yield the positions of the bits that are set, lowest first.
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from hrcplan.core.numbers import Number
 from hrcplan.pddl.model import (
     DURATION,
     TOTAL_COST,
@@ -18,7 +19,6 @@ from hrcplan.pddl.model import (
     Fact,
     FluentKey,
     Formula,
-    Number,
     Problem,
     formula_functions,
 )

@@ -8,10 +8,11 @@ from dataclasses import fields
 from fractions import Fraction
 from typing import Any
 
+from hrcplan.core.numbers import Number, exact
 from hrcplan.errors import PlanFormatError
 from hrcplan.execution import events as ev
 from hrcplan.execution.events import Command, Event
-from hrcplan.pddl.model import Fact, FluentKey, Number
+from hrcplan.pddl.model import Fact, FluentKey
 from hrcplan.plans import Plan, format_plan, parse_plan
 
 _KINDS: Mapping[str, type] = {
@@ -78,8 +79,7 @@ def exact_number(number: float | str) -> float | Number:
         return float(number)
     if isinstance(number, int):
         return number
-    value = Fraction(repr(number))
-    return int(value) if value.denominator == 1 else value
+    return exact(repr(number))
 
 
 def _facts(words: list[str]) -> frozenset[Fact]:

@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from hrcplan.pddl.model import Fact, FluentKey, Number, fact_text
+from hrcplan.core.numbers import Number
+from hrcplan.pddl.model import Fact, FluentKey, fact_text
 from hrcplan.plans import Plan, PlannedAction
 
 INSTANT_S = 0.01

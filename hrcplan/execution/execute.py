@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from hrcplan.agents import load_profile
+from hrcplan.core.numbers import Number
 from hrcplan.errors import UsageError
 from hrcplan.execution.driver import PlanProvider, RunWatch
 from hrcplan.execution.events import Command, Event
@@ -18,7 +19,7 @@ from hrcplan.execution.run import Run
 from hrcplan.execution.simulate import Spec, make_engine
 from hrcplan.execution.timeline import Timeline
 from hrcplan.facade import load_problem
-from hrcplan.pddl.model import FluentKey, Number, Problem
+from hrcplan.pddl.model import FluentKey, Problem
 from hrcplan.planners.registry import PLANNERS
 
 

@@ -14,13 +14,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
+from hrcplan.core.numbers import Number
 from hrcplan.execution import events as ev
 from hrcplan.execution.acting import UNIT_S
 from hrcplan.execution.events import Command, Event
 from hrcplan.execution.observer import Observer, Stepped
 from hrcplan.execution.order import Waits, rest_of, waits
 from hrcplan.execution.run import FollowedPlan, Phase, Run, RunningAction, plus
-from hrcplan.pddl.model import Number
 from hrcplan.plans import Plan, PlannedAction
 from hrcplan.validation import objective, validate
 

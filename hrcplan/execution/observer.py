@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 
 from hrcplan.agents import AgentModel, Profile
 from hrcplan.agents.state import LEAST, MOST
+from hrcplan.core.numbers import Number, number_text
 from hrcplan.errors import UsageError
 from hrcplan.execution import events as ev
 from hrcplan.execution.acting import ActionModel, BoundAction
@@ -17,7 +18,7 @@ from hrcplan.execution.codec import exact_number
 from hrcplan.execution.events import Command
 from hrcplan.execution.order import Waits
 from hrcplan.execution.run import Phase, Run, RunningAction, plus
-from hrcplan.pddl.model import FluentKey, Number, Problem, fact_text, number_text
+from hrcplan.pddl.model import FluentKey, Problem, fact_text
 from hrcplan.pddl.semantics import LiftedState
 from hrcplan.planners.expected_price import expected_retries
 from hrcplan.plans import Plan

@@ -9,8 +9,9 @@ from __future__ import annotations
 from collections.abc import Callable, Set
 from dataclasses import dataclass, replace
 
+from hrcplan.core.numbers import Number
 from hrcplan.pddl.interference import clash
-from hrcplan.pddl.model import Number, Problem
+from hrcplan.pddl.model import Problem
 from hrcplan.planners.lanes import touched
 from hrcplan.plans import EPSILON_S, Plan, PlannedAction, occupied
 

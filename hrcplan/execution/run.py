@@ -8,9 +8,10 @@ from dataclasses import dataclass, field, replace
 
 from hrcplan.agents.memory import Memory
 from hrcplan.agents.profile import Experience
+from hrcplan.core.numbers import Number
 from hrcplan.execution.acting import BoundAction, Undo
 from hrcplan.execution.order import Waits
-from hrcplan.pddl.model import FluentKey, Number
+from hrcplan.pddl.model import FluentKey
 from hrcplan.pddl.semantics import LiftedState
 from hrcplan.plans import Plan
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from hrcplan.agents import REPLAN_ALWAYS, Profile, load_profile
+from hrcplan.core.numbers import Number
 from hrcplan.errors import UsageError
 from hrcplan.execution import events as ev
 from hrcplan.execution.driver import Driver, NullRecord, PlanProvider, RunRecord, RunWatch
@@ -29,7 +30,7 @@ from hrcplan.execution.worlds.simulated import (
     StateChange,
 )
 from hrcplan.facade import load_problem
-from hrcplan.pddl.model import FluentKey, Number, Problem
+from hrcplan.pddl.model import FluentKey, Problem
 from hrcplan.planners.expected_price import with_success
 
 CASES = (0, 1, 2)

@@ -7,9 +7,8 @@ from collections.abc import Sequence
 from typing import Protocol, TypeVar, runtime_checkable
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from hrcplan.core.arrays import Floats
 
 ROUNDED = 9  # decimals of log scores, so that equal evidence gives equal numbers
 

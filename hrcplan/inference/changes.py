@@ -6,9 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
+from hrcplan.core.arrays import Floats
 
 # Tuned on kitchens made by chance, not on the shipped one (docs/reproduce.md).
 HAZARD = 0.1

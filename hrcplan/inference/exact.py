@@ -9,7 +9,8 @@ import numpy as np
 
 from hrcplan.bank import Bank
 from hrcplan.bank.progress import Evidence, Progress, ProgressTracker
-from hrcplan.inference.belief import Floats, normalized
+from hrcplan.core.arrays import Floats
+from hrcplan.inference.belief import normalized
 
 MISTAKE_RATE = 0.01
 UNEXPLAINED = "no goal explains this step"

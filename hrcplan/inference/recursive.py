@@ -9,7 +9,8 @@ import numpy as np
 
 from hrcplan.bank import Bank
 from hrcplan.bank.progress import Evidence, Progress, ProgressTracker
-from hrcplan.inference.belief import Floats, weights_to_posterior
+from hrcplan.core.arrays import Floats
+from hrcplan.inference.belief import weights_to_posterior
 from hrcplan.inference.exact import IMPOSSIBLE
 
 STAY = 0.9

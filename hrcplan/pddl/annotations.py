@@ -11,10 +11,10 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
 
+from hrcplan.core.numbers import Number, to_number
 from hrcplan.core.text import nearest, quote
-from hrcplan.pddl.model import Note, Number
+from hrcplan.pddl.model import Note
 from hrcplan.pddl.reader import notes
-from hrcplan.pddl.scope import to_number
 from hrcplan.pddl.source import SourceText
 
 _FORMS = {"success": "success ACTION PROBABILITY", "range": "range FUNCTION LOW HIGH"}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from hrcplan.core.numbers import to_number
 from hrcplan.core.text import plural, quote
 from hrcplan.pddl.model import (
     DURATION,
@@ -23,7 +24,7 @@ from hrcplan.pddl.model import (
     Quantified,
 )
 from hrcplan.pddl.reader import GroupNode, ParseNode, WordNode
-from hrcplan.pddl.scope import Scope, looks_numeric, to_number
+from hrcplan.pddl.scope import Scope, looks_numeric
 from hrcplan.pddl.typed_lists import read_params
 
 COMPARISONS = frozenset(["<", "<=", "=", ">=", ">"])

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from fractions import Fraction
 from functools import cached_property
 
-Number = int | Fraction
+from hrcplan.core.numbers import Number, number_text
+
 Fact = tuple[str, ...]
 FluentKey = tuple[str, ...]
 """A ground function: ``(name, *objects)``."""
@@ -20,17 +20,6 @@ OBJECT = "object"
 TOTAL_COST = "total-cost"
 TOTAL_TIME = "total-time"
 DURATION = "?duration"
-
-
-def number_text(value: Number) -> str:
-    """Return a number as PDDL writes it: exact where the decimal ends, else 12 digits.
-
-    >>> number_text(Fraction(17, 100)), number_text(3)
-    ('0.17', '3')
-    """
-    if isinstance(value, int) or value.denominator == 1:
-        return str(int(value))
-    return f"{float(value):.12f}".rstrip("0").rstrip(".")
 
 
 def fact_text(fact: Fact) -> str:

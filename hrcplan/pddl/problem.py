@@ -2,26 +2,17 @@
 
 from __future__ import annotations
 
+from hrcplan.core.numbers import Number, to_number
 from hrcplan.core.text import nearest, quote
 from hrcplan.pddl.annotations import refuse_notes
 from hrcplan.pddl.conventions import check_problem
 from hrcplan.pddl.domain import declared_name, read_objects, sections_of
 from hrcplan.pddl.formulas import read_atom, read_expression, read_formula, read_function
 from hrcplan.pddl.initial_values import check_values
-from hrcplan.pddl.model import (
-    TOTAL_TIME,
-    TRUE,
-    Domain,
-    Expr,
-    Fact,
-    FluentKey,
-    Formula,
-    Number,
-    Problem,
-)
+from hrcplan.pddl.model import TOTAL_TIME, TRUE, Domain, Expr, Fact, FluentKey, Formula, Problem
 from hrcplan.pddl.reader import GroupNode, ParseNode, WordNode
 from hrcplan.pddl.requirements import check_requirements, read_requirements
-from hrcplan.pddl.scope import Scope, to_number
+from hrcplan.pddl.scope import Scope
 from hrcplan.pddl.source import SourceText
 
 _SECTIONS = (":domain", ":requirements", ":objects", ":init", ":goal", ":metric")

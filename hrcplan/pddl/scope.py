@@ -5,17 +5,13 @@ Looks a name up, reports an unknown one with a hint, and checks number and types
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
 
 from hrcplan.core.text import plural, quote
-from hrcplan.pddl.model import OBJECT, TOTAL_TIME, Domain, Number, Param, Signature
+from hrcplan.pddl.model import OBJECT, TOTAL_TIME, Domain, Param, Signature
 from hrcplan.pddl.reader import GroupNode, WordNode
 from hrcplan.pddl.source import SourceText
-
-_NUMBER = re.compile(r"[+-]?([0-9]{1,150}(\.[0-9]{0,30})?|\.[0-9]{1,30})(e[+-]?[0-9]{1,2})?")
 
 
 @dataclass(frozen=True)
@@ -103,20 +99,6 @@ class Scope:
             message = f"{kind} {quote(word)} is not declared"
             self.source.unknown(word.at, code, message, word, known)
         return None
-
-
-def to_number(word: str) -> Number | None:
-    """Return the exact number that a word spells, or None.
-
-    >>> to_number("0.5"), to_number("10"), to_number("5."), to_number("1.2.3")
-    (Fraction(1, 2), 10, 5, None)
-    """
-    if not _NUMBER.fullmatch(word):
-        return None
-    if word.isdigit():
-        return int(word)
-    value = Fraction(word)
-    return int(value) if value.denominator == 1 else value
 
 
 def looks_numeric(word: str) -> bool:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
 
+from hrcplan.core.numbers import Number, exact
 from hrcplan.errors import LimitError
 from hrcplan.pddl.model import (
     Action,
@@ -27,7 +28,6 @@ from hrcplan.pddl.model import (
     Formula,
     Function,
     Not,
-    Number,
     Or,
     Param,
     Problem,
@@ -91,7 +91,7 @@ def _apply(op: str, numbers: Sequence[Number]) -> Number:
             raise Undefined("division by zero")
         else:
             total = Fraction(total) / number
-    return int(total) if isinstance(total, Fraction) and total.denominator == 1 else total
+    return exact(total)
 
 
 _COMPARE = {

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import groupby
 
+from hrcplan.core.numbers import Number, number_text
 from hrcplan.pddl.dialect import symbolic, without_numbers
 from hrcplan.pddl.model import (
     OBJECT,
@@ -26,14 +27,12 @@ from hrcplan.pddl.model import (
     FluentKey,
     Formula,
     Not,
-    Number,
     Or,
     Param,
     Problem,
     Quantified,
     Signature,
     fact_text,
-    number_text,
 )
 
 WIDTH = 100

@@ -15,14 +15,14 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from math import gcd, lcm
 
+from hrcplan.core.numbers import Number, exact
 from hrcplan.errors import PlannerError, UsageError
-from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, FluentKey, Number, Problem, fact_text
+from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, FluentKey, Problem, fact_text
 from hrcplan.pddl.semantics import evaluate
 from hrcplan.planners import registry
 from hrcplan.planners.contract import Planner, Status
 from hrcplan.planners.solve import AUTO, DEFAULT_TIMEOUT_S, solve
 from hrcplan.plans import EPSILON_S, Plan, lane
-from hrcplan.task.numbers import exact
 from hrcplan.task.regrounding import Groundings
 from hrcplan.validation import objective, validate
 

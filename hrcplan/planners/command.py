@@ -13,8 +13,9 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from hrcplan.core.numbers import Number
 from hrcplan.errors import MissingPlannerError, PlanFormatError, PlannerError, UsageError
-from hrcplan.pddl.model import Number, Problem
+from hrcplan.pddl.model import Problem
 from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
 from hrcplan.planners.process import FinishedProcess, ProcessEnd, ProcessLimits, run

@@ -8,8 +8,9 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Protocol, runtime_checkable
 
+from hrcplan.core.numbers import Number
 from hrcplan.errors import HrcplanError, LimitError, UnsupportedError
-from hrcplan.pddl.model import TOTAL_TIME, Number, Problem, functions_in
+from hrcplan.pddl.model import TOTAL_TIME, Problem, functions_in
 from hrcplan.plans import Plan
 from hrcplan.task import Task
 

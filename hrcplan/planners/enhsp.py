@@ -16,10 +16,10 @@ from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from hrcplan.core.numbers import Number, to_number
 from hrcplan.errors import LimitError, MissingPlannerError, PlannerError, UnsupportedError
 from hrcplan.pddl.dialect import with_binary_sums, with_effects
-from hrcplan.pddl.model import TOTAL_COST, TRUE, Effect, Function, Number, Problem, functions_in
-from hrcplan.pddl.scope import to_number
+from hrcplan.pddl.model import TOTAL_COST, TRUE, Effect, Function, Problem, functions_in
 from hrcplan.pddl.write import decimal_text, domain_text, problem_text
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
 from hrcplan.planners.lowering import Lowered, lower

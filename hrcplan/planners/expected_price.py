@@ -10,8 +10,9 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 
+from hrcplan.core.numbers import Number
 from hrcplan.errors import UsageError
-from hrcplan.pddl.model import TOTAL_COST, Action, Arithmetic, Constant, Number, Problem
+from hrcplan.pddl.model import TOTAL_COST, Action, Arithmetic, Constant, Problem
 
 
 def expected_retries(problem: Problem) -> Problem:

@@ -13,8 +13,9 @@ from fractions import Fraction
 from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
+from hrcplan.core.numbers import Number, exact
 from hrcplan.errors import LimitError, MissingPlannerError, PlannerError, UnsupportedError
-from hrcplan.pddl.model import TOTAL_COST, Function, Number
+from hrcplan.pddl.model import TOTAL_COST, Function
 from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
 from hrcplan.planners.lowering import Lowered, lower
@@ -181,7 +182,7 @@ class _Portfolio:
             return self.lowered.objective(value)
         if self.request.weighs_time and not problem.domain.is_temporal:
             return None  # it counts actions as time, we count none
-        return int(value) if value.denominator == 1 else value
+        return exact(value)
 
     def _answer(self) -> Answer:
         if self.best is not None:

@@ -10,8 +10,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from hrcplan.core.numbers import Number
 from hrcplan.pddl.interference import Access, access, clash
-from hrcplan.pddl.model import Action, Number, Problem
+from hrcplan.pddl.model import Action, Problem
 from hrcplan.pddl.semantics import bind, evaluate
 from hrcplan.plans import EPSILON_S, Plan, PlannedAction, occupied
 from hrcplan.task import Task

@@ -13,8 +13,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import lcm
 
+from hrcplan.core.bits import positions
+from hrcplan.core.numbers import Number, exact
 from hrcplan.errors import PlanFormatError, UnsupportedError
-from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, Number
+from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME
 from hrcplan.pddl.write import decimal_text
 from hrcplan.planners.instantaneous import unsure_changes
 from hrcplan.plans import Plan, PlannedAction, parse_plan
@@ -77,8 +79,7 @@ class Lowered:
         """Return the metric of a plan with this lowered cost; None where it is not the metric."""
         if not self.exact_for_metric:
             return None
-        value = Fraction(cost) / self.scale + self.offset
-        return int(value) if value.denominator == 1 else value
+        return exact(Fraction(cost) / self.scale + self.offset)
 
     def without_costs(self) -> tuple[str, str]:
         """Return domain and problem text for planners that know no costs, plans as before."""
@@ -243,10 +244,7 @@ class _Text:
         yield ")"
 
     def _atoms(self, bits: int) -> Iterator[str]:
-        while bits:
-            low = bits & -bits
-            yield f"({self.facts[low.bit_length() - 1]})"
-            bits ^= low
+        return (f"({self.facts[position]})" for position in positions(bits))
 
     def _literals(self, mask: int, value: int) -> str:
         wrong = (f"(not {atom})" for atom in self._atoms(mask & ~value))

@@ -6,6 +6,7 @@ import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
+from hrcplan.core.numbers import Number, number_text
 from hrcplan.errors import (
     CostGuardError,
     LimitError,
@@ -14,7 +15,7 @@ from hrcplan.errors import (
     UnsupportedError,
     UsageError,
 )
-from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, Number, Problem, number_text
+from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, Problem
 from hrcplan.pddl.semantics import evaluate
 from hrcplan.planners import registry
 from hrcplan.planners.contract import Answer, Capabilities, Planner, Request, Status

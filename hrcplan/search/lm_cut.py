@@ -10,7 +10,7 @@ import heapq
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from hrcplan.search.packed_states import positions_of
+from hrcplan.core.bits import positions
 from hrcplan.task import BitEffect
 from hrcplan.task.conditions import Test, Tests
 from hrcplan.task.steps import Operator
@@ -93,8 +93,8 @@ class _Relaxation:
 
     def _add(self, group: int, test: Test | None, change: BitEffect) -> None:
         if test is not None:
-            true = (2 * i for i in positions_of(change.adds))
-            false = (2 * i + 1 for i in positions_of(change.deletes))
+            true = (2 * i for i in positions(change.adds))
+            false = (2 * i + 1 for i in positions(change.deletes))
             self.relaxed.append(_Relaxed(group, _needs(test, self.true), (*true, *false)))
 
     def h_max(self) -> list[float]:
@@ -176,4 +176,4 @@ def _both(one: Test, other: Test) -> Test | None:
 
 def _needs(test: Test, true: int) -> tuple[int, ...]:
     mask, value = test
-    return tuple(2 * i + (not value >> i & 1) for i in positions_of(mask)) or (true,)
+    return tuple(2 * i + (not value >> i & 1) for i in positions(mask)) or (true,)

@@ -10,30 +10,17 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from hrcplan.core.arrays import Bools, Ids, SmallIds, Words
+from hrcplan.core.bits import positions
 from hrcplan.search.relevance import ALWAYS
 from hrcplan.task import BitEffect
 from hrcplan.task.conditions import Tests
 from hrcplan.task.steps import Operator
 
-Words = NDArray[np.uint64]
-Ids = NDArray[np.int64]
-Bools = NDArray[np.bool_]
-
 WORD = 64
 PAIRS = 1 << 20  # rows times steps that are looked at together
 _LOW = (1 << WORD) - 1
-
-
-def positions_of(bits: int) -> tuple[int, ...]:
-    """Return the positions of the bits that are set, lowest first."""
-    found: list[int] = []
-    while bits:
-        low = bits & -bits
-        found.append(low.bit_length() - 1)
-        bits ^= low
-    return tuple(found)
 
 
 @dataclass(frozen=True)
@@ -41,6 +28,11 @@ class FactPacking:
     """Task facts to bits of a row of words, in order."""
 
     positions: tuple[int, ...]
+
+    @classmethod
+    def of_facts(cls, facts: int) -> FactPacking:
+        """Return the packing that holds the given facts (bits of the task), lowest first."""
+        return cls(tuple(positions(facts)))
 
     @cached_property
     def _index(self) -> dict[int, int]:
@@ -109,7 +101,7 @@ class PackedRules:
         self._adds = packing.rows([ops[i].at_start[0].adds for i in simple])
         self._keeps = ~packing.rows([ops[i].at_start[0].deletes for i in simple]) | self._adds
 
-    def expand(self, states: Words) -> Iterator[tuple[Ids, NDArray[np.int32], Words]]:
+    def expand(self, states: Words) -> Iterator[tuple[Ids, SmallIds, Words]]:
         """Yield (row, op, successor) arrays for all changes that can be made to ``states``."""
         chunk = max(1, PAIRS // max(1, len(self._simple)))
         for begin in range(0, len(states), chunk):
@@ -119,7 +111,7 @@ class PackedRules:
         for i in self._complex:
             yield self._expand_complex(states, i)
 
-    def _expand_simple(self, states: Words) -> tuple[Ids, NDArray[np.int32], Words]:
+    def _expand_simple(self, states: Words) -> tuple[Ids, SmallIds, Words]:
         fits = (states[:, None, 0] & self._masks[None, :, 0]) == self._values[None, :, 0]
         for word in range(1, self.packing.n_words):
             fits &= (states[:, None, word] & self._masks[None, :, word]) == self._values[
@@ -131,7 +123,7 @@ class PackedRules:
         moved = (after != before).any(axis=1)
         return rows[moved], self._simple[rules[moved]], after[moved]
 
-    def _expand_complex(self, states: Words, index: int) -> tuple[Ids, NDArray[np.int32], Words]:
+    def _expand_complex(self, states: Words, index: int) -> tuple[Ids, SmallIds, Words]:
         op = self.ops[index]
         rows = np.flatnonzero(self.meets(states, op.tests))
         before = states[rows]

@@ -10,17 +10,14 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from hrcplan.search.packed_states import positions_of
+from hrcplan.core.arrays import Bools, Floats, Ids
+from hrcplan.core.bits import positions
 from hrcplan.task.conditions import Test
 from hrcplan.task.steps import Operator
 
 INFINITE = float("inf")
 HOLDS, NEVER = -1, -2
-
-Floats = NDArray[np.float64]
-Ids = NDArray[np.int64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,13 +98,13 @@ class Relaxation:
         supporters = self._supporters(states).T.tolist()
         return [self._costs(supporter) for supporter in supporters]
 
-    def _holding(self, states: Sequence[int]) -> NDArray[np.bool_]:
+    def _holding(self, states: Sequence[int]) -> Bools:
         size = self._n_bytes
         cut = (1 << 8 * size) - 1
         raw = b"".join((state & cut).to_bytes(size, "little") for state in states)
         rows = np.frombuffer(raw, np.uint8).reshape(-1, size)
         bits = np.unpackbits(rows, axis=1, bitorder="little")
-        found: NDArray[np.bool_] = (bits[:, self._fact] == self._is_true).T
+        found: Bools = (bits[:, self._fact] == self._is_true).T
         return found
 
     def _supporters(self, states: Sequence[int]) -> Ids:
@@ -182,20 +179,20 @@ class Relaxation:
     def _cost(self, ops: int) -> float:
         if self._is_unit:
             return float(ops.bit_count())
-        return float(sum(self._prices[op] for op in positions_of(ops)))
+        return float(sum(self._prices[op] for op in positions(ops)))
 
 
 def _literals(test: Test) -> list[int]:
     mask, value = test
-    return [2 * i + (not value >> i & 1) for i in positions_of(mask)]
+    return [2 * i + (not value >> i & 1) for i in positions(mask)]
 
 
 def _rules(ops: Sequence[Operator]) -> Iterator[_Rule]:
     for index, op in enumerate(ops):
         for test in op.tests:
             for change in op.changes:
-                gives = [2 * i for i in positions_of(change.adds)]
-                gives += [2 * i + 1 for i in positions_of(change.deletes)]
+                gives = [2 * i for i in positions(change.adds)]
+                gives += [2 * i + 1 for i in positions(change.deletes)]
                 for given in change.tests:
                     needs = (test[0] | given[0], test[1] | given[1])
                     yield _Rule(index, needs, tuple(gives))

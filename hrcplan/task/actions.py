@@ -5,29 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
+from hrcplan.core.bits import single_bits
+from hrcplan.core.numbers import Number
 from hrcplan.errors import UnsupportedError
-from hrcplan.pddl.model import (
-    DURATION,
-    TOTAL_COST,
-    TRUE,
-    Constant,
-    Expr,
-    FluentKey,
-    Number,
-    functions_in,
-)
+from hrcplan.pddl.model import DURATION, TOTAL_COST, TRUE, Constant, Expr, FluentKey, functions_in
 from hrcplan.pddl.semantics import Undefined, Values, evaluate, ground_key, instances
 from hrcplan.task.changing import Reached, combinations, keys_read, moves, timed, value_fact
-from hrcplan.task.conditions import (
-    ALWAYS,
-    Grounder,
-    Test,
-    Tests,
-    all_of,
-    any_of,
-    negation,
-    single_bits,
-)
+from hrcplan.task.conditions import ALWAYS, Grounder, Test, Tests, all_of, any_of, negation
 from hrcplan.task.numbers import grounded
 from hrcplan.task.reachable import SchemaInstance
 

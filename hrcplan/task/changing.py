@@ -7,17 +7,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
 
+from hrcplan.core.numbers import Number, number_text
 from hrcplan.errors import UnsupportedError
-from hrcplan.pddl.model import (
-    DURATION,
-    Action,
-    Fact,
-    FluentKey,
-    Formula,
-    Number,
-    functions_in,
-    number_text,
-)
+from hrcplan.pddl.model import DURATION, Action, Fact, FluentKey, Formula, functions_in
 from hrcplan.pddl.semantics import (
     Binding,
     Undefined,

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Set
+from collections.abc import Iterable, Mapping, Set
 from dataclasses import dataclass
 from functools import cached_property
 
+from hrcplan.core.bits import single_bits
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.model import (
     Action,
@@ -152,19 +153,6 @@ def _both(one: Test, other: Test) -> Test | None:
 def negation(tests: Tests) -> Tests:
     """Return alternatives of which one holds where none of ``tests`` does."""
     return all_of(tuple((bit, ~value & bit) for bit in single_bits(mask)) for mask, value in tests)
-
-
-def single_bits(bits: int) -> Iterator[int]:
-    """Yield the powers of two that make up a number, from low to high."""
-    while bits:
-        low = bits & -bits
-        yield low
-        bits ^= low
-
-
-def positions(bits: int) -> Iterator[int]:
-    """Yield the positions of the bits that are set, from low to high."""
-    return (bit.bit_length() - 1 for bit in single_bits(bits))
 
 
 def _bounded(found: Tests) -> Tests:

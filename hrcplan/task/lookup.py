@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Sequence
 
-from hrcplan.task.conditions import positions
+from hrcplan.core.bits import positions
 
 Rule = tuple[int, int, int, int, int]
 """Index, mask and value of the condition, facts added, facts deleted."""

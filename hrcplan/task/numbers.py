@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
 
+from hrcplan.core.numbers import Number, exact
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.model import (
     TOTAL_COST,
@@ -18,7 +19,6 @@ from hrcplan.pddl.model import (
     FluentKey,
     Formula,
     Function,
-    Number,
     formula_functions,
     functions_in,
 )
@@ -171,8 +171,3 @@ def value_of(part: Linear, values: Values) -> Number:
     for key, coefficient in part.items():
         total += coefficient * values[key] if key else coefficient
     return exact(total)
-
-
-def exact(number: Number) -> Number:
-    """Return a number as an int if it is whole."""
-    return int(number) if number.denominator == 1 else number

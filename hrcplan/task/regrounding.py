@@ -12,6 +12,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from itertools import pairwise, product
 
+from hrcplan.core.numbers import Number
 from hrcplan.pddl.joins import conjuncts
 from hrcplan.pddl.model import (
     DURATION,
@@ -24,7 +25,6 @@ from hrcplan.pddl.model import (
     FluentKey,
     Formula,
     Function,
-    Number,
     Problem,
     formula_functions,
     functions_in,

@@ -8,8 +8,8 @@ from fractions import Fraction
 from functools import cached_property
 from math import lcm
 
+from hrcplan.core.numbers import Number, exact
 from hrcplan.errors import UnsupportedError
-from hrcplan.pddl.model import Number
 from hrcplan.task import BitEffect, GroundAction, Task
 from hrcplan.task.conditions import Test, meets
 
@@ -219,8 +219,7 @@ class StepTable:
         unit = self._prices[1]
         if unit >= 1 << TIE_BITS:
             price, unit = price >> TIE_BITS, unit >> TIE_BITS
-        value = Fraction(price, unit)
-        return int(value) if value.denominator == 1 else value
+        return exact(Fraction(price, unit))
 
     def bound(self, price: int, quality: Fraction) -> tuple[int, int]:
         """Return the largest price within ``quality`` times ``price``, and the most steps.

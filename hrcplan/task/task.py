@@ -7,6 +7,8 @@ from dataclasses import replace
 from functools import cached_property
 from math import inf
 
+from hrcplan.core.bits import positions
+from hrcplan.core.numbers import Number, exact
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.model import (
     TOTAL_COST,
@@ -14,16 +16,15 @@ from hrcplan.pddl.model import (
     Fact,
     FluentKey,
     Formula,
-    Number,
     Problem,
     formula_functions,
 )
 from hrcplan.pddl.semantics import evaluate, ground_key, instances, mentions
 from hrcplan.task.actions import BitEffect, GroundAction, ground_actions
 from hrcplan.task.changing import Reached, combinations, reached_values, value_fact
-from hrcplan.task.conditions import Grounder, Test, Tests, all_of, any_of, meets, positions
+from hrcplan.task.conditions import Grounder, Test, Tests, all_of, any_of, meets
 from hrcplan.task.lookup import lookup
-from hrcplan.task.numbers import check_supported, divisors, exact, functions_read, numeric_effects
+from hrcplan.task.numbers import check_supported, divisors, functions_read, numeric_effects
 from hrcplan.task.reachable import SchemaInstance, reachable
 
 

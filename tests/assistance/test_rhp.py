@@ -12,9 +12,9 @@ from hrcplan.assistance import ASSISTANTS, explain
 from hrcplan.assistance.bigrams import Bigrams
 from hrcplan.assistance.rhp.assistant import RecedingHorizonPlanner, RhpState
 from hrcplan.assistance.rhp.consistency import Subset, labels
-from hrcplan.assistance.rhp.maximal_subsets import bits
 from hrcplan.assistance.rhp.tree import RecedingHorizonTree, TreeRoot
 from hrcplan.bank import Bank, build
+from hrcplan.core.bits import positions
 from hrcplan.errors import UsageError
 from hrcplan.inference.classifier.forest import ForestBelief, ForestState
 from hrcplan.inference.exact import IMPOSSIBLE
@@ -145,7 +145,7 @@ def test_a_change_is_declared_when_nothing_fits(of_meals):
     after = _watch(of_meals, fork, state=before)
     assert after.n_declared == 1
     assert after.sequences == ((bowl, fork), (fork,))
-    assert [list(bits(goals)) for goals in after.plausible] == [[2], [2]]
+    assert [list(positions(goals)) for goals in after.plausible] == [[2], [2]]
     assert after.robot == ()
     assert after.human == (bowl, cup, lid, fork)
     assert of_meals.posterior(after).argmax() == 2

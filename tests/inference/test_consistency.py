@@ -11,11 +11,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hrcplan.assistance.rhp.consistency import Subset, labels
-from hrcplan.assistance.rhp.maximal_subsets import bits
 from hrcplan.assistance.rhp.sampled import Sampled
 from hrcplan.assistance.rhp.set_posterior import SetPosterior
 from hrcplan.assistance.rhp.subsequence import Subsequence
 from hrcplan.bank import Bank, BuildOptions, build, walk
+from hrcplan.core.bits import positions
 
 BANKS = ("workshop", "hall", "detours")
 N_FEW = 6
@@ -218,5 +218,5 @@ def test_presence_weighs_every_goal_by_its_definition(bank):
 
 
 def test_bits_are_places():
-    assert list(bits(0)) == []
-    assert sum(1 << i for i in bits(987654321 << 70)) == 987654321 << 70
+    assert list(positions(0)) == []
+    assert sum(1 << i for i in positions(987654321 << 70)) == 987654321 << 70

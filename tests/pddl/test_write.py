@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from hrcplan.core.numbers import to_number
 from hrcplan.episodes.pddlgym_world import environment, named
 from hrcplan.errors import UnsupportedError
 from hrcplan.facade import load_problem
@@ -16,7 +17,6 @@ from hrcplan.pddl.check import load_domain
 from hrcplan.pddl.check import load_problem as read_problem
 from hrcplan.pddl.dialect import with_binary_sums
 from hrcplan.pddl.model import Problem
-from hrcplan.pddl.scope import to_number
 from hrcplan.pddl.write import decimal_text, domain_text, problem_text
 from hrcplan.task import Task
 

@@ -4,9 +4,10 @@ from fractions import Fraction
 
 import pytest
 
+from hrcplan.core.numbers import Number
 from hrcplan.errors import PlannerError, UsageError
 from hrcplan.facade import load_problem
-from hrcplan.pddl.model import FluentKey, Number, Problem
+from hrcplan.pddl.model import FluentKey, Problem
 from hrcplan.planners.allocation import Diagram, Line, diagram, line_of
 from hrcplan.planners.exact import ExactPlanner
 from hrcplan.planners.solve import solve

@@ -13,8 +13,9 @@ from pathlib import Path
 
 import pytest
 
+from hrcplan.core.numbers import Number
 from hrcplan.facade import load, load_problem
-from hrcplan.pddl.model import Fact, Number
+from hrcplan.pddl.model import Fact
 from hrcplan.planners import registry
 from hrcplan.planners.contract import Request, Status
 from hrcplan.planners.exact import ExactPlanner, graph, search

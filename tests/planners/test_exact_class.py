@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
+from hrcplan.core.numbers import Number
 from hrcplan.errors import UnsupportedError
 from hrcplan.facade import load, load_problem
-from hrcplan.pddl.model import Number
 from hrcplan.planners.contract import Answer, Status
 from hrcplan.planners.exact import ExactPlanner
 from hrcplan.plans import EPSILON_S, Plan, parse_plan

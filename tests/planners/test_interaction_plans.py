@@ -8,9 +8,10 @@ from pathlib import Path
 
 import pytest
 
+from hrcplan.core.numbers import Number
 from hrcplan.errors import UnsupportedError, UsageError
 from hrcplan.facade import load_file, load_problem
-from hrcplan.pddl.model import TOTAL_COST, Action, Function, Number, Problem
+from hrcplan.pddl.model import TOTAL_COST, Action, Function, Problem
 from hrcplan.pddl.semantics import Binding, LiftedState, changes, evaluate, holds
 from hrcplan.planners.exact import ExactPlanner
 from hrcplan.planners.expected_price import expected_retries, with_success

@@ -9,8 +9,9 @@ from typing import NamedTuple
 
 import pytest
 
+from hrcplan.core.numbers import Number
 from hrcplan.pddl.check import load_domain, load_problem
-from hrcplan.pddl.model import DURATION, TOTAL_COST, Action, FluentKey, Number, Problem
+from hrcplan.pddl.model import DURATION, TOTAL_COST, Action, FluentKey, Problem
 from hrcplan.pddl.semantics import LiftedState, Undefined, changes, evaluate, holds
 from hrcplan.task import Task
 from hrcplan.task.changing import value_fact

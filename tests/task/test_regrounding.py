@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from hrcplan.core.numbers import Number
 from hrcplan.facade import load_file, load_problem
-from hrcplan.pddl.model import FluentKey, Number, Problem
+from hrcplan.pddl.model import FluentKey, Problem
 from hrcplan.task import Task
 from hrcplan.task.regrounding import Grounding, Groundings
 

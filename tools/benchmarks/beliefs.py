@@ -17,7 +17,7 @@ from rows import Row, milliseconds
 
 from hrcplan.assistance.rhp.set_posterior import PrefixPosterior
 from hrcplan.bank import Bank, build, build_bank, from_problems
-from hrcplan.inference.classifier.flat_forest import Rows
+from hrcplan.core.arrays import Rows
 from hrcplan.inference.classifier.forest import ForestBelief
 from hrcplan.inference.classifier.training import columns
 from hrcplan.inference.exact import ExactBelief

@@ -11,13 +11,11 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hrcplan.assistance.assistant import StepChoice
 from hrcplan.assistance.bigrams import BANK, N_PLANS, PLAUSIBLE, Bigrams
 from hrcplan.assistance.children import BRANCHING
 from hrcplan.assistance.rhp.consistency import Consistency, Subset
-from hrcplan.assistance.rhp.maximal_subsets import bits
 from hrcplan.assistance.rhp.sampled import Sampled
 from hrcplan.assistance.rhp.set_posterior import SetPosterior
 from hrcplan.assistance.rhp.subsequence import Subsequence
@@ -25,8 +23,10 @@ from hrcplan.assistance.rhp.tree import DEPTH, Field, RecedingHorizonTree, TreeR
 from hrcplan.assistance.step_values import StepValues
 from hrcplan.bank import Bank
 from hrcplan.bank.progress import Progress, ProgressTracker
+from hrcplan.core.arrays import Floats, Rows
+from hrcplan.core.bits import positions
 from hrcplan.errors import UsageError
-from hrcplan.inference.belief import Floats, weights_to_posterior
+from hrcplan.inference.belief import weights_to_posterior
 from hrcplan.inference.classifier.forest import ForestBelief, ForestState
 from hrcplan.inference.exact import IMPOSSIBLE
 from hrcplan.pddl.conventions import people
@@ -34,8 +34,6 @@ from hrcplan.pddl.conventions import people
 N_SEQUENCES = 3
 MAX_REMEMBERED = 20_000
 NO_WAITING = -np.inf  # what it is worth to wait: "neither agent can wait" (section VI)
-
-Rows = NDArray[np.uint8]
 
 
 @dataclass(frozen=True, slots=True)
@@ -225,7 +223,7 @@ class RecedingHorizonPlanner:
         if known is None:
             if len(self._fields) >= MAX_REMEMBERED:
                 self._fields.clear()
-            known = self.tracker.joint.needs[list(bits(goals))].sum(axis=0).tolist()
+            known = self.tracker.joint.needs[list(positions(goals))].sum(axis=0).tolist()
             self._fields[goals] = known
         return known
 

@@ -6,20 +6,10 @@ ordered by size, then by the sum of what their steps are worth, then later steps
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from heapq import heapify, heappop, heappush
 
-
-def bits(mask: int) -> Iterator[int]:
-    """Yield the places of the bits that are set, lowest first.
-
-    >>> list(bits(0b1101))
-    [0, 2, 3]
-    """
-    while mask:
-        low = mask & -mask
-        yield low.bit_length() - 1
-        mask ^= low
+from hrcplan.core.bits import positions
 
 
 def largest_first(
@@ -40,13 +30,13 @@ def largest_first(
         fits: Whether a sequence fits.
     """
     seen = set(covers)
-    waiting = [(-m.bit_count(), -sum(worth[i] for i in bits(m)), -m) for m in seen]
+    waiting = [(-m.bit_count(), -sum(worth[i] for i in positions(m)), -m) for m in seen]
     heapify(waiting)
     found: dict[tuple[int, ...], None] = {}
     while waiting and len(found) < n:
         size, total, negative = heappop(waiting)
         part = -negative
-        places = list(bits(part))
+        places = list(positions(part))
         sequence = (*(earlier[i] for i in places), latest)
         if sequence not in found and fits(sequence):
             found[sequence] = None

@@ -12,14 +12,15 @@ from heapq import nlargest
 import numpy as np
 from numpy.typing import NDArray
 
-from hrcplan.assistance.rhp.maximal_subsets import bits, largest_first
+from hrcplan.assistance.rhp.maximal_subsets import largest_first
 from hrcplan.assistance.rhp.subsequence import Ordered
 from hrcplan.bank import Bank
+from hrcplan.core.arrays import Bools, Ids, SmallIds
+from hrcplan.core.bits import positions
 
 N_PLANS = 10_000  # for each goal (Ghose et al., IV-C)
 _KEY_BITS = 62
 
-Ids = NDArray[np.int64]
 Places = NDArray[np.int16]
 
 
@@ -37,7 +38,7 @@ class Sampled(Ordered):
         rng = np.random.default_rng(seed)
         self.plans = {
             goal: Plans(_labeled(bank.sampler(goal).draw(n_plans, rng), self.label))
-            for goal in bits(self.everything)
+            for goal in positions(self.everything)
         }
 
     def _fits(self, goal: int, done: tuple[int, ...]) -> bool:
@@ -60,7 +61,7 @@ class Sampled(Ordered):
                     covers, earlier, latest, worth, n, lambda s: self.goals(s) != 0
                 )
             best = sorted({*best, *more}, reverse=True)
-        return [(*(earlier[i] for i in bits(part)), latest) for _, _, part in best[:n]]
+        return [(*(earlier[i] for i in positions(part)), latest) for _, _, part in best[:n]]
 
     def _bounds(
         self, done: Sequence[int], last: int, worth: Sequence[int]
@@ -79,7 +80,7 @@ class Plans:
         plans: Plans as rows of labels, shorter ones filled up with -1.
     """
 
-    def __init__(self, plans: NDArray[np.int32]) -> None:
+    def __init__(self, plans: SmallIds) -> None:
         self.places: dict[int, list[Places]] = {}
         for label in np.unique(plans[plans >= 0]).tolist():
             self.places[label] = list(_occurrences(plans == label))
@@ -121,7 +122,7 @@ class Plans:
             part: The places that are looked at; all labels there occur in plans.
             n: How many are wanted.
         """
-        places = list(bits(part))
+        places = list(positions(part))
         total = sum(worth[i] for i in places)
         shift = len(places) + total.bit_length()
         if shift + len(places).bit_length() > _KEY_BITS:
@@ -187,12 +188,12 @@ def _unpacked(key: int, places: Sequence[int], worth: Sequence[int]) -> tuple[in
     return len(chosen), sum(worth[i] for i in chosen), sum(1 << i for i in chosen)
 
 
-def _labeled(plans: NDArray[np.int32], label: Sequence[int]) -> NDArray[np.int32]:
-    found: NDArray[np.int32] = np.array([*label, -1], dtype=np.int32)[plans]
+def _labeled(plans: SmallIds, label: Sequence[int]) -> SmallIds:
+    found: SmallIds = np.array([*label, -1], dtype=np.int32)[plans]
     return found
 
 
-def _occurrences(here: NDArray[np.bool_]) -> Iterator[Places]:
+def _occurrences(here: Bools) -> Iterator[Places]:
     """Yield where the first, second, ... true value stands in each row, -1 if there is none."""
     left = here.copy()
     rows = np.arange(len(left))

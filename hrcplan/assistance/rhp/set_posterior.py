@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from hrcplan.assistance.rhp.consistency import labels
 from hrcplan.bank import Bank
-from hrcplan.inference.belief import Floats, weights_to_posterior
+from hrcplan.core.arrays import Floats
+from hrcplan.inference.belief import weights_to_posterior
 
 ERROR = 0.01  # probability of a step that a goal has no use for
 

@@ -9,8 +9,9 @@ from functools import lru_cache
 import numpy as np
 
 from hrcplan.assistance.rhp.consistency import Subset
-from hrcplan.assistance.rhp.maximal_subsets import bits, largest_first
+from hrcplan.assistance.rhp.maximal_subsets import largest_first
 from hrcplan.bank import Bank, PlanGraph, walk
+from hrcplan.core.bits import positions
 
 MAX_REMEMBERED = 100_000  # sequences
 
@@ -33,7 +34,7 @@ class Ordered(ABC):
             # What does not fit without its last step does not fit with it.
             before = self._remembered.get(done[:-1], self.everything)
             found = self.subset.goals(steps) & before
-            known = sum(1 << goal for goal in bits(found) if self._fits(goal, done))
+            known = sum(1 << goal for goal in positions(found) if self._fits(goal, done))
             self._remembered[done] = known
         return known
 
@@ -67,9 +68,9 @@ class Subsequence(Ordered):
         """Yield parts of a history of which any two steps have the order that some plan has."""
         done, last = [self.label[step] for step in earlier], self.label[latest]
         for cover, goals in self.subset.covers(earlier, latest):
-            for goal in bits(goals):
+            for goal in positions(goals):
                 orders = self._orders(goal)
-                kept = sum(1 << i for i in bits(cover) if orders[last] >> done[i] & 1)
+                kept = sum(1 << i for i in positions(cover) if orders[last] >> done[i] & 1)
                 yield from _without_conflicts(kept, done, orders)
 
 
@@ -104,7 +105,7 @@ def _without_conflicts(part: int, done: Sequence[int], orders: dict[int, int]) -
     waiting, seen = [part], {part}
     while waiting:
         kept = waiting.pop()
-        places = list(bits(kept))
+        places = list(positions(kept))
         pairs = ((a, b) for k, b in enumerate(places) for a in places[:k])
         conflict = next(((a, b) for a, b in pairs if not orders[done[b]] >> done[a] & 1), None)
         if conflict is None:

@@ -14,7 +14,7 @@ from hrcplan.assistance.bigrams import Bigrams
 from hrcplan.assistance.children import BRANCHING, Branching
 from hrcplan.assistance.step_values import StepValues
 from hrcplan.bank.progress import Progress
-from hrcplan.inference.belief import Floats
+from hrcplan.core.arrays import Floats
 
 DEPTH = 3
 

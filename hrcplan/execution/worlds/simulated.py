@@ -12,12 +12,13 @@ from dataclasses import dataclass
 
 from hrcplan.agents import AgentModel
 from hrcplan.agents.state import LEAST, MOST
+from hrcplan.core.numbers import Number
 from hrcplan.execution import events as ev
 from hrcplan.execution.acting import ActionModel, BoundAction, Undo
 from hrcplan.execution.codec import exact_number
 from hrcplan.execution.events import Command, Event
 from hrcplan.execution.worlds import chance
-from hrcplan.pddl.model import Fact, FluentKey, Number, Problem
+from hrcplan.pddl.model import Fact, FluentKey, Problem
 from hrcplan.pddl.semantics import LiftedState
 
 BEFORE, DURING, AFTER = "before", "during", "after"

@@ -11,9 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hrcplan.inference.belief import Floats
+from hrcplan.core.arrays import Floats, Rows, SmallIds
 
-Rows = NDArray[np.uint8]
 _LEVELS = 6  # that all trees are walked down before those that have ended are left out
 _WALKS = 1 << 15  # of a tree by a row, at once; more no longer fit into the processor's cache
 _NODE = 3  # numbers of a node: its feature, and where the nodes for 0 and for 1 begin
@@ -32,9 +31,9 @@ class FlatForest:
         roots: Where the root of each tree begins in ``nodes``.
     """
 
-    nodes: NDArray[np.int32]
+    nodes: SmallIds
     leaves: NDArray[np.float32]
-    roots: NDArray[np.int32]
+    roots: SmallIds
 
     @classmethod
     def of(cls, forest: Any) -> FlatForest:
@@ -76,7 +75,7 @@ class FlatForest:
         found: Floats = np.matmul(ones, reached)[:, 0] / len(self.roots)
         return found
 
-    def _walk(self, rows: Rows) -> NDArray[np.int32]:
+    def _walk(self, rows: Rows) -> SmallIds:
         """Return the leaf that each row reaches in each tree."""
         shape = len(rows), len(self.roots)
         column = ((rows != 0) + np.int32(1)).ravel()  # which number of a node leads on

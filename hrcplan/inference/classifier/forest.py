@@ -14,11 +14,11 @@ from pathlib import Path
 import numpy as np
 
 from hrcplan.bank import Bank
+from hrcplan.core.arrays import Floats, Rows
 from hrcplan.core.files import cache_folder
 from hrcplan.errors import UsageError
-from hrcplan.inference.belief import Floats, weights_to_posteriors
+from hrcplan.inference.belief import weights_to_posteriors
 from hrcplan.inference.classifier.cache import kept, key_of
-from hrcplan.inference.classifier.flat_forest import Rows
 from hrcplan.inference.classifier.training import (
     N_SAMPLES,
     N_TREES,

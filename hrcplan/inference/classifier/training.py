@@ -12,18 +12,16 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hrcplan.bank import Bank
+from hrcplan.core.arrays import Ids, Rows
 from hrcplan.errors import UsageError
-from hrcplan.inference.classifier.flat_forest import FlatForest, Rows
+from hrcplan.inference.classifier.flat_forest import FlatForest
 
 N_SAMPLES = 300_000
 N_TREES = 200
 MIN_LEAF, MIN_SPLIT = 2, 10
 HELD_OUT = 0.2
-
-Ids = NDArray[np.int64]
 
 
 class Predictor(Protocol):

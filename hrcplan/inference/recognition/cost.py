@@ -15,7 +15,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hrcplan.bank import Goals, StepTable
-from hrcplan.inference.belief import Floats, normalized
+from hrcplan.core.arrays import Floats
+from hrcplan.inference.belief import normalized
 from hrcplan.inference.changes import NEVER, ChangeFilter, FilterState, GoalChange
 from hrcplan.inference.exact import IMPOSSIBLE
 from hrcplan.inference.recognition.distances import Distances, GoalDistance, apply

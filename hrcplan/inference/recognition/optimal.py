@@ -14,9 +14,10 @@ from functools import cached_property
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from hrcplan.core.bits import positions
 from hrcplan.planners.fast_downward import find_binary
 from hrcplan.planners.process import ProcessLimits, run
-from hrcplan.search.packed_states import FactPacking, positions_of
+from hrcplan.search.packed_states import FactPacking
 from hrcplan.search.relevance import ALWAYS, relevant
 from hrcplan.task.conditions import Test
 from hrcplan.task.steps import Operator
@@ -55,7 +56,7 @@ class Searcher:
         index = {id(op): i for i, op in enumerate(ops)}
         self.ops = [index[id(op)] for op in useful]
         self._useful = useful
-        self._packing = FactPacking(positions_of(literals.facts))
+        self._packing = FactPacking.of_facts(literals.facts)
         self._goal = goal
 
     @cached_property
@@ -80,7 +81,7 @@ class Searcher:
         return "\n".join([*lines, "0", ""])
 
     def _facts(self, mask: int, value: int) -> list[str]:
-        found = [f"{self._place[p]} {_value(value, p)}" for p in positions_of(mask)]
+        found = [f"{self._place[p]} {_value(value, p)}" for p in positions(mask)]
         return [str(len(found)), *found]
 
     def _operator(self, number: int, op: Operator) -> list[str]:
@@ -89,7 +90,7 @@ class Searcher:
         kept = sum(1 << p for p in self._place)
         touched = (change.adds | change.deletes) & kept
         effects = []
-        for p in positions_of(touched):
+        for p in positions(touched):
             before = _value(value, p) if mask >> p & 1 else -1
             effects.append(f"0 {self._place[p]} {before} {_value(change.adds, p)}")
         return ["begin_operator", f"o{number}", *self._facts(mask & ~touched, value),

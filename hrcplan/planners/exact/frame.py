@@ -17,8 +17,9 @@ from fractions import Fraction
 from math import gcd, lcm
 
 from hrcplan.core.bits import common, holders, positions, union
+from hrcplan.core.numbers import Number, number_text
 from hrcplan.errors import LimitError, UnsupportedError
-from hrcplan.pddl.model import TOTAL_COST, TRUE, Number, fact_text, number_text
+from hrcplan.pddl.model import TOTAL_COST, TRUE, fact_text
 from hrcplan.task import GroundAction, Task
 from hrcplan.task.conditions import Test
 

@@ -6,8 +6,8 @@ from fractions import Fraction
 from math import ceil
 from typing import NamedTuple
 
+from hrcplan.core.numbers import Number, exact
 from hrcplan.pddl.interference import Access, access, clash
-from hrcplan.pddl.model import Number
 from hrcplan.pddl.semantics import bind
 from hrcplan.planners.exact.frame import StaticMasks
 from hrcplan.planners.exact.search import WAIT
@@ -105,8 +105,7 @@ def printable(seconds: Number) -> Number:
     >>> printable(50), printable(Fraction(1, 3))
     (50, Fraction(166666667, 500000000))
     """
-    found = Fraction(ceil(seconds * 10**9), 10**9)
-    return int(found) if found.denominator == 1 else found
+    return exact(Fraction(ceil(seconds * 10**9), 10**9))
 
 
 def _planned(task: Task, placed: Placed) -> PlannedAction:

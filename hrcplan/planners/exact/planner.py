@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import time
 
+from hrcplan.core.numbers import Number
 from hrcplan.errors import LimitError, UnsupportedError
-from hrcplan.pddl.model import TOTAL_COST, Number, Problem
+from hrcplan.pddl.model import TOTAL_COST, Problem
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
 from hrcplan.planners.exact.frame import StaticMasks, frame
 from hrcplan.planners.exact.gaps import Gaps

@@ -6,18 +6,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import lcm
 
+from hrcplan.core.numbers import Number, number_text
 from hrcplan.errors import UnsupportedError
-from hrcplan.pddl.model import (
-    TOTAL_COST,
-    TOTAL_TIME,
-    Arithmetic,
-    Constant,
-    Expr,
-    Function,
-    Number,
-    Problem,
-    number_text,
-)
+from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, Arithmetic, Constant, Expr, Function, Problem
 from hrcplan.planners.exact.frame import HINT, StaticMasks
 from hrcplan.task import Task
 from hrcplan.task.numbers import linear
