@@ -1,11 +1,13 @@
 """PDDL-first human-robot collaborative planning.
 
+Every function takes objects, or the names, paths and PDDL texts that they are read from.
+
 >>> import hrcplan
->>> task = hrcplan.load("transport", "two-boxes")
->>> found = hrcplan.plan("transport", "two-boxes", planner="exact")
->>> found.status.value, found.report.cost, len(found.plan.actions)
+>>> problem = hrcplan.read("transport", "two-boxes")
+>>> result = hrcplan.plan(problem, planner="exact")
+>>> result.status.value, result.report.cost, len(result.plan.actions)
 ('solved-optimally', 24, 8)
->>> hrcplan.validate("transport", "two-boxes", str(found.plan)).valid
+>>> hrcplan.validate(problem, result.plan).valid
 True
 """
 
@@ -16,45 +18,147 @@ from typing import TYPE_CHECKING, Any
 __version__ = "0.1.0"
 
 if TYPE_CHECKING:
-    from hrcplan.bank import build_bank
+    from hrcplan import planners as planners
+    from hrcplan.assistance import ASSISTANTS as assistants  # noqa: N811
+    from hrcplan.assistance import Assistant
+    from hrcplan.bank import Bank, build_bank
+    from hrcplan.bank import load as load_bank
+    from hrcplan.episodes.episode import TurnWorld
+    from hrcplan.episodes.humans import HUMANS as humans  # noqa: N811
+    from hrcplan.episodes.humans import EpisodeHuman
+    from hrcplan.episodes.worlds import WORLDS as worlds  # noqa: N811
+    from hrcplan.errors import (
+        CostGuardError,
+        Diagnostic,
+        HrcplanError,
+        InputError,
+        LimitError,
+        MissingPlannerError,
+        PddlError,
+        PlanFormatError,
+        PlannerError,
+        UnsupportedError,
+        UsageError,
+    )
+    from hrcplan.execution import Outcome
     from hrcplan.execution.execute import execute
-    from hrcplan.facade import load, plan, validate
-    from hrcplan.inference import infer
-    from hrcplan.planners.lowering import lower
+    from hrcplan.execution.worlds import EventWorld
+    from hrcplan.inference import Belief, Inference, infer
+    from hrcplan.inference.registry import METHODS as beliefs  # noqa: N811
+    from hrcplan.pddl.inputs import read
+    from hrcplan.pddl.model import Domain, Problem
+    from hrcplan.planners.contract import Answer, Capabilities, Planner, Request, Status
+    from hrcplan.planners.plan import plan
+    from hrcplan.planners.solve import Result
+    from hrcplan.plans import Plan, PlannedAction
     from hrcplan.studies import run_study
     from hrcplan.task import Task
+    from hrcplan.task.ground import ground
+    from hrcplan.validation import Report, validate
 
 __all__ = [
+    "Answer",
+    "Assistant",
+    "Bank",
+    "Belief",
+    "Capabilities",
+    "CostGuardError",
+    "Diagnostic",
+    "Domain",
+    "EpisodeHuman",
+    "EventWorld",
+    "HrcplanError",
+    "Inference",
+    "InputError",
+    "LimitError",
+    "MissingPlannerError",
+    "Outcome",
+    "PddlError",
+    "Plan",
+    "PlanFormatError",
+    "PlannedAction",
+    "Planner",
+    "PlannerError",
+    "Problem",
+    "Report",
+    "Request",
+    "Result",
+    "Status",
     "Task",
+    "TurnWorld",
+    "UnsupportedError",
+    "UsageError",
+    "assistants",
+    "beliefs",
     "build_bank",
     "execute",
+    "ground",
+    "humans",
     "infer",
-    "load",
-    "lower",
+    "load_bank",
     "plan",
+    "planners",
+    "read",
     "run_study",
     "validate",
+    "worlds",
 ]
+# Where each name lives: "name=attribute" if it has another name there, "name=" for the module.
 _HOMES = {
-    "Task": "hrcplan.task",
-    "build_bank": "hrcplan.bank",
-    "execute": "hrcplan.execution.execute",
-    "infer": "hrcplan.inference",
-    "load": "hrcplan.facade",
-    "lower": "hrcplan.planners.lowering",
-    "plan": "hrcplan.facade",
-    "run_study": "hrcplan.studies",
-    "validate": "hrcplan.facade",
+    "hrcplan.assistance": ("Assistant", "assistants=ASSISTANTS"),
+    "hrcplan.bank": ("Bank", "build_bank", "load_bank=load"),
+    "hrcplan.episodes.episode": ("TurnWorld",),
+    "hrcplan.episodes.humans": ("EpisodeHuman", "humans=HUMANS"),
+    "hrcplan.errors": (
+        "CostGuardError", "Diagnostic", "HrcplanError", "InputError", "LimitError",
+        "MissingPlannerError", "PddlError", "PlanFormatError", "PlannerError", "UnsupportedError",
+        "UsageError",
+    ),
+    "hrcplan.execution": ("Outcome",),
+    "hrcplan.execution.execute": ("execute",),
+    "hrcplan.episodes.worlds": ("worlds=WORLDS",),
+    "hrcplan.execution.worlds": ("EventWorld",),
+    "hrcplan.inference": ("Belief", "Inference", "infer"),
+    "hrcplan.inference.registry": ("beliefs=METHODS",),
+    "hrcplan.pddl.inputs": ("read",),
+    "hrcplan.pddl.model": ("Domain", "Problem"),
+    "hrcplan.planners": ("planners=",),
+    "hrcplan.planners.contract": ("Answer", "Capabilities", "Planner", "Request", "Status"),
+    "hrcplan.planners.plan": ("plan",),
+    "hrcplan.planners.solve": ("Result",),
+    "hrcplan.plans": ("Plan", "PlannedAction"),
+    "hrcplan.studies": ("run_study",),
+    "hrcplan.task": ("Task",),
+    "hrcplan.task.ground": ("ground",),
+    "hrcplan.validation": ("Report", "validate"),
+}  # fmt: skip
+_PUBLIC = {
+    name: (module, attribute if equals else name)
+    for module, entries in _HOMES.items()
+    for name, equals, attribute in (entry.partition("=") for entry in entries)
+}
+_DEPRECATED = {
+    "load": ("hrcplan.task.ground", "ground", "hrcplan.ground"),
+    "lower": ("hrcplan.planners.lowering", "lower", "hrcplan.planners.lowering.lower"),
 }
 
 
 def __getattr__(name: str) -> Any:
     """Import a public name when it is first asked for, so that ``import hrcplan`` is cheap."""
-    if name not in _HOMES:
-        raise AttributeError(f"module 'hrcplan' has no attribute '{name}'")
     from importlib import import_module
 
-    return getattr(import_module(_HOMES[name]), name)
+    if name in _PUBLIC:
+        module, attribute = _PUBLIC[name]
+        home = import_module(module)
+        return getattr(home, attribute) if attribute else home
+    if name in _DEPRECATED:
+        import warnings
+
+        module, attribute, successor = _DEPRECATED[name]
+        message = f"hrcplan.{name} is deprecated; use {successor}"
+        warnings.warn(message, DeprecationWarning, stacklevel=2)
+        return getattr(import_module(module), attribute)
+    raise AttributeError(f"module 'hrcplan' has no attribute '{name}'")
 
 
 def __dir__() -> list[str]:

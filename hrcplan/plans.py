@@ -5,15 +5,17 @@ A plan with times is a *schedule*; every action belongs to the *lane* of its age
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 
 from hrcplan.core.numbers import Number, to_number
-from hrcplan.core.text import quote
+from hrcplan.core.text import quote, type_text
 from hrcplan.errors import PlanFormatError
 from hrcplan.pddl.model import Problem
+from hrcplan.pddl.source import read_text
 
 EPSILON_S = Fraction(1, 1000)
 """Smallest gap, in seconds, between two happenings that interfere."""
@@ -129,6 +131,29 @@ def parse_plan(text: str, path: str = "<plan>") -> Plan:
             raise PlanFormatError(message, path=path, line=number)
         actions.append(action)
     return Plan(tuple(sorted(actions, key=lambda a: a.start_s or 0)))
+
+
+def as_plan(plan: Plan | str | os.PathLike[str]) -> Plan:
+    """Return a `Plan` as it is, and the plan of a text in IPC format or of a file.
+
+    A string is text if it holds a parenthesis or a line break, or is blank; else it is a path.
+
+    Raises:
+        PlanFormatError: if the text is no plan.
+        InputError: if the file is missing or unreadable.
+        TypeError: if it is something else.
+
+    >>> as_plan("(move human wp1 wp2)").actions[0].args
+    ('human', 'wp1', 'wp2')
+    """
+    if isinstance(plan, Plan):
+        return plan
+    if isinstance(plan, str) and (not plan.strip() or any(c in plan for c in "(\n")):
+        return parse_plan(plan)
+    if isinstance(plan, (str, os.PathLike)):
+        path = os.fspath(plan)
+        return parse_plan(read_text(path), path)
+    raise TypeError(f"a plan is a Plan, its text, or a file's path, not {type_text(plan)}")
 
 
 def _parse_line(body: str) -> PlannedAction | None:

@@ -35,11 +35,11 @@ def assert_valid_plan(domain: str, problem: str, plan: str) -> Report:
 @pytest.fixture
 def hrcplan_plan() -> Callable[..., Result]:
     """A function ``(domain, problem, **options)`` that returns a checked result of planning."""
-    from hrcplan.facade import load_problem
+    from hrcplan.pddl.inputs import read
     from hrcplan.planners.solve import solve
 
     def plan(domain: str, problem: str, **options: object) -> Result:
-        return solve(load_problem(str(domain), str(problem)), **options)  # type: ignore[arg-type]
+        return solve(read(str(domain), str(problem)), **options)  # type: ignore[arg-type]
 
     return plan
 
@@ -102,10 +102,10 @@ class PlanItem(_Item):
 
     def runtest(self) -> None:
         """Fail if no planner finds a plan in time."""
-        from hrcplan.facade import load_file
+        from hrcplan.pddl.inputs import read
         from hrcplan.planners.solve import solve
 
         timeout = self.config.getoption("--hrcplan-timeout")
-        found = solve(load_file(self.path), timeout_s=timeout, any_plan=True)
+        found = solve(read(self.path), timeout_s=timeout, any_plan=True)
         if found.plan is None:
             pytest.fail(f"{found.status.value} after {found.wall_s:.1f} s", pytrace=False)

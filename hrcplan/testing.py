@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from hrcplan.facade import validate
 from hrcplan.pddl.conventions import robots
 from hrcplan.pddl.model import Problem
 from hrcplan.pddl.source import read_text
 from hrcplan.planners.contract import Planner
 from hrcplan.planners.solve import Result, compare, solve
-from hrcplan.validation import Report
+from hrcplan.validation import Report, validate
 
 if TYPE_CHECKING:
     from hrcplan.bank import Bank

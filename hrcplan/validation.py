@@ -6,25 +6,29 @@ and it shares no code with any planner.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby
-from typing import NamedTuple
+from types import EllipsisType
+from typing import NamedTuple, overload
 
 from hrcplan.core.numbers import Number, number_text
+from hrcplan.pddl.inputs import Readable, as_problem
 from hrcplan.pddl.interference import Access, access, clash
 from hrcplan.pddl.model import (
     DURATION,
     TOTAL_COST,
     TOTAL_TIME,
     Action,
+    Domain,
     Fact,
     FluentKey,
     Problem,
     fact_text,
 )
 from hrcplan.pddl.semantics import Binding, LiftedState, Undefined, bind, changes, evaluate, unmet
-from hrcplan.plans import EPSILON_S, Plan, PlannedAction, seconds_text
+from hrcplan.plans import EPSILON_S, Plan, PlannedAction, as_plan, seconds_text
 
 COST: FluentKey = (TOTAL_COST,)
 
@@ -73,17 +77,58 @@ class _Event(NamedTuple):
         return "start" if self.is_start else "end"
 
 
-def validate(problem: Problem, plan: Plan) -> Report:
+PlanLike = Plan | str | os.PathLike[str]
+
+
+@overload
+def validate(domain: Problem | Readable, problem: PlanLike, /) -> Report: ...
+
+
+@overload
+def validate(domain: Domain | Readable | Problem, problem: Readable, plan: PlanLike) -> Report: ...
+
+
+@overload
+def validate(domain: Problem | Readable, *, plan: PlanLike) -> Report: ...
+
+
+def validate(
+    domain: Domain | Readable | Problem,
+    problem: PlanLike | EllipsisType = ...,
+    plan: PlanLike | EllipsisType = ...,
+) -> Report:
     """Return whether a plan is valid, with its cost, makespan and metric.
 
-    A sequential plan of a temporal domain is read as one action after the other. Interfering
-    happenings closer than ``EPSILON_S`` are invalid, as in VAL with ``-t 0.001`` (Fox and Long,
-    PDDL2.1, JAIR 2003, section 8); others may coincide.
+    Called as ``validate(problem, plan)`` or ``validate(domain, problem, plan)``. A sequential plan
+    of a temporal domain is read as one action after the other. Interfering happenings closer than
+    ``EPSILON_S`` are invalid, as in VAL with ``-t 0.001`` (Fox and Long, PDDL2.1, JAIR 2003,
+    section 8); others may coincide.
 
     Args:
-        problem: The problem that the plan is for.
-        plan: Any plan, also one of unknown actions or objects.
+        domain: The problem that the plan is for: a `Problem`, or whatever `hrcplan.read` takes.
+        problem: The problem, if ``domain`` is only its domain; else the plan.
+        plan: A `Plan`, its text in IPC format, or a file's path. Unknown actions and objects make
+            it invalid; they are no error.
+
+    Raises:
+        InputError: if a file is missing or has faults, or the text is no plan.
+        UsageError: if the problem is given twice.
+        TypeError: if an argument is none of these.
+
+    >>> validate("transport/two-boxes", "(move human wp1 wp4)").reason
+    'the goal (box-at green wp2) does not hold at the end'
     """
+    if isinstance(plan, EllipsisType):
+        plan, problem = problem, ...
+    if isinstance(plan, EllipsisType):
+        raise TypeError("validate() needs a problem and a plan")
+    if isinstance(problem, Plan):
+        raise TypeError("the plan is the last argument of validate(), after the problem")
+    asked = as_problem(domain, None if isinstance(problem, EllipsisType) else problem)
+    return _replay(asked, as_plan(plan))
+
+
+def _replay(problem: Problem, plan: Plan) -> Report:
     replay = _Replay(problem, plan)
     try:
         replay.run()

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from hrcplan.errors import InputError, LimitError, UsageError
-from hrcplan.facade import load_problem
+from hrcplan.pddl.inputs import read
 from hrcplan.pddl.source import read_source
 from hrcplan.planners import registry
 from hrcplan.planners.contract import Request, Status
@@ -34,7 +34,7 @@ def write(folder: Path, condition: str) -> tuple[str, str]:
 
 
 def test_grounding_ends_at_the_deadline(tmp_path: Path) -> None:
-    problem = load_problem(*write(tmp_path, "()"))
+    problem = read(*write(tmp_path, "()"))
     with pytest.raises(LimitError, match="no time for more than"):
         Task(problem, time.monotonic())
     request = Request(problem, time.monotonic())
@@ -56,7 +56,7 @@ def test_a_quantifier_over_everything_is_refused(tmp_path: Path) -> None:
         .replace("(p ?a ?b ?c ?d ?e ?f))\n  (:action b", "(q))\n  (:action b")
     )
     Path(paths[0]).write_text(text.replace(":parameters (?a ?b ?c ?d ?e ?f)", ":parameters ()"))
-    problem = load_problem(*paths)
+    problem = read(*paths)
     with pytest.raises(LimitError, match="over 1,000,000 instances"):
         Task(problem, time.monotonic() + 5)
 
@@ -72,7 +72,7 @@ def test_a_folder_does_not_hide_a_shipped_name(
     (tmp_path / "transport").mkdir()
     (tmp_path / "two-boxes").mkdir()
     monkeypatch.chdir(tmp_path)
-    assert load_problem("transport", "two-boxes").name == "two-boxes"
+    assert read("transport", "two-boxes").name == "two-boxes"
 
 
 def test_a_class_that_is_no_planner() -> None:
@@ -86,7 +86,7 @@ def test_a_task_without_facts_or_actions_is_solved_by_doing_nothing(tmp_path: Pa
         "(:action b :parameters (?a - agent) :precondition () :effect (q)))"
     )
     (tmp_path / "p.pddl").write_text("(define (problem p) (:domain d) (:init) (:goal (and)))")
-    problem = load_problem(str(tmp_path / "d.pddl"), str(tmp_path / "p.pddl"))
+    problem = read(str(tmp_path / "d.pddl"), str(tmp_path / "p.pddl"))
     found = solve(problem, "fast-downward")
     assert found.status is Status.OPTIMAL
     assert found.plan is not None

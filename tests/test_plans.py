@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hrcplan.errors import PlanFormatError
-from hrcplan.facade import load_problem
+from hrcplan.pddl.inputs import read
 from hrcplan.plans import Plan, PlannedAction, format_plan, lane, occupied, parse_plan, seconds_text
 
 WORDS = st.from_regex(r"[a-z][a-z0-9_-]{0,8}", fullmatch=True)
@@ -110,7 +110,7 @@ def test_seconds_have_three_decimals_or_as_many_as_they_need(seconds: Fraction, 
 
 
 def test_lanes_and_who_is_kept_busy() -> None:
-    problem = load_problem("transport", "two-boxes")
+    problem = read("transport", "two-boxes")
     take = PlannedAction("take", ("robot", "green", "human", "wp2"))
     assert lane(take.args, problem) == "robot"
     assert occupied(take, problem) == {"robot", "human"}

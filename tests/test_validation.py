@@ -15,9 +15,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hrcplan.facade import load_problem
-from hrcplan.pddl.check import load_domain
-from hrcplan.pddl.check import load_problem as read_problem
+from hrcplan.pddl.inputs import read
 from hrcplan.pddl.library import root
 from hrcplan.pddl.model import Problem
 from hrcplan.plans import Plan, PlannedAction, format_plan, parse_plan
@@ -61,7 +59,7 @@ def shipped(name: str) -> tuple[Path, Path, Problem]:
     return (
         root() / "domains" / f"{domain}.pddl",
         root() / "problems" / domain / f"{name}.pddl",
-        load_problem(domain, name),
+        read(domain, name),
     )
 
 
@@ -83,7 +81,7 @@ def test_good_plans_cost_what_val_says(name: str) -> None:
 def changed_plans(draw: st.DrawFn, name: str) -> Plan:
     """A good plan in which one to three things were changed."""
     actions = list(good_plan(name).actions)
-    objects = list(load_problem(GOOD[name][0], name).objects)
+    objects = list(read(GOOD[name][0], name).objects)
     for _ in range(draw(st.integers(1, 3))):
         if not actions:
             break
@@ -135,7 +133,7 @@ def test_kept_invalid_plans(path: Path) -> None:
     """Each names its problem, the step that fails and the reason in its first three lines."""
     text = path.read_text()
     problem, step, reason = (line.split(": ", 1)[1] for line in text.splitlines()[:3])
-    report = validate(load_problem(*problem.split("/")), parse_plan(text))
+    report = validate(read(*problem.split("/")), parse_plan(text))
     assert not report.valid
     assert report.reason == reason
     assert report.failed_step == (None if step == "none" else int(step))
@@ -143,7 +141,7 @@ def test_kept_invalid_plans(path: Path) -> None:
 
 
 def test_the_state_where_it_broke() -> None:
-    problem = load_problem("transport", "two-boxes")
+    problem = read("transport", "two-boxes")
     report = validate(problem, parse_plan("(move robot wp0 wp4)\n(grasp robot green wp4)\n"))
     assert ("at", "robot", "wp4") in report.state
     assert ("at", "robot", "wp0") not in report.state
@@ -204,7 +202,7 @@ def judge(folder: Path, goal: str, plan: str) -> tuple[Report, bool | None]:
     """Return our verdict, and VAL's if the plan is one that it can read."""
     domain, file = folder / "domain.pddl", folder / "problem.pddl"
     file.write_text(TANKS.replace("GOAL", goal))
-    problem = read_problem(load_domain(domain), file)
+    problem = read(domain, file)
     parsed = parse_plan(plan)
     return validate(problem, parsed), val(domain, file, parsed)[0] if parsed.is_schedule else None
 
@@ -275,14 +273,14 @@ def test_an_empty_plan_costs_nothing(clocks: Path) -> None:
 
 
 def test_a_plan_without_times_in_a_classical_domain_has_no_makespan() -> None:
-    report = validate(load_problem("kitchen", "oatmeal-apple"), good_plan("oatmeal-apple"))
+    report = validate(read("kitchen", "oatmeal-apple"), good_plan("oatmeal-apple"))
     assert report.makespan_s is None
 
 
 def test_a_number_without_a_value_is_a_reason_not_a_crash(clocks: Path) -> None:
     report, _ = judge(clocks, "(>= (level left) 4)", "(fill left)\n")
     assert report.valid
-    missing = read_problem(load_domain(clocks / "domain.pddl"), clocks / "problem.pddl")
+    missing = read(clocks / "domain.pddl", clocks / "problem.pddl")
     bare = replace(missing, values={})
     assert validate(bare, parse_plan("")).reason is not None
     assert validate(bare, parse_plan("0: (fill left) [4]")).failed_step == 0
@@ -290,7 +288,7 @@ def test_a_number_without_a_value_is_a_reason_not_a_crash(clocks: Path) -> None:
 
 
 def test_actions_given_as_values_need_no_text() -> None:
-    problem = load_problem("transport", "two-boxes")
+    problem = read("transport", "two-boxes")
     assert validate(problem, Plan((PlannedAction("move", ("robot", "wp0", "wp1")),))).reason == (
         "the goal (box-at green wp2) does not hold at the end"
     )

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from hrcplan.core.numbers import Number, to_number
 from hrcplan.core.text import nearest
 from hrcplan.errors import UsageError
-from hrcplan.facade import load_problem
+from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import FluentKey, Problem
 
 
@@ -37,7 +37,7 @@ def problem_of(domain: str, problem: str, settings: Sequence[str]) -> Problem:
         UsageError: if a setting does not name a function of the problem, or no number.
         InputError: if a file is missing or has faults.
     """
-    loaded = load_problem(domain, problem)
+    loaded = read(domain, problem)
     return loaded.with_values(dict(setting(text, loaded) for text in settings))
 
 

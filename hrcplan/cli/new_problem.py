@@ -62,15 +62,15 @@ def command(
 ) -> None:
     """Write a problem like PROBLEM with another goal, checked before it is written."""
     from hrcplan.cli.arguments import setting
-    from hrcplan.facade import load_problem
     from hrcplan.pddl.generate import with_goal
+    from hrcplan.pddl.inputs import read
     from hrcplan.pddl.write import problem_text
 
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_-]*", name):
         raise UsageError(f"'{name}' cannot be a problem's name", hint="letters, digits, - and _")
     if vary == (goal is not None):
         raise UsageError("either --goal or --vary is needed", hint="--goal '(and …)'")
-    base = load_problem(domain, origin)
+    base = read(domain, origin)
     changed = base.with_values(dict(setting(text, base) for text in settings))
     if vary:
         made = _varied(changed, seed, new_objects)

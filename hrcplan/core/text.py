@@ -52,3 +52,12 @@ def nearest(word: str, known: Iterable[str]) -> str | None:
     """
     name = nearest_name(word, known)
     return None if name is None else f"did you mean {quote(name)}?"
+
+
+def type_text(value: object) -> str:
+    """Return the name of a value's type, for a message about a wrong argument.
+
+    >>> type_text(3), type_text([]), type_text(None)
+    ('int', 'list', 'None')
+    """
+    return "None" if value is None else type(value).__name__

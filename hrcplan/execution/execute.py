@@ -18,7 +18,7 @@ from hrcplan.execution.replanner import DEFAULT_TIMEOUT_S, Replanner
 from hrcplan.execution.run import Run
 from hrcplan.execution.simulate import Spec, make_engine
 from hrcplan.execution.timeline import Timeline
-from hrcplan.facade import load_problem
+from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import FluentKey, Problem
 from hrcplan.planners.registry import PLANNERS
 
@@ -71,7 +71,7 @@ def execute(
     >>> execute("transport", "two-boxes").row.ending
     'goal reached'
     """
-    loaded = load_problem(domain, problem).with_values(values or {})
+    loaded = read(domain, problem).with_values(values or {})
     setup = make_setup(loaded, profile=profile, human=human, changes=changes, model=model,
                            planner=planner, seed=seed, replan_limit=replan_limit)  # fmt: skip
     return carry_out(setup, journal=journal, resume=resume)

@@ -31,10 +31,10 @@ Waits = tuple[tuple[Wait, ...], ...]
 def waits(problem: Problem, plan: Plan) -> Waits:
     r"""Return what each action of a schedule waits for.
 
-    >>> from hrcplan.facade import load_problem
+    >>> from hrcplan.pddl.inputs import read
     >>> from hrcplan.plans import parse_plan
     >>> plan = parse_plan("0: (move human wp1 wp4) [50]\n60: (grasp human blue wp4) [50]")
-    >>> waits(load_problem("transport", "two-boxes"), plan)[1]
+    >>> waits(read("transport", "two-boxes"), plan)[1]
     (Wait(index=0, for_end=True, offset_s=0),)
     """
     touches = [touched(problem, action) for action in plan.actions]

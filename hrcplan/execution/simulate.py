@@ -29,7 +29,7 @@ from hrcplan.execution.worlds.simulated import (
     SimulatedWorld,
     StateChange,
 )
-from hrcplan.facade import load_problem
+from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import FluentKey, Problem
 from hrcplan.planners.expected_price import with_success
 
@@ -137,7 +137,7 @@ def _replanner(
     domain: str, problem: str, values: tuple[tuple[FluentKey, Number], ...], planner: str,
     success: float | None,
 ) -> Replanner:  # fmt: skip
-    loaded = load_problem(domain, problem).with_values(dict(values))
+    loaded = read(domain, problem).with_values(dict(values))
     if success is not None:
         loaded = with_success(loaded, success)
     return Replanner(loaded, tuple(planner.split(",")))

@@ -39,8 +39,8 @@ def classical(problem: Problem) -> Problem:
         UnsupportedError: if numbers decide something, a condition is no conjunction of literals,
             an effect is conditional, or start and end of an action do not fit in one instant.
 
-    >>> from hrcplan.facade import load_problem
-    >>> actions = classical(load_problem("transport", "two-boxes")).domain.actions
+    >>> from hrcplan.pddl.inputs import read
+    >>> actions = classical(read("transport", "two-boxes")).domain.actions
     >>> [str(effect) for effect in actions[0].effects]
     ['(not (at ?a ?from))', '(at ?a ?to)', '(idle ?a)']
     """

@@ -1,11 +1,14 @@
 """Shipped domains and problems: find a file by path or by name.
 
+``os.path`` answers False for a name that no file can have, where ``Path.is_file`` raises.
+
 In a checkout the folders ``domains/`` and ``problems/`` beside the package come first, so a
 file that was added a second ago is seen; an installed wheel carries a copy inside the package.
 """
 
 from __future__ import annotations
 
+import os
 import re
 from pathlib import Path
 
@@ -42,10 +45,10 @@ def find_domain(name: str) -> Path:
     Raises:
         InputError: if there is neither; the message lists what there is.
     """
-    if Path(name).is_file() or _is_path(name):
+    if os.path.isfile(name) or _is_path(name):
         return Path(name)
     path = root() / "domains" / f"{name}.pddl"
-    if path.is_file():
+    if os.path.isfile(path):
         return path
     hint = nearest(name, domain_names()) or f"shipped: {', '.join(domain_names())}"
     raise InputError(f"there is no domain '{name}'", code="no-file", path=name, hint=hint)
@@ -57,11 +60,11 @@ def find_problem(domain: str, name: str) -> Path:
     Raises:
         InputError: if there is neither; the message lists what there is.
     """
-    if Path(name).is_file() or _is_path(name):
+    if os.path.isfile(name) or _is_path(name):
         return Path(name)
     shipped = Path(domain).stem
     path = root() / "problems" / shipped / f"{name}.pddl"
-    if path.is_file():
+    if os.path.isfile(path):
         return path
     known = problem_names(shipped)
     hint = nearest(name, known) or (f"shipped: {', '.join(known)}" if known else None)
@@ -75,14 +78,18 @@ def find_goals(name: str) -> Path:
     A path that exists wins.
     """
     shipped = root() / "problems" / name
-    return shipped if shipped.is_dir() and not Path(name).exists() else Path(name)
+    return shipped if os.path.isdir(shipped) and not os.path.exists(name) else Path(name)
 
 
-def domain_file_for(name: str, problem: Path) -> Path | None:
-    """Return the file of domain ``name``: beside a problem file, else shipped, else None."""
-    beside = [p for p in sorted(problem.parent.glob("*.pddl")) if p != problem]
+def domain_file_for(name: str, problem: Path | None) -> Path | None:
+    """Return the file of domain ``name``: beside a problem file, else shipped, else None.
+
+    A problem that is no file (None) has nothing beside it.
+    """
+    folder = () if problem is None else sorted(problem.parent.glob("*.pddl"))
+    beside = [path for path in folder if path != problem]
     shipped = root() / "domains" / f"{name}.pddl"
-    return next((p for p in (*beside, shipped) if p.is_file() and _defines(p, name)), None)
+    return next((p for p in (*beside, shipped) if os.path.isfile(p) and _defines(p, name)), None)
 
 
 def _is_path(name: str) -> bool:

@@ -111,8 +111,8 @@ def diagram(
         PlannerError: if a plan is not proven to be optimal.
         UnsupportedError: if no planner holds the task.
 
-    >>> from hrcplan.facade import load_problem
-    >>> found = diagram(load_problem("transport", "two-boxes"), ("motivation", "human"))
+    >>> from hrcplan.pddl.inputs import read
+    >>> found = diagram(read("transport", "two-boxes"), ("motivation", "human"))
     >>> [str(flip) for flip in found.flips], str(found.radius())
     (['19/2'], '17/2')
     """

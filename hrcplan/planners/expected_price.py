@@ -20,8 +20,8 @@ def expected_retries(problem: Problem) -> Problem:
 
     Success probabilities are the domain's notes. An action that never succeeds is left out.
 
-    >>> from hrcplan.facade import load_problem
-    >>> priced = expected_retries(load_problem("transport-coached", "two-boxes"))
+    >>> from hrcplan.pddl.inputs import read
+    >>> priced = expected_retries(read("transport-coached", "two-boxes"))
     >>> next(a for a in priced.domain.actions if a.name == "remind").effects[-1].value
     Arithmetic(op='/', parts=(Function(name='help-price', args=()), Constant(value=Fraction(4, 5))))
     """

@@ -103,8 +103,8 @@ def lower(task: Task) -> Lowered:
         UnsupportedError: if the metric is to be maximized, is not a sum, or makes an action's cost
             negative; or if an end effect depends on what another start effect decides.
 
-    >>> from hrcplan import load
-    >>> lowered = lower(load("transport", "two-boxes"))
+    >>> from hrcplan import ground
+    >>> lowered = lower(ground("transport", "two-boxes"))
     >>> lowered.scale, lowered.exact_for_metric
     (1, False)
     >>> str(lowered.plan("(move--human--wp1--wp2)")).strip()

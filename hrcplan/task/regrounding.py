@@ -62,8 +62,8 @@ class Grounding:
     def again(self, problem: Problem) -> Task | None:
         """Return the task of ``problem`` with this structure; None if that does not hold it.
 
-        >>> from hrcplan import load
-        >>> task = load("transport", "two-boxes")
+        >>> from hrcplan import ground
+        >>> task = ground("transport", "two-boxes")
         >>> moved = {("at", "human", "wp4")} | task.problem.facts - {("at", "human", "wp1")}
         >>> now = Grounding(task).again(replace(task.problem, facts=moved))
         >>> now.structure is task.structure, ("at", "human", "wp4") in now.facts_of(now.initial)

@@ -82,8 +82,8 @@ class StepTable:
     Raises:
         UnsupportedError: if a cost is negative, or there is no such bank cost.
 
-    >>> from hrcplan import load
-    >>> table = StepTable(load("kitchen", "pasta-bean"))
+    >>> from hrcplan import ground
+    >>> table = StepTable(ground("kitchen", "pasta-bean"))
     >>> table.agents, str(table[0]), len(table[0].actions)
     ('dropped', '(get pasta)', 2)
     """

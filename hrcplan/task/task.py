@@ -44,8 +44,8 @@ class Task:
         LimitError: if there are too many ground actions, or at the deadline (a time of
             ``time.monotonic()``).
 
-    >>> from hrcplan import load
-    >>> task = load("transport", "two-boxes")
+    >>> from hrcplan import ground
+    >>> task = ground("transport", "two-boxes")
     >>> [str(task.actions[i]) for i in task.applicable(task.initial)][:2]
     ['(move robot wp0 wp1)', '(move robot wp0 wp2)']
     """
@@ -118,8 +118,8 @@ class Task:
     def state_of(self, facts: Iterable[Fact]) -> int:
         """Return the state in which exactly these facts hold; facts that never change are ignored.
 
-        >>> from hrcplan import load
-        >>> task = load("transport", "two-boxes")
+        >>> from hrcplan import ground
+        >>> task = ground("transport", "two-boxes")
         >>> task.state_of(task.facts_of(task.initial)) == task.initial
         True
         """
@@ -162,8 +162,8 @@ class Task:
         What is reachable from reachable facts is reachable, so a state that has been reached from
         the initial state keeps the grounding (it may hold more than the new task needs).
 
-        >>> from hrcplan import load
-        >>> task = load("transport", "two-boxes")
+        >>> from hrcplan import ground
+        >>> task = ground("transport", "two-boxes")
         >>> moved = task.with_facts(task.problem.facts - {("at", "human", "wp1")})
         >>> moved.actions is task.actions, moved.initial == task.initial
         (True, False)

@@ -11,7 +11,7 @@ from hrcplan.agents import profile as old_profile
 from hrcplan.agents.memory import Memory
 from hrcplan.agents.state import combined, failure_probability, sensed_value
 from hrcplan.errors import InputError, UsageError
-from hrcplan.facade import load_problem
+from hrcplan.pddl.inputs import read
 
 MOTIVATION = ("motivation", "human")
 CAPACITY = ("capacity", "human", "wp4")
@@ -20,7 +20,7 @@ KNOWLEDGE = ("knowledge", "human")
 
 @pytest.fixture(scope="module")
 def agents() -> AgentModel:
-    return AgentModel(load_problem("transport", "two-boxes"))
+    return AgentModel(read("transport", "two-boxes"))
 
 
 def test_elements_come_from_the_costs(agents: AgentModel) -> None:
@@ -32,7 +32,7 @@ def test_elements_come_from_the_costs(agents: AgentModel) -> None:
 
 
 def test_kitchen_binds_the_same_elements_to_other_actions() -> None:
-    agents = AgentModel(load_problem("kitchen", "salad-greek"))
+    agents = AgentModel(read("kitchen", "salad-greek"))
     assert set(agents.touching("serve", ("human",))) == {KNOWLEDGE, MOTIVATION}
     assert ("capacity", "human", "bowl") in agents.touching("mix", ("human", "oil", "bowl"))
 

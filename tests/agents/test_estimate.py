@@ -7,7 +7,7 @@ import pytest
 from hrcplan.agents.estimate import AgentStateEstimate, Cause, Prior
 from hrcplan.agents.profile import load_profile
 from hrcplan.agents.state import AgentModel
-from hrcplan.facade import load_problem
+from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import FluentKey
 
 A, B, C = ("motivation", "human"), ("capacity", "human", "here"), ("capacity", "human", "there")
@@ -103,7 +103,7 @@ def test_a_cause_names_its_element() -> None:
 
 def test_what_is_told_is_the_price_of_failing_of_whatever_comes_next() -> None:
     """One thing causes it, so the chances of what an action touches add up."""
-    model = AgentModel(load_problem("transport", "two-boxes"))
+    model = AgentModel(read("transport", "two-boxes"))
     told_by = load_profile("estimated")
     belief = told_by.begin(model).failed(model.touching("move", ("human", "wp1", "wp4")))
     told = told_by.told(model, {}, belief)

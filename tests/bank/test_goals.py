@@ -12,8 +12,8 @@ from hrcplan.bank import build, build_bank, from_problems, read_goals
 from hrcplan.bank.ramirez_geffner import read_actions, read_instance
 from hrcplan.bank.variants import vary
 from hrcplan.errors import InputError, PddlError, UsageError
-from hrcplan.facade import load_problem
 from hrcplan.pddl.generate import renamed, with_copy, with_goal
+from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import And, Atom
 from hrcplan.task import Task
 
@@ -33,7 +33,7 @@ def test_a_folder_of_problems_in_order_of_file_names(folder):
     goals = read_goals(str(folder / "kitchen.pddl"), str(folder))
     assert goals.names == ("stew-bean", "parfait-nut", "smoothie-oat")
     for name, tests in zip(goals.names, goals.tests, strict=True):
-        assert tests == Task(load_problem("kitchen", name)).goal
+        assert tests == Task(read("kitchen", name)).goal
 
 
 def test_differences_between_worlds_are_named(folder):
@@ -171,7 +171,7 @@ def test_actions_of_a_text():
 
 
 def test_copies_of_objects():
-    problem = load_problem("kitchen", "stew-bean")
+    problem = read("kitchen", "stew-bean")
     more = with_copy(problem, "beans", "peas")
     assert more.all_objects["peas"] == "ingredient"
     assert ("goes-in", "peas", "pan") in more.facts
@@ -186,7 +186,7 @@ def test_copies_of_objects():
 
 
 def test_renamed_formulas():
-    problem = load_problem("kitchen", "stew-bean")
+    problem = read("kitchen", "stew-bean")
     every = "(forall (?i - ingredient) (in ?i pan))"
     text = f"(and (not (stored oats)) (or (in oats pan) {every}) (not (= oats milk)))"
     goal = with_goal(problem, text, "g").goal

@@ -9,8 +9,8 @@ from hrcplan.bank.enumerated import step_task
 from hrcplan.bank.ramirez_geffner import read_instance
 from hrcplan.bank.walk import plans
 from hrcplan.errors import LimitError, MissingPlannerError
-from hrcplan.facade import load_problem
 from hrcplan.pddl.generate import with_goal
+from hrcplan.pddl.inputs import read
 from hrcplan.planners import kstar
 from hrcplan.planners.lowering import lower
 from hrcplan.planners.process import ProcessLimits
@@ -35,7 +35,7 @@ def listed(bank, goal, quality):
     ],
 )
 def test_shipped_domains(problem, goal, cost):
-    loaded = load_problem(*problem)
+    loaded = read(*problem)
     bank = build(
         from_problems([with_goal(loaded, goal, "g") if goal else loaded]), BuildOptions(cost=cost)
     )
@@ -71,7 +71,7 @@ def test_logistics(instances):
 
 def test_plans_that_are_not_optimal():
     """K* also lists plans with steps that change nothing, or that go on after the goal."""
-    goal = with_goal(load_problem("kitchen", "stew-bean"), "(and (mixed honey bowl) (served))", "g")
+    goal = with_goal(read("kitchen", "stew-bean"), "(and (mixed honey bowl) (served))", "g")
     bank = build(from_problems([goal]), BuildOptions(quality=Fraction(6, 5)))
     graph = bank.graphs[0]
     assert graph.final_costs == (5, 6)
@@ -101,7 +101,7 @@ def test_a_bank_of_listed_plans():
 
 
 def bank_of_one_box():
-    return from_problems([load_problem("transport", "two-boxes")])
+    return from_problems([read("transport", "two-boxes")])
 
 
 def test_limits_of_listing(monkeypatch):

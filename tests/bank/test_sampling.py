@@ -10,7 +10,7 @@ import pytest
 from hrcplan.bank import BuildLimits, BuildOptions, build, build_bank, from_problems
 from hrcplan.bank.walk import Sampler, first_plans, is_subset, plans, step_multisets
 from hrcplan.errors import LimitError, UnsupportedError, UsageError
-from hrcplan.facade import load_problem
+from hrcplan.pddl.inputs import read
 
 
 def chi_square(counts, n_kinds):
@@ -31,7 +31,7 @@ def chi_square(counts, n_kinds):
     ids=str,
 )
 def test_every_plan_has_the_same_chance(recipe):
-    bank = build(from_problems([load_problem("transport", "two-boxes")]), recipe)
+    bank = build(from_problems([read("transport", "two-boxes")]), recipe)
     graph, rng = bank.graphs[0], np.random.default_rng(11)
     drawn = Counter(bank.sample(0, 60 * graph.plans, rng))
     assert set(drawn) <= set(plans(graph))
@@ -40,7 +40,7 @@ def test_every_plan_has_the_same_chance(recipe):
 
 def test_filtered_samples_are_uniform():
     bank = build(
-        from_problems([load_problem("transport", "two-boxes")]),
+        from_problems([read("transport", "two-boxes")]),
         BuildOptions(quality=Fraction(9, 8)),
     )
     keep = bank.irredundant(0)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from hrcplan.facade import validate
+from hrcplan.validation import validate
 
 ROOT = Path(__file__).parents[2]
 INSTANCE = ROOT / "tests" / "data" / "goal-recognition" / "kitchen_generic_hyp-0_full_0"

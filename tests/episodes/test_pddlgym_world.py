@@ -12,8 +12,8 @@ from hrcplan.episodes.humans import Course, Frontier
 from hrcplan.episodes.pddlgym_world import PddlgymWorld, environment
 from hrcplan.episodes.worlds import WORLDS
 from hrcplan.errors import UnsupportedError, UsageError
-from hrcplan.facade import load_problem
 from hrcplan.pddl.check import domain_in, problem_in
+from hrcplan.pddl.inputs import read
 from hrcplan.pddl.source import SourceText
 
 MEALS = ["oatmeal-apple", "oatmeal-berry", "smoothie-green", "salad-greek", "stew-lentil"]
@@ -71,7 +71,7 @@ def test_the_same_hundred_episodes_in_both_worlds(
 @pytest.mark.parametrize("name", ["two-boxes", "handover"])
 def test_durations_become_instants(name: str) -> None:
     """A walk through transport, where agents' facts change and tokens are given back."""
-    bank = build(from_problems([load_problem("transport", name)]))
+    bank = build(from_problems([read("transport", name)]))
     ours, theirs = SimulatedTurns(bank), PddlgymWorld(bank)
     task, chance = bank.goals.task, random.Random(name)
     for _ in range(4):
@@ -142,7 +142,7 @@ def test_what_pddlgym_cannot_hold_is_refused(bank: Bank, reason: str) -> None:
 
 
 def test_changing_numbers_are_refused() -> None:
-    bank = build(from_problems([load_problem("transport-coached", "two-boxes")]))
+    bank = build(from_problems([read("transport-coached", "two-boxes")]))
     with pytest.raises(UnsupportedError, match="an action changes one"):
         PddlgymWorld(bank)
 
@@ -150,7 +150,7 @@ def test_changing_numbers_are_refused() -> None:
 def test_a_missing_package_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "pddlgym", None)
     with pytest.raises(UsageError, match="pddlgym cannot be imported") as caught:
-        environment(load_problem("kitchen", "stew-lentil"))
+        environment(read("kitchen", "stew-lentil"))
     assert "pip install 'hrcplan[pddlgym]'" in str(caught.value.hint)
 
 

@@ -5,7 +5,7 @@ from hrcplan.execution import events as ev
 from hrcplan.execution.events import Command, Event
 from hrcplan.execution.monitor import Monitor
 from hrcplan.execution.run import Run
-from hrcplan.facade import load_problem
+from hrcplan.pddl.inputs import read
 from hrcplan.planners.solve import objective
 from hrcplan.plans import Plan, parse_plan
 from hrcplan.validation import validate
@@ -36,7 +36,7 @@ class Script:
     """One run under the hands of a test: ``tell`` an event, look at ``commands``."""
 
     def __init__(self, name: str = "replan-always", sensing: bool = True) -> None:
-        problem = load_problem("transport", "two-boxes")
+        problem = read("transport", "two-boxes")
         self.monitor = Monitor(problem, load_profile(name), sensing)
         self.run: Run = self.monitor.begin()
         self.commands: tuple[Command, ...] = ()

@@ -14,7 +14,7 @@ from hrcplan.execution.journal import read_journal
 from hrcplan.execution.replay import replay
 from hrcplan.execution.simulate import make_engine
 from hrcplan.execution.worlds.simulated import Nature, StateChange
-from hrcplan.facade import load_problem
+from hrcplan.pddl.inputs import read
 from hrcplan.planners.expected_price import with_success
 
 MOTIVATION = ("motivation", "human")
@@ -29,7 +29,7 @@ def rows(n: int, **changes: Any) -> list[Outcome]:
 
 def coached(probability: float, seed: int = 0, value: float = 8) -> tuple[Outcome, list[str]]:
     """Return a run whose human is unmotivated from the start, and what was done in it."""
-    problem = with_success(load_problem("transport-coached", "two-boxes"), probability)
+    problem = with_success(read("transport-coached", "two-boxes"), probability)
     engine = make_engine(problem, load_profile("hrcplan"))
     nature = Nature(seed, (StateChange(0.0, {MOTIVATION: value}),), sensed="before")
     done: list[str] = []
@@ -67,7 +67,7 @@ def test_what_never_works_is_not_tried() -> None:
 
 def test_an_interaction_that_leaves_more_is_worth_less() -> None:
     """What is left is a sensed value like others, and told to the planner like others."""
-    problem = load_problem("transport-coached", "two-boxes").with_values({("residual",): 5})
+    problem = read("transport-coached", "two-boxes").with_values({("residual",): 5})
     engine = make_engine(problem, load_profile("hrcplan"))
     told = engine.monitor.told(engine.monitor.begin())
     assert float(told["residual",]) == pytest.approx(1 + 6.93, abs=0.01)
@@ -85,7 +85,7 @@ def test_what_could_only_get_worse_is_no_state_of_the_task() -> None:
 
 
 def test_a_journal_of_interactions_replays(tmp_path: Any) -> None:
-    problem = load_problem("transport-coached", "two-boxes")
+    problem = read("transport-coached", "two-boxes")
     path = tmp_path / "run.jsonl"
     setup = make_setup(problem, profile="estimated", human="case2", planner="exact", seed=3)
     setup = replace(setup, profile=load_profile("hrcplan"))
@@ -97,7 +97,7 @@ def test_a_journal_of_interactions_replays(tmp_path: Any) -> None:
 
 def test_estimates_are_replayed_too(tmp_path: Any) -> None:
     path = tmp_path / "run.jsonl"
-    setup = make_setup(load_problem("transport", "two-boxes"), profile="estimated", model=False,
+    setup = make_setup(read("transport", "two-boxes"), profile="estimated", model=False,
                            human="case1", planner="exact", seed=5)  # fmt: skip
     done = carry_out(setup, journal=path)
     found = replay(read_journal(path))

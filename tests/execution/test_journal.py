@@ -24,7 +24,7 @@ from hrcplan.execution.journal import JournalWriter, RunSetup, read_journal, set
 from hrcplan.execution.replanner import Replanner
 from hrcplan.execution.replay import replay
 from hrcplan.execution.worlds.simulated import FactChange, Nature, StateChange
-from hrcplan.facade import load_problem
+from hrcplan.pddl.inputs import read
 from hrcplan.plans import parse_plan
 
 # A change that is sensed, failures, a deviation and several replans.
@@ -37,7 +37,7 @@ CHANGES = (
 
 
 def eventful(journal: Path, resume: bool = False) -> Executed:
-    problem = load_problem("transport", "two-boxes")
+    problem = read("transport", "two-boxes")
     setup = make_setup(problem, profile="replan-always", changes=CHANGES, seed=5)
     return carry_out(setup, journal=journal, resume=resume, planner=shared_planner())
 
@@ -45,7 +45,7 @@ def eventful(journal: Path, resume: bool = False) -> Executed:
 @lru_cache
 def shared_planner() -> Replanner:
     """Plans are the same every time, so one planner with its memory serves all runs."""
-    return Replanner(load_problem("transport", "two-boxes"))
+    return Replanner(read("transport", "two-boxes"))
 
 
 def content(path: Path) -> list[dict[str, object]]:
@@ -221,7 +221,7 @@ def test_not_a_journal(tmp_path: Path) -> None:
 
 
 def test_settings_survive_the_journal() -> None:
-    problem = load_problem("kitchen", "salad-greek")
+    problem = read("kitchen", "salad-greek")
     nature = Nature("a/1", CHANGES[:1], CHANGES[1:], "after", "attempt", frozenset({"mix"}))
     setup = make_setup(problem, profile="hrcplan", seed="x")
     setup = RunSetup(setup.problem, setup.profile, False, nature, ("kairos",))

@@ -13,7 +13,7 @@ from hrcplan.execution.run import Run
 from hrcplan.execution.simulate import Engine, make_engine
 from hrcplan.execution.timeline import Timeline
 from hrcplan.execution.worlds.simulated import Nature, StateChange
-from hrcplan.facade import load_problem
+from hrcplan.pddl.inputs import read
 from hrcplan.planners import registry
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
 from hrcplan.plans import parse_plan
@@ -57,7 +57,7 @@ def engine_with(planner: Replanner) -> Engine:
 
 @pytest.mark.parametrize("fault", ["crash", "bug", "timeout", "lie"])
 def test_the_next_planner_takes_over(fault: str) -> None:
-    problem = load_problem("transport", "two-boxes")
+    problem = read("transport", "two-boxes")
     planner = Replanner(problem, (Faulty(fault),), timeout_s=1.0)
     timeline = Timeline()
     asked: list[ev.Planned] = []
@@ -81,7 +81,7 @@ class Silent(Replanner):
 
 
 def test_without_any_planner_the_running_plan_goes_on_and_the_run_ends_by_name() -> None:
-    planner = Silent(load_problem("transport", "two-boxes"))
+    planner = Silent(read("transport", "two-boxes"))
     last: list[ev.Command] = []
 
     def watch(run: Run, event: ev.Event, commands: tuple[ev.Command, ...]) -> None:
@@ -94,7 +94,7 @@ def test_without_any_planner_the_running_plan_goes_on_and_the_run_ends_by_name()
 
 def test_an_unsolvable_rest_is_a_named_ending() -> None:
     """The robot alone cannot hand a box over, and the human's actions have no cause to fail."""
-    problem = load_problem("transport", "two-boxes")
+    problem = read("transport", "two-boxes")
     stranded = Monitor(problem, load_profile("replan-always"))
     facts = problem.facts - {("free", "human"), ("free", "robot")}
     ask = ev.AskPlan(0.0, stranded.acting.changing(stranded.acting.initial()) & facts, {},
@@ -105,7 +105,7 @@ def test_an_unsolvable_rest_is_a_named_ending() -> None:
 
 
 def test_equal_questions_are_answered_once() -> None:
-    planner = Replanner(load_problem("transport", "two-boxes"))
+    planner = Replanner(read("transport", "two-boxes"))
     engine = engine_with(planner)
     first = engine.row(engine.run(DISTRACTED))
     n_asked = planner.n_asked
@@ -115,7 +115,7 @@ def test_equal_questions_are_answered_once() -> None:
 
 def test_replanning_is_quick() -> None:
     """The goal is 20 ms in the median; the bound here leaves room for a busy machine."""
-    planner = Replanner(load_problem("transport", "two-boxes"))
+    planner = Replanner(read("transport", "two-boxes"))
     engine = engine_with(planner)
     for value in range(2, 11):
         engine.run(Nature(0, (StateChange(0.0, {("motivation", "human"): value}),)))

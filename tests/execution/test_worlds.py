@@ -11,8 +11,8 @@ from hrcplan.execution.events import Event
 from hrcplan.execution.simulate import cause_of, nature_of
 from hrcplan.execution.worlds import chance
 from hrcplan.execution.worlds.simulated import FactChange, Nature, SimulatedWorld, StateChange
-from hrcplan.facade import load_problem
 from hrcplan.pddl import library
+from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import Problem
 
 MOTIVATION = ("motivation", "human")
@@ -20,7 +20,7 @@ MOTIVATION = ("motivation", "human")
 
 @pytest.fixture(scope="module")
 def problem() -> Problem:
-    return load_problem("transport", "two-boxes")
+    return read("transport", "two-boxes")
 
 
 def lost(t: float) -> StateChange:
@@ -188,7 +188,7 @@ def test_an_interaction_changes_the_truth_if_it_succeeds(
     (tmp_path / "transport.pddl").write_text(
         f";; hrcplan: success remind {success}\n{text.rstrip()[:-1]}{REMIND}"
     )
-    loaded = load_problem(
+    loaded = read(
         str(tmp_path / "transport.pddl"), str(library.find_problem("transport", "two-boxes"))
     )
     world = SimulatedWorld(loaded, Nature(changes=(lost(0.0),), sensed="before"))

@@ -6,10 +6,9 @@ from pathlib import Path
 import pytest
 
 from hrcplan.errors import UnsupportedError
-from hrcplan.facade import load_problem
-from hrcplan.pddl.check import domain_in, load_domain, problem_in
-from hrcplan.pddl.check import load_problem as read_problem
+from hrcplan.pddl.check import domain_in, problem_in
 from hrcplan.pddl.classical import classical, classical_texts
+from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import Problem
 from hrcplan.pddl.source import SourceText
 from hrcplan.task import Task
@@ -38,10 +37,10 @@ def instant(condition: str, effect: str) -> str:
 )
 def test_walks_are_the_same(domain: str, name: str, tmp_path: Path) -> None:
     """Read back from its text, where every variable has a type of its own."""
-    problem = load_problem(domain, name)
+    problem = read(domain, name)
     for file, text in zip(("d.pddl", "p.pddl"), classical_texts(problem), strict=True):
         (tmp_path / file).write_text(text)
-    plain = read_problem(load_domain(tmp_path / "d.pddl"), tmp_path / "p.pddl")
+    plain = read(tmp_path / "d.pddl", tmp_path / "p.pddl")
     assert not plain.domain.is_temporal
     assert not plain.values
     ours, theirs = Task(problem), Task(plain)

@@ -11,11 +11,9 @@ from hypothesis import strategies as st
 from hrcplan.core.numbers import to_number
 from hrcplan.episodes.pddlgym_world import environment, named
 from hrcplan.errors import UnsupportedError
-from hrcplan.facade import load_problem
 from hrcplan.pddl import library
-from hrcplan.pddl.check import load_domain
-from hrcplan.pddl.check import load_problem as read_problem
 from hrcplan.pddl.dialect import with_binary_sums
+from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import Problem
 from hrcplan.pddl.write import decimal_text, domain_text, problem_text
 from hrcplan.task import Task
@@ -58,17 +56,11 @@ ODD_PROBLEM = """
 
 @pytest.fixture
 def odd(tmp_path: Path) -> Problem:
-    return read(tmp_path, ODD_DOMAIN, ODD_PROBLEM)
-
-
-def read(folder: Path, domain: str, problem: str) -> Problem:
-    (folder / "domain.pddl").write_text(domain)
-    (folder / "problem.pddl").write_text(problem)
-    return read_problem(load_domain(folder / "domain.pddl"), folder / "problem.pddl")
+    return read(ODD_DOMAIN, ODD_PROBLEM)
 
 
 def again(problem: Problem, folder: Path) -> Problem:
-    found = read(folder, domain_text(problem.domain), problem_text(problem))
+    found = read(domain_text(problem.domain), problem_text(problem))
     same = replace(found.domain, path=problem.domain.path)
     return replace(found, domain=same, path=problem.path)
 
@@ -94,7 +86,7 @@ def test_what_is_written_is_written_again_alike(odd: Problem, tmp_path: Path) ->
 
 
 def test_lines_stay_readable() -> None:
-    problem = load_problem("kitchen", library.problem_names("kitchen")[0])
+    problem = read("kitchen", library.problem_names("kitchen")[0])
     init = problem_text(problem).split("(:init")[1].split("(:goal")[0]
     assert max(map(len, init.splitlines())) <= 100
     assert len(init.splitlines()) < len(problem.facts) + len(problem.values)
@@ -126,7 +118,7 @@ def test_constants_that_occur_only_in_costs_stay(odd: Problem) -> None:
 
 
 def test_without_costs_nothing_numeric_is_left() -> None:
-    problem = load_problem("kitchen", library.problem_names("kitchen")[0])
+    problem = read("kitchen", library.problem_names("kitchen")[0])
     domain, text = (
         domain_text(problem.domain, strip_costs=True),
         problem_text(problem, strip_costs=True),
@@ -136,10 +128,9 @@ def test_without_costs_nothing_numeric_is_left() -> None:
         assert word not in text
 
 
-def test_without_costs_the_same_actions_apply(tmp_path: Path) -> None:
-    problem = load_problem("kitchen", library.problem_names("kitchen")[0])
+def test_without_costs_the_same_actions_apply() -> None:
+    problem = read("kitchen", library.problem_names("kitchen")[0])
     plain = read(
-        tmp_path,
         domain_text(problem.domain, strip_costs=True),
         problem_text(problem, strip_costs=True),
     )
@@ -151,7 +142,7 @@ def test_without_costs_the_same_actions_apply(tmp_path: Path) -> None:
 def test_numbers_that_decide_cannot_be_left_out(odd: Problem) -> None:
     with pytest.raises(UnsupportedError, match="'ask' compares"):
         domain_text(odd.domain, strip_costs=True)
-    plain = load_problem("transport", "two-boxes")
+    plain = read("transport", "two-boxes")
     with pytest.raises(UnsupportedError, match="the goal compares"):
         problem_text(replace(plain, goal=odd.goal), strip_costs=True)
 
@@ -168,7 +159,7 @@ def test_binary_sums_mean_the_same(odd: Problem) -> None:
 def test_pddlgym_reads_the_kitchen_without_costs() -> None:
     """The second simulator: it knows type hierarchies, but no numbers."""
     pytest.importorskip("pddlgym.core", reason="pddlgym needs Python < 3.12")
-    problem = load_problem("kitchen", library.problem_names("kitchen")[0])
+    problem = read("kitchen", library.problem_names("kitchen")[0])
     env = environment(problem)
     seen, _ = env.reset()
     assert len(seen.literals) == len(problem.facts)

@@ -6,7 +6,7 @@ import pytest
 
 from hrcplan.core.numbers import Number
 from hrcplan.errors import PlannerError, UsageError
-from hrcplan.facade import load_problem
+from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import FluentKey, Problem
 from hrcplan.planners.allocation import Diagram, Line, diagram, line_of
 from hrcplan.planners.exact import ExactPlanner
@@ -20,7 +20,7 @@ WP4, WP5 = ("capacity", "human", "wp4"), ("capacity", "human", "wp5")
 
 @pytest.fixture(scope="module")
 def two_boxes() -> Problem:
-    return load_problem("transport", "two-boxes")
+    return read("transport", "two-boxes")
 
 
 def tired(problem: Problem) -> Problem:
@@ -37,7 +37,7 @@ def tired(problem: Problem) -> Problem:
 ])  # fmt: skip
 @pytest.mark.parametrize("uneven", [False, True])
 def test_it_equals_a_fine_sweep(domain: str, key: FluentKey, most: int, uneven: bool) -> None:
-    problem = load_problem(domain, "two-boxes")
+    problem = read(domain, "two-boxes")
     problem = tired(problem) if uneven else problem
     found = diagram(problem, key, 0, most)
     groundings, planner = Groundings(), ExactPlanner()

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from hrcplan.errors import MissingPlannerError, PlannerError, UsageError
-from hrcplan.facade import load_problem
 from hrcplan.pddl.generate import with_goal
+from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import Problem
 from hrcplan.planners.command import CommandPlanner, best_of, find_plans
 from hrcplan.planners.contract import Answer, Request, Status
@@ -32,7 +32,7 @@ WRONG = GOOD.replace("wp5) [50]\n150", "wp1) [50]\n150")
 
 @pytest.fixture
 def boxes() -> Problem:
-    return load_problem("transport", "two-boxes")
+    return read("transport", "two-boxes")
 
 
 def solve(command: str, problem: Problem, seconds: float = 20) -> Answer:
@@ -63,7 +63,7 @@ def test_kairos_on_the_command_line(layout: str, boxes: Problem) -> None:
 
 
 def test_enhsp_on_the_command_line_with_a_plan_file() -> None:
-    problem = load_problem("kitchen", "parfait-nut")
+    problem = read("kitchen", "parfait-nut")
     jar = _inside("up_enhsp", _JAR)
     command = f"{find_java()} -jar {jar} -o {{domain}} -f {{problem}} -sp {{plan}} -s gbfs -h hadd"
     answer = solve(command, problem)
@@ -116,7 +116,7 @@ def test_another_exit_code_is_no_crash(boxes: Problem, tmp_path: Path) -> None:
 
 
 def test_a_goal_that_holds_already_needs_no_lines(tmp_path: Path) -> None:
-    problem = with_goal(load_problem("transport", "two-boxes"), "(free human)", "idle")
+    problem = with_goal(read("transport", "two-boxes"), "(free human)", "idle")
     answer = solve(printing(tmp_path, "nothing to do"), problem)
     assert answer.plan is not None
     assert answer.plan.actions == ()

@@ -8,10 +8,8 @@ from pathlib import Path
 import pytest
 
 from hrcplan.errors import PlannerError, UnsupportedError
-from hrcplan.facade import load_problem
-from hrcplan.pddl.check import load_domain
-from hrcplan.pddl.check import load_problem as read_problem
 from hrcplan.pddl.generate import with_goal
+from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import Problem
 from hrcplan.planners import enhsp
 from hrcplan.planners.contract import Answer, Request, Status
@@ -45,7 +43,7 @@ TRIP = """
 def tank(folder: Path, price: str = "3", trip: str = TRIP) -> Problem:
     (folder / "d.pddl").write_text(TANK.replace("PRICE", price))
     (folder / "p.pddl").write_text(trip)
-    return read_problem(load_domain(folder / "d.pddl"), folder / "p.pddl")
+    return read(folder / "d.pddl", folder / "p.pddl")
 
 
 def solve(problem: Problem, seconds: float = 30, *, any_plan: bool = False) -> Answer:
@@ -113,7 +111,7 @@ def test_interactions_are_planned_optimally(tmp_path: Path) -> None:
 (define (problem t) (:domain talk) (:objects human - agent i j k - job)
   (:init (= (motivation human) 4) (= (total-cost) 0)) (:goal (and (done i) (done j) (done k)))
   (:metric minimize (total-cost)))""")
-    problem = read_problem(load_domain(tmp_path / "d.pddl"), tmp_path / "p.pddl")
+    problem = read(tmp_path / "d.pddl", tmp_path / "p.pddl")
     answer = solve(problem)
     assert (answer.status, answer.objective) == (Status.OPTIMAL, Fraction(13, 2))
 
@@ -124,7 +122,7 @@ def test_interactions_are_planned_optimally(tmp_path: Path) -> None:
     ids=["low", "unmotivated", "fraction"],
 )
 def test_it_agrees_with_fast_downward(values: dict[tuple[str, ...], Fraction]) -> None:
-    problem = load_problem("kitchen", "parfait-nut").with_values(values)
+    problem = read("kitchen", "parfait-nut").with_values(values)
     short = with_goal(problem, "(and (in oats glass) (has-water glass) (served))", "drink")
     ours, theirs = solve(short), FastDownward().solve(Request(short))
     assert ours.status is theirs.status is Status.OPTIMAL
@@ -134,7 +132,7 @@ def test_it_agrees_with_fast_downward(values: dict[tuple[str, ...], Fraction]) -
 
 
 def test_the_sequential_reading_costs_what_fast_downward_proves() -> None:
-    problem = load_problem("transport", "two-boxes")
+    problem = read("transport", "two-boxes")
     answer = solve(problem)
     assert answer.status is Status.SOLVED
     assert answer.plan is not None
@@ -143,7 +141,7 @@ def test_the_sequential_reading_costs_what_fast_downward_proves() -> None:
 
 def test_without_time_for_the_proof_there_is_a_plan() -> None:
     """It proves nothing on whole recipes."""
-    problem = load_problem("kitchen", "parfait-nut")
+    problem = read("kitchen", "parfait-nut")
     answer = solve(problem, 8)
     assert answer.status is Status.SOLVED
     assert answer.objective is not None
@@ -151,7 +149,7 @@ def test_without_time_for_the_proof_there_is_a_plan() -> None:
 
 
 def test_any_plan_is_quick_and_not_called_optimal() -> None:
-    answer = solve(load_problem("kitchen", "stew-tomato"), any_plan=True)
+    answer = solve(read("kitchen", "stew-tomato"), any_plan=True)
     assert answer.status is Status.SOLVED
     assert answer.objective is not None
     assert answer.objective >= 62

@@ -14,13 +14,14 @@ from pathlib import Path
 import pytest
 
 from hrcplan.core.numbers import Number
-from hrcplan.facade import load, load_problem
+from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import Fact
 from hrcplan.planners import registry
 from hrcplan.planners.contract import Request, Status
 from hrcplan.planners.exact import ExactPlanner, graph, search
 from hrcplan.plans import Plan
 from hrcplan.task import Task
+from hrcplan.task.ground import ground
 from hrcplan.validation import validate
 
 GAP = Fraction(1, 1000)
@@ -50,7 +51,7 @@ def lanes(plan: Plan) -> Counter[str]:
 
 @pytest.fixture(scope="module")
 def two_boxes() -> Task:
-    return load("transport", "two-boxes")
+    return ground("transport", "two-boxes")
 
 
 def test_two_boxes_are_shared_until_the_human_is_too_tired(two_boxes: Task) -> None:
@@ -104,7 +105,7 @@ def test_a_state_out_of_reach_is_checked_and_added(two_boxes: Task) -> None:
 
 
 def test_handover_is_proven() -> None:
-    task = load("transport", "handover")
+    task = ground("transport", "handover")
     plan = proven(task)
     assert metric(task, plan) == 36 + Fraction("0.17") * (350 + 6 * GAP)
     assert plan.makespan_s == 350 + 6 * GAP
@@ -113,7 +114,7 @@ def test_handover_is_proven() -> None:
 
 @pytest.mark.parametrize("name", ["two-boxes", "handover"])
 def test_kairos_is_never_below_a_proof(name: str) -> None:
-    problem = load_problem("transport", name).with_values({MOTIVATION: 4})
+    problem = read("transport", name).with_values({MOTIVATION: 4})
     other = registry.make("kairos").solve(Request(problem, time.monotonic() + 3))
     assert other.plan is not None
     theirs = validate(problem, other.plan).metric
@@ -128,7 +129,7 @@ def test_val_accepts_the_plans(tmp_path: Path) -> None:
     assert spec.origin is not None
     programs = Path(spec.origin).parent / "bin"
     for name in ("two-boxes", "handover", "boxes-3"):
-        task = load("transport", name)
+        task = ground("transport", name)
         plan = tmp_path / f"{name}.plan"
         plan.write_text(str(proven(task)))
         files = [task.problem.domain.path, task.problem.path, str(plan)]
@@ -142,9 +143,9 @@ def test_val_accepts_the_plans(tmp_path: Path) -> None:
 
 def test_answers_do_not_depend_on_hashes() -> None:
     script = (
-        "from hrcplan import load; from hrcplan.planners.exact import ExactPlanner\n"
+        "from hrcplan import ground; from hrcplan.planners.exact import ExactPlanner\n"
         "for name in ('two-boxes', 'handover'):\n"
-        "    print(ExactPlanner().replan(load('transport', name)))"
+        "    print(ExactPlanner().replan(ground('transport', name)))"
     )
     texts = {
         subprocess.run(
@@ -173,7 +174,7 @@ def test_any_plan_is_a_valid_one_without_a_proof(two_boxes: Task) -> None:
 
 
 def test_it_gives_up_at_the_deadline() -> None:
-    task = load("transport", "boxes-6")
+    task = ground("transport", "boxes-6")
     for seconds in (0.0, 0.5):
         begun = time.monotonic()
         answer = ExactPlanner().replan(task, begun + seconds)
@@ -226,6 +227,6 @@ def test_a_fact_that_comes_anyway_may_be_worth_having_earlier(tmp_path: Path) ->
         "(define (problem p) (:domain dom) (:objects ann bob - agent)"
         "(:init (idle ann) (idle bob)) (:goal (and (q) (r))) (:metric minimize (total-time)))"
     )
-    task = Task(load_problem(str(tmp_path / "d.pddl"), str(tmp_path / "p.pddl")))
+    task = Task(read(str(tmp_path / "d.pddl"), str(tmp_path / "p.pddl")))
     # Waiting is free here, so bob may be quick more than once: gaps are all that is added.
     assert proven(task).makespan_s == pytest.approx(100, abs=0.05)

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from hrcplan.errors import UnsupportedError
-from hrcplan.facade import load_problem
+from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import And, Atom, Effect, Fact, Formula, Not, Problem
 from hrcplan.pddl.semantics import (
     Binding,
@@ -185,7 +185,7 @@ def random_task(seed: int, folder: Path, late: bool = False) -> tuple[Problem, F
       (:metric minimize (+ (* {w_cost} (total-cost)) (* {w_time} (total-time)))))"""
     (folder / "domain.pddl").write_text(domain)
     (folder / "problem.pddl").write_text(problem)
-    found = load_problem(str(folder / "domain.pddl"), str(folder / "problem.pddl"))
+    found = read(str(folder / "domain.pddl"), str(folder / "problem.pddl"))
     return found, Fraction(w_cost), Fraction(w_time)
 
 

@@ -7,11 +7,12 @@ import pytest
 
 from hrcplan.core.numbers import Number
 from hrcplan.errors import UnsupportedError
-from hrcplan.facade import load, load_problem
+from hrcplan.pddl.inputs import read
 from hrcplan.planners.contract import Answer, Status
 from hrcplan.planners.exact import ExactPlanner
 from hrcplan.plans import EPSILON_S, Plan, parse_plan
 from hrcplan.task import Task
+from hrcplan.task.ground import ground
 from hrcplan.validation import validate
 
 # One small domain, one change for each way to fall outside the class.
@@ -45,7 +46,7 @@ def tiny(folder: Path, more: str = "", goal: str = BOTH, metric: str = SUM, ann:
     (folder / "domain.pddl").write_text(DOMAIN.format(more=more))
     text = PROBLEM.format(goal=goal, metric=metric, ann=ann)
     (folder / "problem.pddl").write_text(text)
-    return Task(load_problem(str(folder / "domain.pddl"), str(folder / "problem.pddl")))
+    return Task(read(str(folder / "domain.pddl"), str(folder / "problem.pddl")))
 
 
 OPEN = "(>= ?duration 5)"
@@ -99,7 +100,7 @@ def test_it_declines_metrics(metric: str, ann: str, reason: str, tmp_path: Path)
 
 def test_it_declines_classical_tasks() -> None:
     with pytest.raises(UnsupportedError, match="exact declines: no action has a duration"):
-        ExactPlanner().replan(load("kitchen", "oatmeal-apple"))
+        ExactPlanner().replan(ground("kitchen", "oatmeal-apple"))
 
 
 @pytest.mark.parametrize(

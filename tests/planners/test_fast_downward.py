@@ -10,9 +10,7 @@ from pathlib import Path
 import pytest
 
 from hrcplan.errors import PlannerError, UnsupportedError
-from hrcplan.facade import load_problem
-from hrcplan.pddl.check import load_domain
-from hrcplan.pddl.check import load_problem as read_problem
+from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import Compare, Constant, Problem
 from hrcplan.planners import fast_downward
 from hrcplan.planners.contract import Request, Status
@@ -27,7 +25,7 @@ ROBOT = ("knowledge", "robot")
 
 @pytest.fixture
 def parfait() -> Problem:
-    return load_problem("kitchen", "parfait-nut")
+    return read("kitchen", "parfait-nut")
 
 
 def test_it_proves_the_kitchen(parfait: Problem) -> None:
@@ -64,7 +62,7 @@ def test_any_plan_is_not_called_optimal(parfait: Problem) -> None:
 
 
 def test_the_sequential_reading_of_a_temporal_problem_is_no_proof() -> None:
-    problem = load_problem("transport", "two-boxes")
+    problem = read("transport", "two-boxes")
     answer = FastDownward().solve(Request(problem))
     assert answer.status is Status.SOLVED
     assert answer.objective is None
@@ -88,7 +86,7 @@ def test_time_runs_out_as_an_answer(parfait: Problem) -> None:
 
 
 def test_memory_runs_out_as_an_answer() -> None:
-    problem = load_problem("transport", "boxes-6")
+    problem = read("transport", "boxes-6")
     answer = FastDownward().solve(Request(problem, memory_bytes=5 << 20))
     assert answer.status is Status.UNSOLVED
     assert "memory" in answer.note
@@ -125,7 +123,7 @@ def test_conditional_effects_and_alternative_goals_are_proven_too(
     (tmp_path / "d.pddl").write_text(DOMAIN)
     text = f"(define (problem x) (:domain lamps) (:init) (:goal {goal}))"
     (tmp_path / "p.pddl").write_text(text)
-    problem = read_problem(load_domain(tmp_path / "d.pddl"), tmp_path / "p.pddl")
+    problem = read(tmp_path / "d.pddl", tmp_path / "p.pddl")
     answer = FastDownward().solve(Request(problem))
     assert answer.status is Status.OPTIMAL
     assert answer.objective == steps

@@ -10,7 +10,7 @@ import pytest
 
 from hrcplan.core.numbers import Number
 from hrcplan.errors import UnsupportedError, UsageError
-from hrcplan.facade import load_file, load_problem
+from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import TOTAL_COST, Action, Function, Problem
 from hrcplan.pddl.semantics import Binding, LiftedState, changes, evaluate, holds
 from hrcplan.planners.exact import ExactPlanner
@@ -36,12 +36,12 @@ TINY = """(define (problem tiny) (:domain transport-coached)
 def tiny(folder: Path, **values: int) -> Problem:
     path = folder / "tiny.pddl"
     path.write_text(TINY.format(**values))
-    return load_file(path)
+    return read(path)
 
 
 @pytest.fixture(scope="module")
 def coached() -> Problem:
-    return load_problem("transport-coached", "two-boxes")
+    return read("transport-coached", "two-boxes")
 
 
 def helped(problem: Problem) -> bool:
@@ -51,7 +51,7 @@ def helped(problem: Problem) -> bool:
 
 
 def test_the_coached_domain_repeats_transport(coached: Problem) -> None:
-    plain = load_problem("transport", "two-boxes")
+    plain = read("transport", "two-boxes")
     theirs = {action.name: action for action in coached.domain.actions}
     assert all(theirs[action.name] == action for action in plain.domain.actions)
     assert coached.facts - plain.facts == {("coach", "robot", "human")}
@@ -60,7 +60,7 @@ def test_the_coached_domain_repeats_transport(coached: Problem) -> None:
 
 
 def test_while_both_contribute_the_best_plan_is_the_same(coached: Problem) -> None:
-    plain = solve(load_problem("transport", "two-boxes"), "exact")
+    plain = solve(read("transport", "two-boxes"), "exact")
     found = solve(coached, "exact")
     assert str(found.plan) == str(plain.plan)
 
@@ -193,7 +193,7 @@ def late(tmp_path: Path, *agents: str) -> Task:
     (tmp_path / "late.pddl").write_text(DELETES_LATE)
     idle = " ".join(f"(idle {a})" for a in agents)
     (tmp_path / "p.pddl").write_text(LATE.format(agents=" ".join(agents), idle=idle))
-    return Task(load_file(tmp_path / "p.pddl"))
+    return Task(read(tmp_path / "p.pddl"))
 
 
 def test_what_is_deleted_at_an_end_may_not_be_looked_at_until_then(tmp_path: Path) -> None:

@@ -12,10 +12,8 @@ from pathlib import Path
 import pytest
 
 from hrcplan.errors import UnsupportedError
-from hrcplan.facade import load_problem
-from hrcplan.pddl.check import load_domain
-from hrcplan.pddl.check import load_problem as read_problem
 from hrcplan.pddl.generate import with_goal
+from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import TOTAL_COST, Function, Problem
 from hrcplan.planners.contract import Answer, Request, Status
 from hrcplan.planners.fast_downward import FastDownward
@@ -40,7 +38,7 @@ def metric(problem: Problem, answer: Answer) -> Fraction:
 @pytest.mark.parametrize("motivation", [1, 5, 10])
 @pytest.mark.parametrize("name", ["two-boxes", "handover"])
 def test_the_portfolio_is_as_good_as_its_best_preset(name: str, motivation: int) -> None:
-    problem = load_problem("transport", name).with_values({HUMAN: motivation})
+    problem = read("transport", name).with_values({HUMAN: motivation})
     answer = solve(problem)
     assert answer.status is Status.SOLVED  # an exhausted search is no proof
     single = [
@@ -50,14 +48,14 @@ def test_the_portfolio_is_as_good_as_its_best_preset(name: str, motivation: int)
 
 
 def test_its_own_figure_is_reported() -> None:
-    problem = load_problem("transport", "two-boxes").with_values({HUMAN: Fraction(17, 8)})
+    problem = read("transport", "two-boxes").with_values({HUMAN: Fraction(17, 8)})
     answer = solve(problem)
     assert answer.objective is not None
     assert abs(answer.objective - metric(problem, answer)) < 1e-6
 
 
 def test_a_classical_task_is_proven() -> None:
-    problem = load_problem("kitchen", "parfait-nut").with_values({HUMAN: Fraction(1, 3)})
+    problem = read("kitchen", "parfait-nut").with_values({HUMAN: Fraction(1, 3)})
     short = with_goal(problem, "(and (in oats glass) (served))", "short")
     ours, theirs = solve(short), FastDownward().solve(Request(short))
     assert theirs.status is Status.OPTIMAL
@@ -68,18 +66,18 @@ def test_a_classical_task_is_proven() -> None:
 
 
 def test_a_whole_recipe_is_never_below_the_optimum() -> None:
-    problem = load_problem("kitchen", "parfait-nut")
+    problem = read("kitchen", "parfait-nut")
     assert metric(problem, solve(problem, 2)) >= 50
 
 
 def test_the_cost_of_the_sequential_reading_is_never_below_the_optimum() -> None:
-    problem = load_problem("transport", "two-boxes")
+    problem = read("transport", "two-boxes")
     costly = replace(problem, metric=Function(TOTAL_COST))
     assert metric(costly, solve(costly)) >= 24
 
 
 def test_unsolvable_is_said() -> None:
-    problem = load_problem("transport", "two-boxes")
+    problem = read("transport", "two-boxes")
     facts = frozenset(f for f in problem.facts if f[0] != "reach")
     assert solve(replace(problem, facts=facts)).status is Status.UNSOLVABLE
 
@@ -99,13 +97,13 @@ def test_costs_that_actions_change_are_minimized(tmp_path: Path) -> None:
 (define (problem t) (:domain talk) (:objects human - agent i j k - job)
   (:init (= (motivation human) 4) (= (total-cost) 3)) (:goal (and (done i) (done j) (done k)))
   (:metric minimize (total-cost)))""")
-    problem = read_problem(load_domain(tmp_path / "d.pddl"), tmp_path / "p.pddl")
+    problem = read(tmp_path / "d.pddl", tmp_path / "p.pddl")
     answer = solve(problem)
     assert (answer.status, answer.objective) == (Status.OPTIMAL, 3 + Fraction(13, 2))
 
 
 def test_it_keeps_its_time_and_lets_other_threads_run() -> None:
-    problem = load_problem("transport", "boxes-6")
+    problem = read("transport", "boxes-6")
     ticks = []
     done = threading.Event()
 
@@ -126,11 +124,11 @@ def test_it_keeps_its_time_and_lets_other_threads_run() -> None:
 
 
 def test_no_time_is_no_plan() -> None:
-    assert solve(load_problem("transport", "two-boxes"), -1).status is Status.UNSOLVED
+    assert solve(read("transport", "two-boxes"), -1).status is Status.UNSOLVED
 
 
 def test_any_plan_is_the_first() -> None:
-    problem = load_problem("transport", "boxes-6")
+    problem = read("transport", "boxes-6")
     begun = time.monotonic()
     answer = solve(problem, 30, any_plan=True)
     assert time.monotonic() - begun < 5
@@ -141,15 +139,15 @@ def test_any_plan_is_the_first() -> None:
 def test_what_it_does_not_read_is_unsupported(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("hrcplan.planners.kairos.problem_text", lambda problem: "(define (problem")
     with pytest.raises(UnsupportedError, match="does not read"):
-        solve(load_problem("transport", "two-boxes"))
+        solve(read("transport", "two-boxes"))
 
 
 def test_ctrl_c_stops_it() -> None:
     code = (
-        "import time; from hrcplan.facade import load_problem\n"
+        "import time; from hrcplan.pddl.inputs import read\n"
         "from hrcplan.planners.contract import Request\n"
         "from hrcplan.planners.kairos import Kairos\n"
-        "request = Request(load_problem('transport', 'boxes-6'), time.monotonic() + 60)\n"
+        "request = Request(read('transport', 'boxes-6'), time.monotonic() + 60)\n"
         "print('ready', flush=True)\n"
         "Kairos(('ff',)).solve(request)\n"
     )

@@ -7,9 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from hrcplan.facade import load_problem
-from hrcplan.pddl.check import load_domain
-from hrcplan.pddl.check import load_problem as read_problem
+from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import Problem
 from hrcplan.planners.lanes import schedule
 from hrcplan.plans import Plan, PlannedAction, occupied, parse_plan
@@ -40,7 +38,7 @@ PROBLEM = """
 def chains(tmp_path: Path) -> Problem:
     (tmp_path / "d.pddl").write_text(DOMAIN)
     (tmp_path / "p.pddl").write_text(PROBLEM)
-    return read_problem(load_domain(tmp_path / "d.pddl"), tmp_path / "p.pddl")
+    return read(tmp_path / "d.pddl", tmp_path / "p.pddl")
 
 
 def no_overlap(problem: Problem, plan: Plan) -> None:
@@ -70,7 +68,7 @@ def test_a_chain_cannot_be_shortened(chains: Problem) -> None:
 
 
 def test_a_dearer_agent_is_not_given_the_step() -> None:
-    problem = load_problem("kitchen", "salad-garden").with_values({("motivation", "human"): 7})
+    problem = read("kitchen", "salad-garden").with_values({("motivation", "human"): 7})
     task = Task(problem)
     plan = _greedy(task)
     laid, _ = schedule(problem, plan)
@@ -96,7 +94,7 @@ def _greedy(task: Task) -> Plan:
 
 
 def test_temporal_lanes_keep_gaps(tmp_path: Path) -> None:
-    problem = load_problem("transport", "two-boxes")
+    problem = read("transport", "two-boxes")
     text = """(move human wp1 wp4)\n(grasp human blue wp4)\n(move robot wp0 wp3)
     (grasp robot green wp3)\n(move robot wp3 wp2)\n(place robot green wp2)
     (move human wp4 wp5)\n(place human blue wp5)"""
@@ -109,6 +107,6 @@ def test_temporal_lanes_keep_gaps(tmp_path: Path) -> None:
 
 
 def test_both_agents_of_a_handover_are_busy() -> None:
-    problem = load_problem("transport", "two-boxes")
+    problem = read("transport", "two-boxes")
     action = PlannedAction("take", ("robot", "blue", "human", "wp4"))
     assert occupied(action, problem) == {"human", "robot"}

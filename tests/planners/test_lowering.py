@@ -13,14 +13,13 @@ from pathlib import Path
 import pytest
 
 from hrcplan.errors import PlanFormatError, UnsupportedError
-from hrcplan.facade import load, load_problem
 from hrcplan.pddl import library
-from hrcplan.pddl.check import load_domain
-from hrcplan.pddl.check import load_problem as read_problem
+from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import TOTAL_COST, Arithmetic, Compare, Constant, Function, Problem
 from hrcplan.planners.lowering import Lowered, lower
 from hrcplan.planners.process import ProcessEnd, ProcessLimits, run
 from hrcplan.task import Task
+from hrcplan.task.ground import ground
 from hrcplan.validation import validate
 
 COST = Function(TOTAL_COST)
@@ -69,12 +68,6 @@ CHOICE_PROBLEM = """
 """
 
 
-def read(folder: Path, domain: str, problem: str) -> Problem:
-    (folder / "domain.pddl").write_text(domain)
-    (folder / "problem.pddl").write_text(problem)
-    return read_problem(load_domain(folder / "domain.pddl"), folder / "problem.pddl")
-
-
 def talk(folder: Path, n: int = 3, motivation: str = "7", efforts: str = "1 0.5 0") -> Problem:
     jobs = [f"j{i}" for i in range(n)]
     init = " ".join(
@@ -85,7 +78,7 @@ def talk(folder: Path, n: int = 3, motivation: str = "7", efforts: str = "1 0.5 
     text = TALK_PROBLEM.format(
         n=n, jobs=" ".join(jobs), init=init, goal=goal, motivation=motivation
     )
-    return read(folder, TALK, text)
+    return read(TALK, text)
 
 
 def optimum(task: Task) -> Fraction | float:
@@ -110,7 +103,7 @@ def optimum(task: Task) -> Fraction | float:
 def check_same_walks(task: Task, folder: Path, seed: int = 0) -> Lowered:
     """Walk at random through task and lowered task side by side."""
     lowered = lower(task)
-    other = Task(read(folder, lowered.domain_text, lowered.problem_text))
+    other = Task(read(lowered.domain_text, lowered.problem_text))
     names = re.findall(r"^    \((\S+)\)$", lowered.domain_text, re.MULTILINE)
     facts = dict(zip(task.facts, names, strict=False))
     dice = random.Random(seed)
@@ -137,7 +130,7 @@ def check_same_walks(task: Task, folder: Path, seed: int = 0) -> Lowered:
     [("transport", "handover"), ("kitchen", library.problem_names("kitchen")[0])],
 )
 def test_lowered_walks_are_the_same(domain: str, problem: str, tmp_path: Path) -> None:
-    task = load(domain, problem)
+    task = ground(domain, problem)
     lowered = check_same_walks(task, tmp_path)
     assert lowered.exact_for_metric == (domain == "kitchen")
     assert lowered.costs == task.costs
@@ -152,7 +145,7 @@ def test_values_that_change_become_facts(tmp_path: Path) -> None:
 
 
 def test_conditions_on_the_state_stay(tmp_path: Path) -> None:
-    lowered = check_same_walks(Task(read(tmp_path, CHOICE, CHOICE_PROBLEM)), tmp_path)
+    lowered = check_same_walks(Task(read(CHOICE, CHOICE_PROBLEM)), tmp_path)
     assert lowered.conditional
     assert "(or " in lowered.problem_text
     assert "(when " in lowered.domain_text
@@ -160,7 +153,7 @@ def test_conditions_on_the_state_stay(tmp_path: Path) -> None:
 
 def test_names_are_given_once(tmp_path: Path) -> None:
     """An action, and two predicates, that all become lit--x."""
-    lowered = lower(Task(read(tmp_path, CHOICE, CHOICE_PROBLEM)))
+    lowered = lower(Task(read(CHOICE, CHOICE_PROBLEM)))
     facts = re.findall(r"^    \((\S+)\)$", lowered.domain_text, re.MULTILINE)
     names = [*facts, *lowered.actions]
     assert len(names) == len(set(names))
@@ -171,10 +164,10 @@ def test_names_are_given_once(tmp_path: Path) -> None:
 def test_an_end_that_undoes_an_unsure_start_is_refused(tmp_path: Path) -> None:
     text = CHOICE.replace("(at end (lit ?l))", "(at end (not (odd)))")
     with pytest.raises(UnsupportedError, match="undoes what its start"):
-        lower(Task(read(tmp_path, text, CHOICE_PROBLEM)))
+        lower(Task(read(text, CHOICE_PROBLEM)))
     text = CHOICE.replace("(or (not (busy)) (even))", "(odd)")
     with pytest.raises(UnsupportedError, match="depends on what its start"):
-        lower(Task(read(tmp_path, text, CHOICE_PROBLEM)))
+        lower(Task(read(text, CHOICE_PROBLEM)))
 
 
 def test_fractions_are_scaled_exactly(tmp_path: Path) -> None:
@@ -201,7 +194,7 @@ def test_a_weighted_metric_weighs_the_costs(tmp_path: Path) -> None:
     text = text.replace("(= (total-cost) 0)", "(= (total-cost) 6)")
     text = text.format(n=1, jobs="j0", init="(open j0) (= (effort j0) 4)", goal="(done j0)",
                        motivation="1")  # fmt: skip
-    problem = read(tmp_path, TALK, text)
+    problem = read(TALK, text)
     lowered = lower(Task(problem))
     plan = lowered.plan("(work--human--j0)")
     assert validate(problem, plan).metric == Fraction(5, 3) + 2 + 4 + 7
@@ -210,7 +203,7 @@ def test_a_weighted_metric_weighs_the_costs(tmp_path: Path) -> None:
 
 
 def test_time_is_left_out_and_said_to_be() -> None:
-    problem = load_problem("transport", "two-boxes")
+    problem = read("transport", "two-boxes")
     lowered = lower(Task(problem))
     assert not lowered.exact_for_metric
     assert lowered.objective(24) is None
@@ -234,9 +227,9 @@ def test_what_no_cost_can_say_is_refused(tmp_path: Path) -> None:
 
 
 def test_a_goal_that_never_holds_is_unreachable(tmp_path: Path) -> None:
-    problem = load_problem("transport", "two-boxes")
+    problem = read("transport", "two-boxes")
     lowered = lower(Task(replace(problem, goal=Compare("<", Constant(1), Constant(0)))))
-    other = Task(read(tmp_path, lowered.domain_text, lowered.problem_text))
+    other = Task(read(lowered.domain_text, lowered.problem_text))
     assert not other.is_goal((1 << len(other.facts)) - 1)
 
 
@@ -244,7 +237,7 @@ def test_without_costs_nothing_numeric_is_left(tmp_path: Path) -> None:
     lowered = lower(Task(talk(tmp_path)))
     domain, problem = lowered.without_costs()
     assert "total-cost" not in domain + problem
-    other = Task(read(tmp_path, domain, problem))
+    other = Task(read(domain, problem))
     assert len(other.actions) == len(lowered.actions)
 
 
@@ -318,7 +311,7 @@ AGENT_STATES: dict[str, dict[tuple[str, ...], int | Fraction]] = {
 def test_fast_downward_and_symk_prove_the_same(
     domain: str, name: str, values: dict[tuple[str, ...], int | Fraction], tmp_path: Path
 ) -> None:
-    lowered = lower(Task(load_problem(domain, name).with_values(values)))
+    lowered = lower(Task(read(domain, name).with_values(values)))
     theirs = {
         planner: cheapest(planner, lowered, tmp_path) for planner in ("fast-downward", "symk")
     }

@@ -14,7 +14,7 @@ from hrcplan.errors import (
     UnsupportedError,
     UsageError,
 )
-from hrcplan.facade import load_problem
+from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import Arithmetic, Constant, Function, Problem
 from hrcplan.planners import registry
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
@@ -67,7 +67,7 @@ class Impatient:
 
 @pytest.fixture(scope="module")
 def two_boxes() -> Problem:
-    return load_problem("transport", "two-boxes")
+    return read("transport", "two-boxes")
 
 
 def solved(text: str, **claims: object) -> Answer:

@@ -6,9 +6,7 @@ from pathlib import Path
 import pytest
 
 from hrcplan.errors import MissingPlannerError, PlannerError, UnsupportedError
-from hrcplan.facade import load_problem
-from hrcplan.pddl.check import load_domain
-from hrcplan.pddl.check import load_problem as read_problem
+from hrcplan.pddl.inputs import read
 from hrcplan.planners.contract import Answer, Request, Status
 from hrcplan.planners.fast_downward import FastDownward
 from hrcplan.planners.up import UnifiedPlanning, engines, to_up
@@ -39,7 +37,7 @@ SMALL = """
 def request_(tmp_path: Path) -> Request:
     (tmp_path / "d.pddl").write_text(SMALL_DOMAIN)
     (tmp_path / "p.pddl").write_text(SMALL)
-    problem = read_problem(load_domain(tmp_path / "d.pddl"), tmp_path / "p.pddl")
+    problem = read(tmp_path / "d.pddl", tmp_path / "p.pddl")
     return Request(problem, time.monotonic() + 60)
 
 
@@ -65,7 +63,7 @@ def test_conditions_on_the_state_arrive(tmp_path: Path) -> None:
     (tmp_path / "p.pddl").write_text(
         "(define (problem x) (:domain lamps) (:init) (:goal (or (and (p) (q)) (and (r) (p)))))"
     )
-    problem = read_problem(load_domain(tmp_path / "d.pddl"), tmp_path / "p.pddl")
+    problem = read(tmp_path / "d.pddl", tmp_path / "p.pddl")
     request = Request(problem, time.monotonic() + 60)
     answer = UnifiedPlanning("symk-opt").solve(request)
     assert answer.status is Status.OPTIMAL
@@ -81,7 +79,7 @@ def test_pyperplan_knows_no_costs_and_proves_nothing(request_: Request) -> None:
 
 
 def test_a_temporal_problem_in_its_sequential_reading() -> None:
-    request = Request(load_problem("transport", "two-boxes"), time.monotonic() + 60)
+    request = Request(read("transport", "two-boxes"), time.monotonic() + 60)
     answer = UnifiedPlanning("symk-opt").solve(request)
     assert answer.status is Status.SOLVED
     check(request, answer)
@@ -129,4 +127,4 @@ def test_a_problem_is_handed_over(request_: Request) -> None:
 
 def test_what_unified_planning_cannot_hold_is_said() -> None:
     with pytest.raises(UnsupportedError, match="total-time"):
-        to_up(load_problem("transport", "two-boxes"))
+        to_up(read("transport", "two-boxes"))

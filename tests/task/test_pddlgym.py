@@ -8,7 +8,7 @@ import sys
 import pytest
 
 from hrcplan.episodes.pddlgym_world import environment, named
-from hrcplan.facade import load_problem
+from hrcplan.pddl.inputs import read
 from hrcplan.task import Task
 
 pytestmark = [
@@ -21,7 +21,7 @@ pytestmark = [
 
 @pytest.mark.parametrize("name", ["oatmeal-apple", "smoothie-green", "stew-lentil"])
 def test_random_walk(name: str) -> None:
-    problem = load_problem("kitchen", name)
+    problem = read("kitchen", name)
     world = environment(problem)
     task = Task(problem)
     there, _ = world.reset()

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from hrcplan.core.numbers import Number
-from hrcplan.facade import load_file, load_problem
+from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import FluentKey, Problem
 from hrcplan.task import Task
 from hrcplan.task.regrounding import Grounding, Groundings
@@ -18,7 +18,7 @@ RAISED = {MOTIVATION: 8, ("capacity", "human", "wp4"): 5}
 
 @pytest.fixture(scope="module")
 def coached() -> Problem:
-    return load_problem("transport-coached", "two-boxes")
+    return read("transport-coached", "two-boxes")
 
 
 def same(one: Task, other: Task) -> None:
@@ -81,8 +81,8 @@ def test_other_facts_keep_the_structure(coached: Problem) -> None:
     lambda p: p.with_values({MOTIVATION: 8}),  # from one value to two
     lambda p: replace(p, facts=p.facts - {("path", "wp0", "wp1")}),
     lambda p: replace(p, facts=p.facts | {("reach", "robot", "nowhere")}),
-    lambda p: replace(p, goal=load_problem("transport", "handover").goal),
-    lambda p: load_problem("transport", "two-boxes"),
+    lambda p: replace(p, goal=read("transport", "handover").goal),
+    lambda p: read("transport", "two-boxes"),
     lambda p: replace(p, values={k: v for k, v in p.values.items() if k != MOTIVATION}),
 ])  # fmt: skip
 def test_another_structure_is_not_claimed(coached: Problem, change) -> None:  # type: ignore[no-untyped-def]
@@ -106,7 +106,7 @@ CALM = """(define (problem p) (:domain calm) (:objects a - agent)
 def test_interactions_that_are_no_assignments_are_grounded_anew(tmp_path: Path) -> None:
     (tmp_path / "calm.pddl").write_text(DECREASE)
     (tmp_path / "p.pddl").write_text(CALM)
-    problem = load_file(tmp_path / "p.pddl")
+    problem = read(tmp_path / "p.pddl")
     groundings = Groundings()
     first = groundings.task(problem)
     second = groundings.task(problem.with_values({("anger", "a"): 7}))

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from hrcplan.facade import load_problem
+from hrcplan.pddl.inputs import read
 from hrcplan.pddl.library import domain_names, problem_names
 from hrcplan.pddl.model import Problem
 from hrcplan.task import Task
@@ -32,7 +32,7 @@ def test_every_state_of_a_small_domain(small_problem: Problem, oracle: Any) -> N
 
 @pytest.mark.parametrize(("domain", "name"), SHIPPED, ids=[f"{d}-{n}" for d, n in SHIPPED])
 def test_random_walks_of_shipped_problems(domain: str, name: str, oracle: Any) -> None:
-    problem = load_problem(domain, name)
+    problem = read(domain, name)
     lifted, task = oracle(problem), Task(problem)
     chance = random.Random(name)
     state = lifted.initial
@@ -44,7 +44,7 @@ def test_random_walks_of_shipped_problems(domain: str, name: str, oracle: Any) -
 @pytest.mark.parametrize(("domain", "name"), SHIPPED, ids=[f"{d}-{n}" for d, n in SHIPPED])
 def test_lookup_equals_a_scan_from_any_state(domain: str, name: str) -> None:
     """Also where no plan ever leads: the tables do not lean on what was asked before."""
-    task = Task(load_problem(domain, name))
+    task = Task(read(domain, name))
     chance = random.Random(name)
     for state in [chance.getrandbits(len(task.facts)) for _ in range(20)]:
         scan = [i for i in range(len(task.actions)) if task.is_applicable(state, i)]

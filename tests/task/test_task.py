@@ -11,17 +11,15 @@ from pathlib import Path
 
 import pytest
 
-from hrcplan import load
+from hrcplan import ground
 from hrcplan.errors import LimitError, UnsupportedError
-from hrcplan.facade import load_problem
-from hrcplan.pddl.check import load_domain
-from hrcplan.pddl.check import load_problem as read_problem
+from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import Problem
 from hrcplan.task import Task, reachable
 
 
 def test_names_agents_and_steps() -> None:
-    task = load("transport", "two-boxes")
+    task = ground("transport", "two-boxes")
     move = task.actions[task.find("move", ["human", "wp1", "wp4"])[0]]
     assert (move.agent, move.step, move.duration) == ("human", ("move", "wp1", "wp4"), 50)
     take = task.actions[task.find("take", ["robot", "green", "human", "wp2"])[0]]
@@ -31,7 +29,7 @@ def test_names_agents_and_steps() -> None:
 
 
 def test_actions_stand_in_the_order_of_the_files() -> None:
-    task = load("transport", "two-boxes")
+    task = ground("transport", "two-boxes")
     schemas = [action.name for action in task.problem.domain.actions]
     objects = list(task.problem.all_objects)
     keys = [(schemas.index(a.name), [objects.index(o) for o in a.args]) for a in task.actions]
@@ -40,18 +38,18 @@ def test_actions_stand_in_the_order_of_the_files() -> None:
 
 
 def test_facts_that_never_change_have_no_bit() -> None:
-    task = load("transport", "two-boxes")
+    task = ground("transport", "two-boxes")
     assert {fact[0] for fact in task.facts} == {"at", "box-at", "free", "holding", "idle"}
     assert task.state_of(task.problem.facts) == task.initial
 
 
 def test_agent_free() -> None:
-    assert load("kitchen", "stew-lentil").is_agent_free
-    assert not load("transport", "two-boxes").is_agent_free
+    assert ground("kitchen", "stew-lentil").is_agent_free
+    assert not ground("transport", "two-boxes").is_agent_free
 
 
 def test_prices_follow_the_agent_state_without_grounding_anew() -> None:
-    task = load("transport", "two-boxes")
+    task = ground("transport", "two-boxes")
     changed = task.with_values({("motivation", "human"): 8, ("capacity", "human", "wp4"): 2})
     assert changed.actions is task.actions
     index = task.find("move", ["human", "wp1", "wp4"])[0]
@@ -73,7 +71,7 @@ def test_values_that_shape_actions_ground_anew(small_problem: Problem) -> None:
 
 
 def test_a_task_can_be_sent_to_another_process() -> None:
-    task = load("kitchen", "stew-lentil")
+    task = ground("kitchen", "stew-lentil")
     other: Task = pickle.loads(pickle.dumps(task))
     assert other.applicable(other.initial) == task.applicable(task.initial)
     assert other.costs == task.costs
@@ -81,9 +79,9 @@ def test_a_task_can_be_sent_to_another_process() -> None:
 
 WALK = """
 import random
-from hrcplan import load
+from hrcplan import ground
 for name in ("transport/boxes-4", "kitchen/stew-lentil"):
-    task = load(*name.split("/"))
+    task = ground(*name.split("/"))
     print(task.facts, [str(a) for a in task.actions], task.costs, task.initial, task.goal)
     state, chance = task.initial, random.Random(1)
     for _ in range(40):
@@ -117,7 +115,7 @@ def made(folder: Path, effect: str, goal: str = "(p)", init: str = "", pre: str 
     (folder / "problem.pddl").write_text(f"""
       (define (problem p) (:domain d) (:objects ann - agent)
         (:init (= (total-cost) 0) (= (mood ann) 20) (= (level) 1) {init}) (:goal {goal}))""")
-    return Task(read_problem(load_domain(folder / "domain.pddl"), folder / "problem.pddl"))
+    return Task(read(folder / "domain.pddl", folder / "problem.pddl"))
 
 
 def test_sixteen_values_and_no_more(tmp_path: Path) -> None:
@@ -156,7 +154,7 @@ def test_too_many_alternatives_are_refused(tmp_path: Path) -> None:
     (tmp_path / "problem.pddl").write_text(f"""
       (define (problem p) (:domain d) (:init {" ".join(f"(q{i})" for i in range(9))})
         (:goal (r0)))""")
-    problem = read_problem(load_domain(tmp_path / "domain.pddl"), tmp_path / "problem.pddl")
+    problem = read(tmp_path / "domain.pddl", tmp_path / "problem.pddl")
     with pytest.raises(UnsupportedError, match="more than 256 alternatives"):
         Task(problem)
 
@@ -164,7 +162,7 @@ def test_too_many_alternatives_are_refused(tmp_path: Path) -> None:
 def test_too_many_ground_actions_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(reachable, "MAX_GROUND_ACTIONS", 100)
     with pytest.raises(LimitError, match="more than 100 ground actions"):
-        Task(load_problem("transport", "two-boxes"))
+        Task(read("transport", "two-boxes"))
 
 
 def test_a_goal_that_no_state_meets(tmp_path: Path) -> None:
@@ -174,7 +172,7 @@ def test_a_goal_that_no_state_meets(tmp_path: Path) -> None:
 
 
 def test_start_and_finish_are_the_two_halves_of_an_action() -> None:
-    task = load("transport", "two-boxes")
+    task = ground("transport", "two-boxes")
     for index in task.applicable(task.initial):
         halfway = task.start(task.initial, index)
         action = task.actions[index]

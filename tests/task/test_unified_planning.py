@@ -14,9 +14,7 @@ from typing import Any
 
 import pytest
 
-from hrcplan.facade import load_problem
-from hrcplan.pddl.check import load_domain
-from hrcplan.pddl.check import load_problem as read_problem
+from hrcplan.pddl.inputs import read
 from hrcplan.pddl.library import root
 from hrcplan.plans import format_plan, parse_plan
 from hrcplan.task import Task
@@ -85,7 +83,7 @@ def test_random_walk(name: str, domain: str, problem: str, reader: Any, tmp_path
     simulator = UPSequentialSimulator(theirs, error_on_failed_checks=False)
     (tmp_path / "domain.pddl").write_text(domain)
     (tmp_path / "problem.pddl").write_text(problem)
-    task = Task(read_problem(load_domain(tmp_path / "domain.pddl"), tmp_path / "problem.pddl"))
+    task = Task(read(tmp_path / "domain.pddl", tmp_path / "problem.pddl"))
     metric = theirs.quality_metrics[0] if theirs.quality_metrics else None
     state, here = simulator.get_initial_state(), task.initial
     paid: Any = 0
@@ -150,7 +148,7 @@ def test_validators_agree(name: str, reader: Any) -> None:
     theirs = reader.parse_problem_string(text("domains", f"{folder}.pddl"), problem)
     theirs.epsilon = Fraction(1, 1000)
     validator = TimeTriggeredPlanValidator() if ":" in lines[0] else SequentialPlanValidator()
-    mine = load_problem(folder, name)
+    mine = read(folder, name)
     for changed in changes(lines):
         plan = parse_plan("\n".join(changed))
         report = validate(mine, plan)

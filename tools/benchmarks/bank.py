@@ -17,8 +17,8 @@ from rows import Row, interleaved, milliseconds, worked
 
 from hrcplan.bank import Bank, build, build_bank, from_problems
 from hrcplan.bank.enumerated import step_task
-from hrcplan.facade import load_problem
 from hrcplan.pddl.generate import with_goal
+from hrcplan.pddl.inputs import read
 from hrcplan.planners import kstar
 from hrcplan.planners.lowering import Lowered, lower
 from hrcplan.planners.process import ProcessLimits, run
@@ -110,7 +110,7 @@ def _listing(n_steps: int, goal: str) -> Iterator[Row]:
 
 
 def _bank(goal: str) -> Bank:
-    return build(from_problems([with_goal(load_problem("kitchen", RECIPE), goal, "part")]))
+    return build(from_problems([with_goal(read("kitchen", RECIPE), goal, "part")]))
 
 
 def _ours(bank: Bank) -> None:

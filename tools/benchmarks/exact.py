@@ -7,7 +7,7 @@ from functools import partial
 
 from rows import Row, milliseconds, worked
 
-from hrcplan.facade import load_problem
+from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import Problem
 from hrcplan.planners.solve import Result, solve
 
@@ -16,7 +16,7 @@ def rows() -> Iterator[Row]:
     """Yield the time to a checked proof, loading not counted."""
     for name, most in (("two-boxes", 2), ("handover", 2), ("boxes-3", 2), ("boxes-4", 10)):
         found: list[Result] = []
-        seconds = worked(partial(_prove, load_problem("transport", name), found))
+        seconds = worked(partial(_prove, read("transport", name), found))
         goal = f"proven within {most} s"
         proven = found[0].status.value == "solved-optimally"
         yield Row(

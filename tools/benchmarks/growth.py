@@ -7,15 +7,11 @@ from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
 from math import log
-from pathlib import Path
-from tempfile import TemporaryDirectory
 
 from rows import Row, milliseconds, worked
 
-from hrcplan.facade import load_problem
-from hrcplan.pddl.check import load_domain
-from hrcplan.pddl.check import load_problem as read_problem
-from hrcplan.pddl.model import TRUE, Domain, Problem
+from hrcplan.pddl.inputs import read
+from hrcplan.pddl.model import TRUE, Problem
 from hrcplan.plans import Plan, PlannedAction
 from hrcplan.task import Task
 from hrcplan.validation import validate
@@ -69,14 +65,9 @@ def _ground(problem: Problem, made: list[Task]) -> None:
 
 
 def _deliveries() -> Iterator[Problem]:
-    with TemporaryDirectory() as folder:
-        domain, file = Path(folder, "domain.pddl"), Path(folder, "problem.pddl")
-        domain.write_text(DOMAIN)
-        read: Domain = load_domain(domain)
-        for size in SIZES:
-            file.write_text(_delivery(*size))
-            name = "largest" if size == SIZES[-1] else "delivery"
-            yield replace(read_problem(read, file), name=name)
+    for size in SIZES:
+        name = "largest" if size == SIZES[-1] else "delivery"
+        yield replace(read(DOMAIN, _delivery(*size)), name=name)
 
 
 def _delivery(n_cities: int, n_places: int, n_packages: int) -> str:
@@ -96,7 +87,7 @@ def _delivery(n_cities: int, n_places: int, n_packages: int) -> str:
 
 def _plans() -> Iterator[Row]:
     """Validation of random walks; their goal is met by anything."""
-    problem = replace(load_problem("transport", "boxes-4"), goal=TRUE)
+    problem = replace(read("transport", "boxes-4"), goal=TRUE)
     task = Task(problem)
     last: tuple[int, float] | None = None
     for length in LENGTHS:

@@ -14,7 +14,7 @@ from typing import Any
 
 from rows import Row, interleaved, milliseconds, worked
 
-from hrcplan.facade import load_problem
+from hrcplan.pddl.inputs import read
 from hrcplan.planners import registry
 from hrcplan.planners.solve import solve
 
@@ -32,7 +32,7 @@ def rows() -> Iterator[Row]:
     for planner, module, domain, name, any_plan in CASES:
         if planner not in registry.names():
             continue
-        ask = partial(solve, load_problem(domain, name), planner, any_plan=any_plan)
+        ask = partial(solve, read(domain, name), planner, any_plan=any_plan)
         with TemporaryDirectory() as folder:
             calls = _calls(module, Path(folder), ask)
             runs = {"ours": partial(worked, ask), "raw": partial(worked, partial(_run, calls))}
@@ -79,7 +79,7 @@ def _kairos() -> Iterator[Row]:
         finally:
             spent[0] += time.process_time() - start
 
-    problem, found = load_problem("transport", "two-boxes"), list[tuple[float, float]]()
+    problem, found = read("transport", "two-boxes"), list[tuple[float, float]]()
     _Portfolio._search = measured  # type: ignore[method-assign]
     try:
         for _ in range(N_ROUNDS):

@@ -7,7 +7,7 @@ from statistics import median
 
 from rows import Row, milliseconds, worked
 
-from hrcplan import load
+from hrcplan import ground
 from hrcplan.planners.contract import Status
 from hrcplan.planners.exact import ExactPlanner
 
@@ -16,7 +16,7 @@ MOST_S = 0.02
 
 def rows() -> Iterator[Row]:
     """Yield the median over motivations 0 to 10 of both agents, and the first call."""
-    task, planner = load("transport", "two-boxes"), ExactPlanner()
+    task, planner = ground("transport", "two-boxes"), ExactPlanner()
     first = worked(lambda: planner.replan(task))
     found: list[float] = []
     for value in range(11):

@@ -14,10 +14,8 @@ from typing import Any
 from rows import Row, interleaved
 
 from hrcplan.episodes.pddlgym_world import environment
-from hrcplan.facade import load_problem
-from hrcplan.pddl.check import load_domain
-from hrcplan.pddl.check import load_problem as read_problem
 from hrcplan.pddl.classical import classical, classical_texts
+from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import Problem
 from hrcplan.task import Task
 
@@ -52,7 +50,7 @@ def rows() -> Iterator[Row]:
         ("transport", "boxes-6"),
         ("kitchen", "stew-lentil"),
     ):
-        problem = load_problem(domain, name)
+        problem = read(domain, name)
         rate = max(interleaved({"ours": partial(_walk, Task(problem))}, 3 * N_ROUNDS, max).values())
         goal = f">= {RATE:,} steps/s"
         yield Row(f"{domain}/{name}", f"{rate:,.0f} steps/s", "", goal, rate < RATE)
@@ -62,13 +60,13 @@ def rows() -> Iterator[Row]:
 
 def _classical() -> Iterator[tuple[str, Problem]]:
     """Yield tasks that all three can hold: at one instant, without costs."""
-    yield "kitchen/stew-lentil", load_problem("kitchen", "stew-lentil")
-    yield "transport/two-boxes, at one instant", load_problem("transport", "two-boxes")
+    yield "kitchen/stew-lentil", read("kitchen", "stew-lentil")
+    yield "transport/two-boxes, at one instant", read("transport", "two-boxes")
     with TemporaryDirectory() as folder:
         domain, problem = Path(folder, "domain.pddl"), Path(folder, "problem.pddl")
         domain.write_text(BLOCKS)
         problem.write_text(TOWERS)
-        yield "blocks, 8 blocks", read_problem(load_domain(domain), problem)
+        yield "blocks, 8 blocks", read(domain, problem)
 
 
 def _compare(title: str, problem: Problem) -> Iterator[Row]:

@@ -14,7 +14,7 @@ from rows import Row, interleaved, milliseconds, timed
 
 N_ROUNDS = 9
 MOST = {
-    "load('transport', 'two-boxes')": 12,  # less than 0.2 s on an idle machine
+    "ground('transport', 'two-boxes')": 12,  # less than 0.2 s on an idle machine
     "hrcplan --help": 15,
     "hrcplan plan transport/two-boxes": 75,
 }
@@ -24,10 +24,10 @@ def rows() -> Iterator[Row]:
     """Yield the medians of the commands and their ratios to ``python -c pass``."""
     script = Path(sys.executable).with_name("hrcplan")
     hrcplan = [str(script)] if script.exists() else [sys.executable, "-m", "hrcplan"]
-    load = "from hrcplan import load; load('transport', 'two-boxes')"
+    load = "from hrcplan import ground; ground('transport', 'two-boxes')"
     commands = {
         "python -c pass": [sys.executable, "-c", "pass"],
-        "load('transport', 'two-boxes')": [sys.executable, "-c", load],
+        "ground('transport', 'two-boxes')": [sys.executable, "-c", load],
         "hrcplan --help": [*hrcplan, "--help"],
         "hrcplan plan transport/two-boxes": [*hrcplan, "plan", "transport/two-boxes"],
     }

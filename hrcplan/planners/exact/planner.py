@@ -60,8 +60,8 @@ class ExactPlanner:
     It keeps what does not depend on costs of the last structures it saw: hold on to one object and
     give it ``task.with_values(...)`` to replan in milliseconds.
 
-    >>> from hrcplan import load
-    >>> task, planner = load("transport", "two-boxes"), ExactPlanner()
+    >>> from hrcplan import ground
+    >>> task, planner = ground("transport", "two-boxes"), ExactPlanner()
     >>> len(planner.replan(task).plan.actions)
     8
     >>> tired = task.with_values({("motivation", "human"): 10})

@@ -11,7 +11,7 @@ from typing import Any
 
 from hrcplan.errors import UsageError
 from hrcplan.execution import Spec
-from hrcplan.facade import load_problem
+from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import FluentKey
 from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.studies.study import Cell, StudyOptions
@@ -53,7 +53,7 @@ def inputs(options: StudyOptions) -> str:
         for method in methods("methods", options).values()
     ]
     names = sorted({(task["domain"], task["problem"]) for task in tasks})
-    problems = [load_problem(*name) for name in names]
+    problems = [read(*name) for name in names]
     return "".join([*own, *(domain_text(p.domain) + problem_text(p) for p in problems)])
 
 
