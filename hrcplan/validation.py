@@ -135,8 +135,6 @@ def _replay(problem: Problem, plan: Plan) -> Report:
         missing = unmet(problem.goal, replay.state, {}, problem)
     except _BrokenError as broken:
         return replay.report(reason=str(broken), failed_step=broken.step)
-    except Undefined as error:
-        return replay.report(reason=f"the goal needs a number that is missing: {error}")
     if missing is not None:
         return replay.report(reason=f"the goal {missing} does not hold at the end")
     return replay.report()
@@ -306,12 +304,8 @@ def _demand(problem: Problem, event: _Event, when: str, state: LiftedState) -> N
     for condition in event.action.conditions:
         if condition.when != when:
             continue
-        try:
-            missing = unmet(
-                condition.formula, LiftedState(state.facts, values), event.binding, problem
-            )
-        except Undefined as error:
-            raise _BrokenError(event.step, str(error)) from None
+        now = LiftedState(state.facts, values)
+        missing = unmet(condition.formula, now, event.binding, problem)
         if missing is not None:
             reason = f"{_shown(event)} needs {missing}{_where(event, when)}"
             raise _BrokenError(event.step, reason)

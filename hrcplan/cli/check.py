@@ -14,8 +14,9 @@ if TYPE_CHECKING:
 
 @click.command("check")
 @click.argument("files", nargs=-1, required=True, metavar="FILE...")
+@click.option("--strict", is_flag=True, help="Exit 3 for warnings too, gaps in values aside.")
 @output.common_options
-def command(files: tuple[str, ...]) -> int:
+def command(files: tuple[str, ...], strict: bool) -> int:
     """Report every fault of domain and problem FILEs; exit 3 if any is an error."""
     from hrcplan.pddl.check import check
 
@@ -26,7 +27,7 @@ def command(files: tuple[str, ...]) -> int:
         for line in report.lines():
             output.result(line)
         output.result(_summary(report))
-    return 3 if report.has_errors else 0
+    return 3 if report.has_errors or (strict and report.is_sloppy) else 0
 
 
 def _summary(report: CheckReport) -> str:

@@ -36,7 +36,8 @@ def number_text(value: Number) -> str:
     """
     if isinstance(value, int) or value.denominator == 1:
         return str(int(value))
-    return f"{float(value):.12f}".rstrip("0").rstrip(".")
+    whole, decimals = divmod(round(abs(value) * 10**12), 10**12)
+    return f"{'-' if value < 0 else ''}{whole}.{decimals:012}".rstrip("0").rstrip(".")
 
 
 def to_number(word: str) -> Number | None:

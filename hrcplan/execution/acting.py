@@ -138,10 +138,7 @@ class ActionModel:
         return None
 
     def _unmet(self, formula: Formula, state: LiftedState, step: BoundAction) -> str | None:
-        try:
-            return unmet(formula, state, step.binding, self.problem)
-        except Undefined as error:
-            return str(error)
+        return unmet(formula, state, step.binding, self.problem)
 
     def influence(self, step: BoundAction, values: Values) -> dict[FluentKey, Number]:
         """Return the agent-state values after an interaction that has its effect."""

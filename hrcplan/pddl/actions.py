@@ -21,9 +21,16 @@ _CLASSICAL = (":parameters", ":precondition", ":effect")
 _DURATIVE = (":parameters", ":duration", ":condition", ":effect")
 
 
+_OTHER_PARTS = {
+    ":vars": ("PDDL 1.2", "add the variables to :parameters"),
+    ":observe": ("contingent planning", None),
+    ":agent": ("MA-PDDL", "make the agent the first of the :parameters"),
+}
+
+
 def read_actions(root: GroupNode, scope: Scope) -> Iterator[tuple[GroupNode, Action]]:
     """Yield the actions of a domain with their trees; of two with one name the first."""
-    seen: set[str] = set()
+    seen: dict[str, Action] = {}
     for node in root[2:]:
         if not isinstance(node, GroupNode) or node.head not in ACTIONS:
             continue
@@ -32,9 +39,13 @@ def read_actions(root: GroupNode, scope: Scope) -> Iterator[tuple[GroupNode, Act
             continue
         if action.name in seen:
             message = f"action {quote(action.name)} is declared twice"
-            scope.source.error(node[1].at, "duplicate-action", message)
+            if seen[action.name] == action:
+                scope.source.warn(node[1].at, "duplicate-action", message)
+            else:
+                hint = "the two differ: give one of them another name"
+                scope.source.error(node[1].at, "duplicate-action", message, hint)
         else:
-            seen.add(action.name)
+            seen[action.name] = action
             yield node, action
 
 
@@ -72,8 +83,14 @@ def _parts(node: GroupNode, source: SourceText, durative: bool) -> dict[str, Par
     known = _DURATIVE if durative else _CLASSICAL
     found: dict[str, ParseNode] = {}
     rest = deque(node[2:])
+    last = ""
     while rest:
         key = rest.popleft()
+        if isinstance(key, GroupNode) and last in found:
+            _report_second(key, last, source)
+            while rest and isinstance(rest[0], GroupNode):
+                rest.popleft()
+            continue
         if isinstance(key, GroupNode) or not (key[0] == ":" or nearest_name(key, known, _CLOSE)):
             source.error(key.at, "stray-word", "a keyword such as :effect is expected here")
             continue
@@ -86,7 +103,15 @@ def _parts(node: GroupNode, source: SourceText, durative: bool) -> dict[str, Par
             source.error(key.at, "repeated-section", f"a second {name} in one action")
         elif name is not None:
             found[name] = value
+            last = name
     return found
+
+
+def _report_second(node: GroupNode, part: str, source: SourceText) -> None:
+    """Report a group that follows the one which a keyword takes."""
+    kind = "effect" if part == ":effect" else "condition"
+    hint = None if part in (":parameters", ":duration") else f"put the {kind}s in one (and …)"
+    source.error(node.at, "stray-word", f"{part} takes one group, and a second one follows", hint)
 
 
 def _known_part(key: WordNode, known: tuple[str, ...], source: SourceText) -> str | None:
@@ -98,6 +123,10 @@ def _known_part(key: WordNode, known: tuple[str, ...], source: SourceText) -> st
         right = ":action" if known is _DURATIVE else ":durative-action"
         source.error(key.at, "unknown-section", message, f"that belongs into a {right}")
         return None
+    if key in _OTHER_PARTS:
+        name, hint = _OTHER_PARTS[key]
+        source.error(key.at, "unsupported", f"{key} ({name}) is not supported", hint)
+        return None
     source.error(key.at, "unknown-section", message, nearest(key, known))
     return nearest_name(key, known, _CLOSE)
 
@@ -106,7 +135,7 @@ def _durations(
     node: ParseNode | None, scope: Scope, action: GroupNode
 ) -> Iterator[tuple[str, Expr]]:
     constraints = node[1:] if isinstance(node, GroupNode) and node.head == "and" else [node]
-    if node is None or not constraints:
+    if node is None or (isinstance(node, GroupNode) and node.head == "and" and not constraints):
         at = action.at if node is None else node.at
         scope.source.error(at, "no-duration", "a durative action needs a :duration")
         return
@@ -114,13 +143,24 @@ def _durations(
         assert part is not None
         inner = part[2] if _is_timed(part) and isinstance(part, GroupNode) else part
         if not _is_constraint(inner) or not isinstance(inner, GroupNode):
-            scope.source.error(part.at, "bad-duration", "(= ?duration …) is expected here")
+            message, hint = "a duration is compared by =, <= or >=", _duration_cure(inner)
+            scope.source.error(part.at, "bad-duration", message, hint)
             continue
         if inner.head != "=":
             scope.source.use(":duration-inequalities", inner.at)
         value = read_expression(inner[2], scope)
         _check_constant(inner, value, scope.source)
         yield str(inner.head), value
+
+
+def _duration_cure(node: ParseNode) -> str:
+    if isinstance(node, WordNode):
+        return f"write (= ?duration {node})"
+    if not node:
+        return "for any duration write (>= ?duration 0)"
+    if node.head in ("=", "<=", ">=", "<", ">") and len(node) == 3 and node[2] == DURATION:
+        return "?duration stands first: (= ?duration …), (<= ?duration …) or (>= ?duration …)"
+    return "write (= ?duration …), (<= ?duration …) or (>= ?duration …)"
 
 
 def _is_timed(node: ParseNode) -> bool:

@@ -19,6 +19,7 @@ from hrcplan.pddl.problem import named_domain, read_problem
 from hrcplan.pddl.reader import GroupNode, read
 from hrcplan.pddl.source import SourceText, in_order, read_source
 
+ADVICE = "unset-function"  # the one warning about what PDDL allows
 _PROBLEM_SECTIONS = frozenset([":domain", ":objects", ":init", ":goal", ":metric"])
 
 
@@ -45,6 +46,11 @@ class CheckReport:
     def has_errors(self) -> bool:
         """Whether any of the faults is an error, not only a warning."""
         return any(d.severity == "error" for d in self.diagnostics)
+
+    @property
+    def is_sloppy(self) -> bool:
+        """Whether any of the faults is more than a hint at values that may be forgotten."""
+        return any(d.code != ADVICE for d in self.diagnostics)
 
     def to_json(self) -> dict[str, object]:
         """Return the document that ``hrcplan check --json`` prints."""

@@ -9,13 +9,14 @@ from hrcplan.core.text import nearest, nearest_name, quote
 from hrcplan.pddl import conventions
 from hrcplan.pddl.actions import read_actions
 from hrcplan.pddl.annotations import read_notes
+from hrcplan.pddl.formulas import OBJECT_FLUENTS
 from hrcplan.pddl.model import OBJECT, Domain, Signature
 from hrcplan.pddl.parentheses import ACTIONS
 from hrcplan.pddl.reader import GroupNode, ParseNode, WordNode
 from hrcplan.pddl.requirements import check_requirements, read_requirements
 from hrcplan.pddl.scope import Scope
 from hrcplan.pddl.source import SECTION_SIMILARITY, SourceText
-from hrcplan.pddl.typed_lists import Entry, params_of, read_typed
+from hrcplan.pddl.typed_lists import Entry, params_of, read_typed, report_types
 
 _UNSUPPORTED = {
     ":derived": "derived predicates",
@@ -49,6 +50,7 @@ def read_domain(root: GroupNode, source: SourceText) -> Domain:
         actions=tuple(action for _, action in actions),
         notes=read_notes(source, names, base.functions),
     )
+    report_types(source, types, ":types" in sections)
     check_requirements(domain.requirements, source)
     conventions.check_domain(domain, actions, source)
     return domain
@@ -116,9 +118,15 @@ def read_objects(
     found: dict[str, str] = {}
     for name, kinds in read_typed(section[1:] if section else (), source, types):
         if len(kinds) > 1:
-            source.error(name.at, "unsupported", "an object needs one type, not (either …)")
-        if name in found or known.get(name, kinds[0]) != kinds[0]:
-            source.error(name.at, "duplicate-object", f"object {quote(name)} is declared twice")
+            hint = "declare a type below all of these, and give the object that type"
+            source.error(name.at, "unsupported", "an object needs one type, not (either …)", hint)
+        before = found.get(str(name), known.get(str(name)))
+        if before not in (None, kinds[0]):
+            message = f"object {quote(name)} is declared twice, as {before} and as {kinds[0]}"
+            hint = "declare a type below both, and give the object that type"
+            source.error(name.at, "duplicate-object", message, hint)
+        elif name in found:
+            source.warn(name.at, "duplicate-object", f"object {quote(name)} is declared twice")
         elif name.startswith("?"):
             source.error(name.at, "not-a-name", f"an object's name cannot be {quote(name)}")
         else:
@@ -127,21 +135,31 @@ def read_objects(
 
 
 def _types(section: GroupNode | None, source: SourceText) -> dict[str, tuple[str, ...]]:
-    nodes = section[1:] if section else []
+    """Return the types with those directly above them.
+
+    A type that is listed twice is below both; one that is only named as above others is declared
+    by that. Both are warnings.
+    """
     found: dict[str, tuple[str, ...]] = {}
-    entries = list(read_typed(nodes, source, _declared(nodes)))
+    entries = list(read_typed(section[1:] if section else [], source))
     for name, parents in entries:
+        if name == OBJECT:
+            continue
         if name in found:
-            source.error(name.at, "duplicate-type", f"type {quote(name)} is declared twice")
-        elif name != OBJECT:
-            found[str(name)] = parents
+            hint = f"write '{name} - (either {' '.join({*found[name], *parents})})'"
+            message = f"type {quote(name)} is declared twice"
+            source.warn(name.at, "duplicate-type", message, hint)
+        both = [*found.get(str(name), ()), *parents]
+        found[str(name)] = tuple(dict.fromkeys(p for p in both if p != OBJECT)) or (OBJECT,)
+    for name, parents in entries:
+        for parent in parents:
+            if parent != OBJECT and parent not in found:
+                found[parent] = (OBJECT,)
+                message = f"type {quote(parent)} is only named as a supertype"
+                hint = f"add '{parent} - object' to (:types …)"
+                source.warn(name.at, "undeclared-supertype", message, hint)
     _report_cycles(found, entries, source)
     return found
-
-
-def _declared(nodes: Sequence[ParseNode]) -> set[str]:
-    """Return the names that a typed list declares, without reporting its faults twice."""
-    return {str(name) for name, _ in read_typed(nodes, SourceText("", ""))}
 
 
 def _report_cycles(
@@ -164,7 +182,8 @@ def _report_cycles(
                 ready.append(child)
     for name, _ in entries:
         if name in types and name not in settled and _is_own_ancestor(name, types):
-            source.error(name.at, "cyclic-types", f"type {quote(name)} is below itself")
+            message = f"type {quote(name)} is below itself"
+            source.error(name.at, "cyclic-types", message, f"write '{name} - object' apart")
 
 
 def _is_own_ancestor(name: str, types: dict[str, tuple[str, ...]]) -> bool:
@@ -185,14 +204,20 @@ def _signatures(
 ) -> dict[str, Signature]:
     found: dict[str, Signature] = {}
     for node in _without_result_types(section, source):
+        if isinstance(node, GroupNode) and node.head == ":private":
+            hint = "declare its predicates beside the others: hrcplan has no private facts"
+            source.error(node.at, "unsupported", "(:private …) of MA-PDDL is not supported", hint)
+            continue
         if not isinstance(node, GroupNode) or not node.head:
             source.error(node.at, f"bad-{kind}", f"a {kind} such as (name ?x - type) is expected")
             continue
         name = node[0]
         assert isinstance(name, WordNode)
-        params = params_of(node[1:], source, types)
+        params = params_of(node[1:], source, types, declaration=True)
         if name in found:
-            source.error(name.at, f"duplicate-{kind}", f"{kind} {quote(name)} is declared twice")
+            same = [p.types for p in params] == [p.types for p in found[name].params]
+            report = source.warn if same else source.error
+            report(name.at, f"duplicate-{kind}", f"{kind} {quote(name)} is declared twice")
         else:
             found[str(name)] = Signature(str(name), params)
     return found
@@ -205,4 +230,4 @@ def _without_result_types(section: GroupNode | None, source: SourceText) -> Iter
         if node != "-":
             yield node
         elif next(nodes, None) != "number":
-            source.error(node.at, "unsupported", "functions have numbers as values")
+            source.error(node.at, "unsupported", "functions have numbers as values", OBJECT_FLUENTS)

@@ -22,6 +22,7 @@ from hrcplan.pddl.scope import Scope
 from hrcplan.pddl.typed_lists import read_params
 
 ASSIGNMENTS = frozenset(["assign", "increase", "decrease", "scale-up", "scale-down"])
+_LOGIC = frozenset(["and", "forall", "when"])
 _NO_EFFECTS = COMPARISONS | {"or", "imply", "exists", "not", "over"}
 
 
@@ -72,8 +73,8 @@ def _for_all(node: GroupNode, scope: Scope, when: str | None) -> Iterator[Effect
     if not has_parts(node, 2, scope):
         return
     scope.source.use(":conditional-effects", node.at)
-    params = read_params(node[1], scope)
-    for effect in read_effects(node[2], scope.binding(params), when):
+    params, inside = scope.quantifying(read_params(node[1], scope), node.at)
+    for effect in read_effects(node[2], inside, when):
         yield replace(effect, params=params + effect.params)
 
 
@@ -100,14 +101,33 @@ def _literal(node: GroupNode, scope: Scope, when: str) -> Iterator[Effect]:
     inner: ParseNode = node
     if node.head == "not" and len(node) == 2:
         inner = node[1]
-    if not isinstance(inner, GroupNode) or not inner.head or inner.head in _NO_EFFECTS:
-        word = f"{quote(inner.head)} cannot be an effect" if isinstance(inner, GroupNode) else ""
-        message = word or "'not' takes one predicate in an effect"
-        scope.source.error(inner.at, "not-an-effect", message)
+    if not isinstance(inner, GroupNode) or not inner.head or _is_no_effect(inner, scope):
+        message = "'not' takes one predicate in an effect"
+        if isinstance(inner, GroupNode):
+            message = f"{quote(inner.head)} cannot be an effect"
+        scope.source.error(inner.at, "not-an-effect", message, _cure(node, inner))
         return
     atom = read_atom(inner, scope)
     if atom is not None:
         yield Effect(when, "add" if inner is node else "delete", atom)
+
+
+def _is_no_effect(node: GroupNode, scope: Scope) -> bool:
+    return node.head in _NO_EFFECTS | _LOGIC and node.head not in scope.domain.predicates
+
+
+def _cure(node: GroupNode, inner: ParseNode) -> str | None:
+    """Return how to write what was meant, where that is plain."""
+    head = inner.head if isinstance(inner, GroupNode) else ""
+    if inner is not node and head in _LOGIC:
+        return "'not' of an effect takes one fact: write (and (not (p)) (not (q)))"
+    if head == "=":
+        return "write (assign (f) VALUE) to set a function"
+    if head == "imply":
+        return "write (when CONDITION EFFECT)"
+    if not isinstance(inner, GroupNode):
+        return f"write (not ({inner}))"
+    return None
 
 
 def _assignment(node: GroupNode, scope: Scope, when: str) -> Iterator[Effect]:

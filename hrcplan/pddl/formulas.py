@@ -24,7 +24,7 @@ from hrcplan.pddl.model import (
     Quantified,
 )
 from hrcplan.pddl.reader import GroupNode, ParseNode, WordNode
-from hrcplan.pddl.scope import Scope, looks_numeric
+from hrcplan.pddl.scope import FOREIGN, Scope, decimal_cure, looks_numeric
 from hrcplan.pddl.typed_lists import read_params
 
 COMPARISONS = frozenset(["<", "<=", "=", ">=", ">"])
@@ -44,6 +44,9 @@ UNSUPPORTED = {
     "hold-during": "trajectory constraints",
     "hold-after": "trajectory constraints",
 }
+OBJECT_FLUENTS = (
+    "functions with objects as values are not supported: use a predicate such as (f-is ?x ?value)"
+)
 _TIMES = {("at", "start"): "start", ("at", "end"): "end", ("over", "all"): "all"}
 
 
@@ -75,7 +78,9 @@ def read_atom(node: GroupNode, scope: Scope) -> Atom | None:
     """Return a predicate with its arguments, or None if anything about it is wrong."""
     if is_unsupported(node, scope):
         return None
-    if time_of(node) is not None:
+    if is_foreign(node, scope):
+        return None
+    if _is_timed(node):
         message = "only a durative action says 'at start', 'over all' or 'at end', and only once"
         scope.source.error(node.at, "unexpected-time", message)
         return None
@@ -87,6 +92,20 @@ def read_atom(node: GroupNode, scope: Scope) -> Atom | None:
         return None
     args = scope.arguments(node, signature)
     return None if args is None else Atom(str(head), args)
+
+
+def is_foreign(node: GroupNode, scope: Scope) -> bool:
+    """Report an operator of another language, with what PDDL writes instead."""
+    cure = FOREIGN.get(str(node.head))
+    if cure is None or node.head in scope.domain.predicates:
+        return False
+    scope.source.error(node[0].at, "foreign-operator", f"PDDL has no {quote(node.head)}", cure)
+    return True
+
+
+def _is_timed(node: GroupNode) -> bool:
+    """Whether a group says when a condition holds; ``(at start bob)`` is a predicate."""
+    return time_of(node) is not None and isinstance(node[2], GroupNode)
 
 
 def is_unsupported(node: GroupNode, scope: Scope) -> bool:
@@ -106,8 +125,8 @@ def read_conditions(node: ParseNode, scope: Scope, durative: bool) -> Iterator[C
             yield from read_conditions(part, scope, durative)
     elif isinstance(node, GroupNode) and node.head == "forall" and len(node) == 3:
         scope.source.use(":universal-preconditions", node.at)
-        params = read_params(node[1], scope)
-        for inner in read_conditions(node[2], scope.binding(params), durative):
+        params, inside = scope.quantifying(read_params(node[1], scope), node.at)
+        for inner in read_conditions(node[2], inside, durative):
             yield Condition(inner.when, Quantified(True, params, inner.formula))
     elif (timed := time_of(node)) is not None:
         yield Condition(timed[0], read_formula(timed[1], scope))
@@ -167,7 +186,8 @@ def _arithmetic(node: GroupNode, scope: Scope) -> Expr:
     parts = tuple(read_expression(part, scope) for part in node[1:])
     if not parts:
         scope.source.error(node.at, "wrong-arity", f"{quote(node.head)} needs operands")
-    elif node.head == "/" and any(isinstance(n, WordNode) and to_number(n) == 0 for n in node[2:]):
+        return Constant(0)
+    if node.head == "/" and any(isinstance(n, WordNode) and to_number(n) == 0 for n in node[2:]):
         scope.source.error(node.at, "bad-number", "division by zero")
     return Arithmetic(str(node.head), parts)
 
@@ -190,11 +210,13 @@ def _number_or_name(word: WordNode, scope: Scope) -> Expr:
     if word == "#t":
         scope.source.error(word.at, "unsupported", "continuous effects (#t) are not supported")
     elif looks_numeric(word):
-        scope.source.error(word.at, "bad-number", f"{quote(word)} is not a number")
+        message = f"{quote(word)} is not a number"
+        scope.source.error(word.at, "bad-number", message, decimal_cure(word))
     elif word == DURATION:
         scope.source.error(word.at, "unbound", "only a durative action has a ?duration")
     elif word.startswith("?") or word in scope.objects:
-        scope.source.error(word.at, "not-a-number", f"{quote(word)} is an object, not a number")
+        message = f"{quote(word)} is an object, not a number"
+        scope.source.error(word.at, "not-a-number", message, OBJECT_FLUENTS)
     else:
         return read_function(word, scope) or Constant(0)
     return Constant(0)
@@ -222,8 +244,8 @@ def _quantified(node: GroupNode, scope: Scope) -> Formula:
     universal = node.head == "forall"
     kind = "universal" if universal else "existential"
     scope.source.use(f":{kind}-preconditions", node.at)
-    params = read_params(node[1], scope)
-    return Quantified(universal, params, read_formula(node[2], scope.binding(params)))
+    params, inside = scope.quantifying(read_params(node[1], scope), node.at)
+    return Quantified(universal, params, read_formula(node[2], inside))
 
 
 def _comparison(node: GroupNode, scope: Scope) -> Formula:
@@ -235,7 +257,7 @@ def _comparison(node: GroupNode, scope: Scope) -> Formula:
         for term in (left, right):
             assert isinstance(term, WordNode)
             scope.types_of(term)
-        return Equal(str(left), str(right))
+        return Equal(scope.term(str(left)), scope.term(str(right)))
     scope.source.use(":numeric-fluents", node.at)
     return Compare(str(node.head), read_expression(left, scope), read_expression(right, scope))
 

@@ -1,4 +1,7 @@
-"""Does a problem set every function that its actions can need, and no duration below zero?
+"""Which values that its actions can need does a problem not set, and is a duration below zero?
+
+PDDL 2.1 lets a function be without a value: what reads it cannot run (or is false), so a table of
+the distances that exist is right. A gap is a warning all the same, since it may be forgotten.
 
 An action needs a function only for objects that its parameters can stand for: bindings that the
 types, the facts that no action changes, or an (in)equality rule out are not looked at.
@@ -6,7 +9,7 @@ types, the facts that no action changes, or an (in)equality rule out are not loo
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Set
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import islice, product
@@ -62,18 +65,39 @@ def check_values(
     ``at`` is the offset of ``:init``; ``places`` says where each value is set.
     """
     checker = _Checker(problem)
-    unset = dict(checker.unset())
-    for key, user in islice(unset.items(), MAX_REPORTS):
-        shown = f"({' '.join(key)})"
-        message = f"{quote(shown)} is not set, but {user} needs it"
-        source.error(at, "unset-function", message, f"add (= {shown} NUMBER)")
-    if len(unset) > MAX_REPORTS:
-        message = f"{len(unset) - MAX_REPORTS} more functions are not set"
-        source.error(at, "unset-function", message)
+    gaps: dict[str, dict[FluentKey, str]] = {}
+    for key, user in checker.unset():
+        gaps.setdefault(key[0], {})[key] = user
+    for name, unset in gaps.items():
+        _report_gaps(name, unset, at, source)
+    _check_goal_and_metric(problem, checker.later, at, source)
     negative = dict(checker.negative_durations())
     for key, user in islice(negative.items(), MAX_REPORTS):
         message = f"{user} lasts less than nothing"
         source.error(places.get(key, at), "negative-duration", message)
+
+
+def _report_gaps(name: str, unset: Mapping[FluentKey, str], at: int, source: SourceText) -> None:
+    """Warn once about all values of one function that some action can need."""
+    (key, user), n_more = next(iter(unset.items())), len(unset) - 1
+    shown = f"({' '.join(key)})"
+    more = f" and {n_more} more values of {quote(name)} are" if n_more else " is"
+    message = f"{quote(shown)}{more} not set: {user} cannot run where it needs one"
+    source.warn(at, "unset-function", message, f"add (= {shown} NUMBER) unless that is meant")
+
+
+def _check_goal_and_metric(problem: Problem, later: Set[str], at: int, source: SourceText) -> None:
+    for function in formula_functions(problem.goal):
+        key = (function.name, *function.args)
+        bound = any(arg.startswith("?") for arg in function.args)
+        if not bound and key not in problem.values and function.name not in later:
+            message = f"{quote(str(function))} is not set, so the goal cannot hold"
+            source.warn(at, "unset-function", message, f"add (= {function} NUMBER)")
+    for function in functions_in(problem.metric):
+        key = (function.name, *function.args)
+        if key not in problem.values and function.name not in later:
+            message = f"{quote(str(function))} is not set, but the metric needs it"
+            source.error(at, "unset-function", message, f"add (= {function} NUMBER)")
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,11 +135,6 @@ class _Checker:
             for key in self._keys(action, gaps):
                 if key not in values:
                     yield key, f"action {quote(action.name)}"
-        for user, expression in self._own_expressions():
-            for function in functions_in(expression):
-                key = (function.name, *function.args)
-                if key not in values and function.name not in self.later:
-                    yield key, user
 
     def negative_durations(self) -> Iterator[tuple[FluentKey, str]]:
         """Yield a function behind a negative duration, and such a ground action."""
@@ -192,25 +211,21 @@ class _Checker:
 
     def _is_false(self, formula: Formula, binding: Binding) -> bool:
         """Whether a condition is false whatever the actions do."""
-        try:
-            return any(
-                self._is_static(part) and not holds(part, self.state, binding, self.problem)
-                for part in conjuncts(formula)
-            )
-        except Undefined:
-            return False
+        return any(
+            self._is_static(part) and not holds(part, self.state, binding, self.problem)
+            for part in conjuncts(formula)
+            if not isinstance(part, Compare) or self._has_values(part, binding)
+        )
+
+    def _has_values(self, part: Compare, binding: Binding) -> bool:
+        """Whether a comparison can be made: one that cannot is a gap to report, not a reason."""
+        keys = (ground_key(function, binding) for function in formula_functions(part))
+        return all(key in self.problem.values for key in keys)
 
     def _is_static(self, formula: Formula) -> bool:
         atoms_fixed = self.changed.isdisjoint(a.name for a in _atoms(formula))
         changed = self.problem.domain.changed_functions
         return atoms_fixed and changed.isdisjoint(f.name for f in formula_functions(formula))
-
-    def _own_expressions(self) -> Iterator[tuple[str, Expr]]:
-        for part in conjuncts(self.problem.goal):
-            if isinstance(part, Compare):
-                yield from (("the goal", part.left), ("the goal", part.right))
-        if self.problem.metric is not None:
-            yield "the metric", self.problem.metric
 
 
 def _unbound(action: Action, binding: Binding) -> tuple[Param, ...]:

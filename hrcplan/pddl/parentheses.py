@@ -19,6 +19,10 @@ Token = tuple[str, int]
 
 ACTIONS = frozenset([":action", ":durative-action"])
 PARTS = frozenset([":parameters", ":precondition", ":condition", ":duration", ":effect"])
+SECTIONS = ACTIONS | {
+    ":requirements", ":types", ":constants", ":predicates", ":functions", ":derived", ":process",
+    ":event", ":constraints", ":domain", ":objects", ":init", ":goal", ":metric",
+}  # fmt: skip
 _INSIDE = PARTS | {":serial", ":parallel", ":vars"}  # "(" before these begins no section
 _ANY_NUMBER = {"and", "or", "+", "-", "*", "/", "define", "either", "oneof", "probabilistic"}
 _ONE = {"not"}

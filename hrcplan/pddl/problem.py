@@ -7,13 +7,20 @@ from hrcplan.core.text import nearest, quote
 from hrcplan.pddl.annotations import refuse_notes
 from hrcplan.pddl.conventions import check_problem
 from hrcplan.pddl.domain import declared_name, read_objects, sections_of
-from hrcplan.pddl.formulas import read_atom, read_expression, read_formula, read_function
+from hrcplan.pddl.formulas import (
+    OBJECT_FLUENTS,
+    read_atom,
+    read_expression,
+    read_formula,
+    read_function,
+)
 from hrcplan.pddl.initial_values import check_values
 from hrcplan.pddl.model import TOTAL_TIME, TRUE, Domain, Expr, Fact, FluentKey, Formula, Problem
 from hrcplan.pddl.reader import GroupNode, ParseNode, WordNode
 from hrcplan.pddl.requirements import check_requirements, read_requirements
-from hrcplan.pddl.scope import Scope
+from hrcplan.pddl.scope import Scope, decimal_cure
 from hrcplan.pddl.source import SourceText
+from hrcplan.pddl.typed_lists import report_types
 
 _SECTIONS = (":domain", ":requirements", ":objects", ":init", ":goal", ":metric")
 _LOGIC = frozenset(["and", "or", "imply", "forall", "exists", "when"])
@@ -31,7 +38,6 @@ def read_problem(root: GroupNode, source: SourceText, domain: Domain) -> Problem
     """Return the problem that a ``(define (problem …) …)`` tree describes."""
     name = declared_name(root, "problem", source)
     sections = dict(sections_of(root, source, _SECTIONS))
-    _check_domain(root, source, domain)
     flags = read_requirements(sections.get(":requirements"), source)
     objects = read_objects(sections.get(":objects"), source, domain.types, domain.constants)
     scope = Scope(source, domain, {**domain.constants, **objects}, {})
@@ -52,7 +58,9 @@ def read_problem(root: GroupNode, source: SourceText, domain: Domain) -> Problem
     )
     if domain.requirements:
         check_requirements([*domain.requirements, *flags], source)
+    report_types(source, domain.types, bool(domain.types))
     refuse_notes(source)
+    _check_domain(root, source, domain)
     at = sections.get(":init", root).at
     check_problem(problem, at, source)
     if not source.has_errors:
@@ -66,7 +74,9 @@ def _check_domain(root: GroupNode, source: SourceText, domain: Domain) -> None:
         source.error(root.at, "no-domain", "the problem does not say its (:domain NAME)")
     elif domain.name and name != domain.name:
         message = f"the problem is for domain {quote(name)}, not {quote(domain.name)}"
-        source.error(name.at, "domain-mismatch", message, nearest(name, [domain.name]))
+        # Two files that fit each other are meant together, whatever the names say.
+        report = source.error if source.has_errors else source.warn
+        report(name.at, "domain-mismatch", message, nearest(name, [domain.name]))
 
 
 class _Init:
@@ -116,8 +126,7 @@ class _Init:
         spelled = node[2]
         value = to_number(spelled) if isinstance(spelled, WordNode) else None
         if value is None:
-            word = quote(spelled) if isinstance(spelled, WordNode) else "a group"
-            source.error(spelled.at, "bad-number", f"{word} is not a number")
+            _report_no_number(spelled, self.scope)
         elif function is not None:
             self._set((function.name, *function.args), value, node.at)
 
@@ -129,6 +138,16 @@ class _Init:
         elif key in self.places:
             source.warn(at, "duplicate-fact", f"{shown} is set twice")
         self.places[key] = at
+
+
+def _report_no_number(node: ParseNode, scope: Scope) -> None:
+    word = quote(node) if isinstance(node, WordNode) else "a group"
+    if isinstance(node, WordNode) and node in scope.objects:
+        message = f"{word} is an object, not a number"
+        scope.source.error(node.at, "not-a-number", message, OBJECT_FLUENTS)
+    else:
+        cure = decimal_cure(node) if isinstance(node, WordNode) else None
+        scope.source.error(node.at, "bad-number", f"{word} is not a number", cure)
 
 
 def _is_time(word: ParseNode, what: ParseNode) -> bool:

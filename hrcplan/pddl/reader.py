@@ -1,20 +1,27 @@
 """Text to tree: words and groups that remember where they stand.
 
 The reader never raises and never recurses; a fault is noted and mended, so that the faults
-behind it are found in the same go.
+behind it are found in the same go. A text whose parentheses match is read in one pass.
 """
 
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Iterable, Iterator
 
-from hrcplan.pddl.parentheses import Token, mend
-from hrcplan.pddl.source import SourceText
+from hrcplan.pddl.parentheses import PARTS, SECTIONS, Token, mend
+from hrcplan.pddl.source import MAX_FAULTS, SourceText
 
-MAX_DEPTH = 150  # whatever walks a formula recursively is safe below this
-_TOKEN = re.compile(r"[()]|[^\s();]+|;[^\r\n]*")
-_NOTE = re.compile(r";+[ \t]*hrcplan:[ \t]*([^\r\n;]*)", re.IGNORECASE)
+MAX_DEPTH = 1000  # whatever walks a formula recursively is safe below this
+MAX_MENDED = 8 << 20  # characters: where parentheses do not match, a longer text is not read
+_PLAIN_DEPTH = 100  # deeper trees need more of Python's stack than it allows by itself
+_FRAMES = 12  # that one level of a formula may take
+_SECTION_DEPTH = 3  # groups around the head of a section: everything, define, the section
+_TOKEN = re.compile(r"[()]|\?*[^\s();?]+|\?+|;[^\r\n]*")
+_COMMENT_OR_COMMA = re.compile(r";[^\r\n]*|(?<![0-9]),|,(?![0-9])")  # 1,5 is meant as a number
+_NOTE = re.compile(r"(?<!;);++[ \t]*+hrcplan:[ \t]*+([^\r\n;]*)", re.IGNORECASE)
+_BEFORE_A_WORD = frozenset(" \t\r\n\f\v()")
 
 
 class WordNode(str):
@@ -46,18 +53,129 @@ def read(source: SourceText) -> GroupNode | None:
     nodes = read_nodes(source)
     groups = [node for node in nodes if isinstance(node, GroupNode)]
     root = next((group for group in groups if group.head == "define"), None)
-    outside = next((node for node in nodes if node is not root), None)
+    outside = next((n for n in nodes if n is not root and not _is_lisp(n, source)), None)
     if outside is not None:
-        message = "a file holds one (define …) and nothing outside it"
-        source.error(outside.at, "outside-define", message)
+        source.error(outside.at, "outside-define", *_outside(source.text, root is not None))
     elif root is None and not source.has_errors:
         source.error(0, "empty", "the file holds no (define …)")
     return root
 
 
+def _is_lisp(node: ParseNode, source: SourceText) -> bool:
+    """Whether a group is a command to the Lisp systems of old; it is a warning and ignored."""
+    if not isinstance(node, GroupNode) or node.head != "in-package":
+        return False
+    source.warn(node.at, "outside-define", "hrcplan takes no notice of (in-package …)")
+    return True
+
+
+def _outside(text: str, has_define: bool) -> tuple[str, str | None]:
+    """Return message and hint for a file with more than a ``(define …)``."""
+    start = text.lstrip()[:20].lower()
+    if "```" in text:
+        return "the file holds Markdown around its PDDL", "remove the lines that begin with ```"
+    if start.startswith(("<!doctype", "<html", "<?xml")):
+        return "this is a web page, not PDDL", "download the raw file"
+    hint = None if has_define else "a file begins with (define (domain NAME) or (define (problem …)"
+    return "a file holds one (define …) and nothing outside it", hint
+
+
 def read_nodes(source: SourceText) -> list[ParseNode]:
     """Return everything that a text holds side by side; faults go into ``source``."""
-    return _build(mend(_tokens(source.text), source), source)
+    text = _without_commas(source)
+    try:
+        return _read_even(text, source)
+    except _UnevenError as uneven:
+        at = uneven.at
+    tokens = _tokens(text) if len(text) <= MAX_MENDED else []
+    surplus = text.count("(") - text.count(")")
+    if not tokens or abs(surplus) > MAX_FAULTS:
+        message = "the parentheses do not match before this place"
+        source.error(at, "unclosed", message, "the file is not read any further")
+        return []
+    return _build(mend(tokens, source), source)
+
+
+class _UnevenError(Exception):
+    """The parentheses of a text do not match, or it is nested too deeply."""
+
+    def __init__(self, at: int) -> None:
+        super().__init__(at)
+        self.at = at
+
+
+def _read_even(text: str, source: SourceText) -> list[ParseNode]:
+    """Return the trees of a text in one pass.
+
+    Raises:
+        _UnevenError: if a parenthesis is missing or one too many, a section or a part of an action
+            does not stand at its depth, or the text is nested too deeply.
+    """
+    lowered = text.lower()
+    if len(lowered) != len(text):  # a few letters become two: then the places would be wrong
+        lowered = text
+    group = GroupNode(0)
+    stack = [group]
+    deepest = 0
+    for match in _TOKEN.finditer(lowered):
+        token = match.group()
+        if token == "(":
+            inner = GroupNode(match.start())
+            group.append(inner)
+            stack.append(inner)
+            group = inner
+            deepest = max(deepest, len(stack))
+            if deepest > MAX_DEPTH:
+                raise _UnevenError(inner.at)
+        elif token == ")":
+            stack.pop()
+            if not stack:
+                raise _UnevenError(match.start())
+            group = stack[-1]
+        elif token[0] != ";":
+            word = word_at(token, match.start())
+            if token[0] == ":" and not _is_in_place(word, group, len(stack)):
+                raise _UnevenError(word.at)
+            if token[0] == "?":
+                _check_gap(word, text, source)
+            group.append(word)
+    if len(stack) != 1:
+        raise _UnevenError(group.at)
+    _allow_depth(deepest)
+    return list(group)
+
+
+def _is_in_place(word: WordNode, group: GroupNode, depth: int) -> bool:
+    """Whether a keyword stands where it belongs, if it is the head of a section or of a part."""
+    if word in SECTIONS and not group:
+        return depth == _SECTION_DEPTH
+    return word not in PARTS or not group or depth == _SECTION_DEPTH
+
+
+def _check_gap(word: WordNode, text: str, source: SourceText) -> None:
+    """Warn about ``pier?p``: two words for most readers, although nothing stands between."""
+    if word.at and text[word.at - 1] not in _BEFORE_A_WORD:
+        message = f"a space is missing before {word}"
+        source.warn(word.at, "missing-space", message)
+
+
+def _allow_depth(depth: int) -> None:
+    """Let Python recurse as deep as a text is nested."""
+    if depth > _PLAIN_DEPTH:
+        sys.setrecursionlimit(max(sys.getrecursionlimit(), 1000 + _FRAMES * MAX_DEPTH))
+
+
+def _without_commas(source: SourceText) -> str:
+    """Return the text with a space for every comma, which is one error."""
+    text = source.text
+    if "," not in text:
+        return text
+    commas = (m.start() for m in _COMMENT_OR_COMMA.finditer(text) if m.group() == ",")
+    first = next(commas, None)
+    if first is None:
+        return text
+    source.error(first, "comma", "PDDL has no commas", "put spaces between words")
+    return _COMMENT_OR_COMMA.sub(lambda m: " " if m.group() == "," else m.group(), text)
 
 
 def notes(source: SourceText) -> Iterator[tuple[int, str]]:
@@ -84,7 +202,9 @@ def _build(tokens: Iterable[Token], source: SourceText) -> list[ParseNode]:
     stack = [top]
     skipped = 0  # how deep we are in a group that is left out
     too_deep: int | None = None
+    deepest = 0
     for token, at in tokens:
+        deepest = max(deepest, len(stack))
         if token == "(":
             if skipped or len(stack) > MAX_DEPTH:
                 too_deep = at if too_deep is None else too_deep
@@ -104,4 +224,5 @@ def _build(tokens: Iterable[Token], source: SourceText) -> list[ParseNode]:
             stack.pop()
     if too_deep is not None:
         source.error(too_deep, "too-deep", f"groups are nested deeper than {MAX_DEPTH}")
+    _allow_depth(deepest)
     return list(top)

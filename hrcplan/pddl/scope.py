@@ -6,12 +6,32 @@ Looks a name up, reports an unknown one with a hint, and checks number and types
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from itertools import count
 
+from hrcplan.core.numbers import to_number
 from hrcplan.core.text import plural, quote
 from hrcplan.pddl.model import OBJECT, TOTAL_TIME, Domain, Param, Signature
 from hrcplan.pddl.reader import GroupNode, WordNode
 from hrcplan.pddl.source import SourceText
+
+FOREIGN = {
+    "==": "write = instead",
+    "!=": "write (not (= …)) instead",
+    "<>": "write (not (= …)) instead",
+    "&&": "write and instead",
+    "||": "write or instead",
+    "!": "write not instead",
+    "implies": "write imply instead",
+    "=>": "write imply instead",
+    "->": "write imply instead",
+    "if": "write (imply …) in a condition, (when CONDITION EFFECT) in an effect",
+    "+=": "write (increase (f) AMOUNT) instead",
+    "-=": "write (decrease (f) AMOUNT) instead",
+    ":=": "write (assign (f) VALUE) instead",
+    "set": "write (assign (f) VALUE) instead",
+}
+"""Operators of other languages, and what PDDL writes instead."""
 
 
 @dataclass(frozen=True)
@@ -19,7 +39,8 @@ class Scope:
     """A domain, the objects known so far, and what is bound here.
 
     ``numbers`` are the special values that only some places know: ``?duration`` in a durative
-    action, ``total-time`` in a metric.
+    action, ``total-time`` in a metric. ``renames`` are the variables of quantifiers that are also
+    bound outside, and what they are called in the model.
     """
 
     source: SourceText
@@ -27,11 +48,38 @@ class Scope:
     objects: Mapping[str, str]
     variables: Mapping[str, tuple[str, ...]]
     numbers: frozenset[str] = frozenset()
+    renames: Mapping[str, str] = field(default_factory=dict)
 
     def binding(self, params: Sequence[Param]) -> Scope:
         """Return this scope with further variables."""
         bound = {**self.variables, **{p.name: p.types for p in params}}
         return replace(self, variables=bound)
+
+    def quantifying(self, params: Sequence[Param], at: int) -> tuple[tuple[Param, ...], Scope]:
+        """Return the variables of a quantifier and the scope in it.
+
+        A variable that is bound outside too gets another name, so that what stands outside never
+        means the inner one when the model pulls quantifiers together.
+        """
+        names = set(self.variables)
+        renames = dict(self.renames)
+        inner: list[Param] = []
+        for param in params:
+            name = param.name
+            if name in self.variables:
+                message = f"variable {quote(name)} is bound outside of this quantifier too"
+                self.source.warn(at, "shadowed-variable", message, "give it another name")
+                name = next(n for i in count(2) if (n := f"{name}-{i}") not in names)
+            renames[param.name] = name
+            names.add(name)
+            inner.append(Param(name, param.types))
+        bound = {p.name: p.types for p in (*params, *inner)}
+        scope = replace(self, variables={**self.variables, **bound}, renames=renames)
+        return tuple(inner), scope
+
+    def term(self, word: str) -> str:
+        """Return the name of a variable or object in the model."""
+        return self.renames.get(word, str(word))
 
     def knowing(self, number: str) -> Scope:
         """Return this scope with a further special value."""
@@ -42,7 +90,9 @@ class Scope:
         if term.startswith("?"):
             if term not in self.variables:
                 message = f"variable {quote(term)} is not bound here"
-                self.source.unknown(term.at, "unbound", message, term, self.variables)
+                glued = next((v for v in self.variables if v.startswith(f"{term}-")), None)
+                hint = f"spaces are missing around the '-' of {quote(glued)}" if glued else None
+                self.source.unknown(term.at, "unbound", message, term, self.variables, hint)
             return self.variables.get(term)
         if term not in self.objects:
             message = f"there is no object {quote(term)}"
@@ -63,7 +113,7 @@ class Scope:
             self.source.error(group.at, "wrong-arity", message, f"declared as {signature}")
             return None
         fits = [self._fits(t, p) for t, p in zip(terms, signature.params, strict=True)]
-        return tuple(map(str, terms)) if all(fits) else None
+        return tuple(map(self.term, terms)) if all(fits) else None
 
     def _fits(self, term: WordNode, param: Param) -> bool:
         types = self.types_of(term)
@@ -97,10 +147,16 @@ class Scope:
             self.source.error(word.at, code, f"{quote(word)} is a {wrong}, not a {kind}")
         else:
             message = f"{kind} {quote(word)} is not declared"
-            self.source.unknown(word.at, code, message, word, known)
+            self.source.unknown(word.at, code, message, word, known, FOREIGN.get(word))
         return None
 
 
 def looks_numeric(word: str) -> bool:
     """Whether a word was meant as a number: it starts with a digit, or a sign or dot and one."""
     return word.lstrip("+-.")[:1].isdigit()
+
+
+def decimal_cure(word: str) -> str | None:
+    """Return a hint for a number that is written with a comma."""
+    plain = word.replace(",", ".")
+    return f"write {plain}" if plain != word and to_number(plain) is not None else None

@@ -36,6 +36,7 @@ from hrcplan.pddl.model import (
 )
 
 MAX_INSTANCES = 1_000_000
+MAX_BITS = 13_000  # of a number, about 3,900 digits: beyond that nothing prints it any more
 
 Values = Mapping[FluentKey, Number]
 Binding = Mapping[str, str]
@@ -63,6 +64,7 @@ def evaluate(expression: Expr, values: Values, binding: Binding) -> Number:
 
     Raises:
         Undefined: if a function has no value, or something is divided by zero.
+        LimitError: if a number grows beyond ``MAX_BITS``.
     """
     match expression:
         case Constant(value):
@@ -86,12 +88,19 @@ def _apply(op: str, numbers: Sequence[Number]) -> Number:
         elif op == "-":
             total = total - number
         elif op == "*":
-            total = total * number
+            total = _bounded(total * number)
         elif number == 0:
             raise Undefined("division by zero")
         else:
-            total = Fraction(total) / number
+            total = _bounded(Fraction(total) / number)
     return exact(total)
+
+
+def _bounded(number: Number) -> Number:
+    """Return a product, unless it has grown beyond what can be printed."""
+    if max(number.numerator.bit_length(), number.denominator.bit_length()) > MAX_BITS:
+        raise LimitError("a number grows beyond 3,900 digits", hint="scale the values down")
+    return number
 
 
 _COMPARE = {
@@ -103,30 +112,39 @@ _COMPARE = {
 }
 
 
-def holds(formula: Formula, state: LiftedState, binding: Binding, problem: Problem) -> bool:
-    """Return whether a condition is true in a state.
+def holds(
+    formula: Formula,
+    state: LiftedState,
+    binding: Binding,
+    problem: Problem,
+    positive: bool = True,
+) -> bool:
+    """Return whether a condition (or, if not ``positive``, its negation) is true in a state.
 
-    Raises:
-        Undefined: if a function it compares has no value.
+    A comparison that reads a function without a value is false, and so is its negation; what
+    holds therefore never depends on the order of a disjunction's parts.
     """
     match formula:
         case Atom():
-            return ground_key(formula, binding) in state.facts
+            return (ground_key(formula, binding) in state.facts) == positive
         case Not(body):
-            return not holds(body, state, binding, problem)
-        case And(parts):
-            return all(holds(part, state, binding, problem) for part in parts)
-        case Or(parts):
-            return any(holds(part, state, binding, problem) for part in parts)
+            return holds(body, state, binding, problem, not positive)
+        case And(parts) | Or(parts):
+            test = all if isinstance(formula, And) == positive else any
+            return test(holds(part, state, binding, problem, positive) for part in parts)
         case Equal(left, right):
-            return binding.get(left, left) == binding.get(right, right)
+            return (binding.get(left, left) == binding.get(right, right)) == positive
         case Compare(op, left, right):
-            numbers = (evaluate(side, state.values, binding) for side in (left, right))
-            return bool(_COMPARE[op](*numbers))
+            try:
+                numbers = [evaluate(side, state.values, binding) for side in (left, right)]
+            except Undefined:
+                return False
+            return bool(_COMPARE[op](*numbers)) == positive
         case Quantified(universal, params, body):
-            test = all if universal else any
+            test = all if universal == positive else any
             return test(
-                holds(body, state, inner, problem) for inner in instances(params, binding, problem)
+                holds(body, state, inner, problem, positive)
+                for inner in instances(params, binding, problem)
             )
 
 
@@ -141,7 +159,23 @@ def unmet(formula: Formula, state: LiftedState, binding: Binding, problem: Probl
             for inner in instances(formula.params, binding, problem)
         )
         return next((part for part in found if part is not None), None)
-    return None if holds(formula, state, binding, problem) else ground_text(formula, binding)
+    if holds(formula, state, binding, problem):
+        return None
+    missing = _without_value(formula, state.values, binding)
+    return ground_text(formula, binding) + ("" if missing is None else f", but {missing}")
+
+
+def _without_value(formula: Formula, values: Values, binding: Binding) -> str | None:
+    """Return why a comparison (or its negation) cannot be made; None if it can."""
+    inner = formula.body if isinstance(formula, Not) else formula
+    if not isinstance(inner, Compare):
+        return None
+    try:
+        for side in (inner.left, inner.right):
+            evaluate(side, values, binding)
+    except Undefined as error:
+        return str(error)
+    return None
 
 
 def ground_text(formula: Formula, binding: Binding) -> str:

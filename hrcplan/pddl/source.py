@@ -29,6 +29,8 @@ class SourceText:
     text: str
     diagnostics: list[Diagnostic] = field(default_factory=list)
     uses: dict[str, int] = field(default_factory=dict)
+    unknown_types: dict[str, int] = field(default_factory=dict)
+    _unknown: set[tuple[str, str]] = field(default_factory=set)
     _counts: dict[str, int] = field(default_factory=dict)
     _lines: list[int] = field(default_factory=list)
 
@@ -59,10 +61,17 @@ class SourceText:
         """Note a warning at offset ``at``."""
         self._note(at, "warning", code, message, hint)
 
-    def unknown(self, at: int, code: str, message: str, word: str, known: Iterable[str]) -> None:
-        """Note that ``word`` is none of ``known``, with the nearest of them as a hint."""
-        helpful = len(self.diagnostics) < MAX_HINTS
-        self.error(at, code, message, nearest(word, known) if helpful else None)
+    def unknown(
+        self, at: int, code: str, message: str, word: str, known: Iterable[str],
+        hint: str | None = None,
+    ) -> None:  # fmt: skip
+        """Note once that ``word`` is none of ``known``; the hint is the nearest of them."""
+        if (code, word) in self._unknown and code != "unbound":  # that is so in each action anew
+            return
+        self._unknown.add((code, word))
+        if hint is None and len(self.diagnostics) < MAX_HINTS:
+            hint = nearest(word, known)
+        self.error(at, code, message, hint)
 
     def use(self, requirement: str, at: int) -> None:
         """Remember where the file first needs a requirement flag."""

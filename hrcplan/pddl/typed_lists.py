@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
+from itertools import count, pairwise
 
 from hrcplan.core.text import quote
 from hrcplan.pddl.model import OBJECT, Param
@@ -22,7 +23,7 @@ def read_typed(
     A type that is not among ``types`` is an error, unless ``types`` is None.
     """
     waiting: list[WordNode] = []
-    rest = iter(nodes)
+    rest = iter(_with_dashes(nodes, source, types))
     for node in rest:
         if isinstance(node, GroupNode):
             source.error(node.at, "not-a-name", "a name is expected here, not a group")
@@ -30,7 +31,8 @@ def read_typed(
             waiting.append(node)
         else:
             if not waiting:
-                source.error(node.at, "bad-typed-list", "no name stands before this '-'")
+                message = "no name stands before this '-', so it declares nothing"
+                source.warn(node.at, "empty-typed-list", message)
             spelled = _type_words(next(rest, None), node, source)
             if types is not None:
                 check_types(spelled, types, source)
@@ -40,6 +42,34 @@ def read_typed(
             waiting = []
     for name in waiting:
         yield name, (OBJECT,)
+
+
+def _with_dashes(
+    nodes: Sequence[ParseNode], source: SourceText, types: Collection[str] | None
+) -> Iterator[ParseNode]:
+    """Yield the nodes with every dash as a word of its own, also one that touches a name."""
+    for node, following in pairwise((*nodes, None)):
+        assert node is not None
+        if isinstance(node, GroupNode) or node == "-" or "-" not in (node[0], node[-1]):
+            yield node
+        elif node[0] == "-":
+            message, hint = f"a space is missing after the '-' of {quote(node)}", "write '- type'"
+            source.warn(node.at, "missing-space", message, hint)
+            yield _part(node, 0, 1)
+            yield _part(node, 1, len(node))
+        elif following in (types or ()) or following == OBJECT:
+            message = f"a space is missing before the '-' of {quote(node)}"
+            source.error(node.at, "missing-space", message, f"write '{node[:-1]} - {following}'")
+            yield _part(node, 0, len(node) - 1)
+            yield _part(node, len(node) - 1, len(node))
+        else:
+            yield node
+
+
+def _part(word: WordNode, first: int, end: int) -> WordNode:
+    part = WordNode(word[first:end])
+    part.at = word.at + first
+    return part
 
 
 def _type_words(node: ParseNode | None, dash: WordNode, source: SourceText) -> list[WordNode]:
@@ -56,11 +86,23 @@ def _type_words(node: ParseNode | None, dash: WordNode, source: SourceText) -> l
 
 
 def check_types(words: Sequence[WordNode], known: Collection[str], source: SourceText) -> None:
-    """Report every word that names no declared type."""
+    """Remember every word that names no declared type, for ``report_types``."""
     for word in words:
         if word != OBJECT and word not in known:
-            message = f"type {quote(word)} is not declared"
-            source.unknown(word.at, "unknown-type", message, word, [*known, OBJECT])
+            source.unknown_types.setdefault(str(word), word.at)
+
+
+def report_types(source: SourceText, known: Collection[str], has_section: bool = True) -> None:
+    """Report the types that a file names and nobody declares; without ``:types`` in one go."""
+    if has_section:
+        for name, at in source.unknown_types.items():
+            message = f"type {quote(name)} is not declared"
+            source.unknown(at, "unknown-type", message, name, [*known, OBJECT])
+    elif source.unknown_types:
+        names = " ".join(source.unknown_types)
+        message = "types are named, but the domain has no (:types …)"
+        at = min(source.unknown_types.values())
+        source.error(at, "unknown-type", message, f"add (:types {names})")
 
 
 def read_params(node: ParseNode, scope: Scope) -> tuple[Param, ...]:
@@ -72,20 +114,28 @@ def read_params(node: ParseNode, scope: Scope) -> tuple[Param, ...]:
 
 
 def params_of(
-    nodes: Sequence[ParseNode], source: SourceText, types: Collection[str]
+    nodes: Sequence[ParseNode],
+    source: SourceText,
+    types: Collection[str],
+    declaration: bool = False,
 ) -> tuple[Param, ...]:
     """Return parameters; a name without ``?``, repeated, or of an unknown type is an error.
 
-    A faulty parameter keeps its place, so that arguments are still counted right.
+    In a declaration of a predicate or function names mean nothing, and a repeated one is a
+    warning. A faulty parameter keeps its place, so that arguments are still counted right.
     """
     found: list[Param] = []
     seen: set[str] = set()
     for name, kinds in read_typed(nodes, source, types):
+        text = str(name)
         if not name.startswith("?") or len(name) == 1:
             source.error(name.at, "not-a-variable", f"{quote(name)} should start with '?'")
+        elif name in seen and declaration:
+            source.warn(name.at, "repeated-parameter", f"parameter {quote(name)} is repeated")
+            text = next(n for i in count(2) if (n := f"{name}-{i}") not in seen)
         elif name in seen:
             message = f"parameter {quote(name)} is repeated"
             source.error(name.at, "repeated-parameter", message)
-        seen.add(name)
-        found.append(Param(f"?{name.lstrip('?')}", kinds))
+        seen.add(text)
+        found.append(Param(f"?{text.lstrip('?')}", kinds))
     return tuple(found)

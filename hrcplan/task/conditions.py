@@ -24,7 +24,6 @@ from hrcplan.pddl.model import (
 from hrcplan.pddl.semantics import (
     Binding,
     LiftedState,
-    Undefined,
     Values,
     ground_key,
     holds,
@@ -93,11 +92,8 @@ class Grounder:
             case Not(body):
                 return self.tests(body, binding, values, not positive)
             case Equal() | Compare():
-                try:
-                    truth = holds(formula, LiftedState(frozenset(), values), binding, self.problem)
-                except Undefined:
-                    return NEVER
-                return _known(truth == positive)
+                state = LiftedState(frozenset(), values)
+                return _known(holds(formula, state, binding, self.problem, positive))
             case Quantified(universal, params, body):
                 inner = (
                     self.tests(body, bound, values, positive)

@@ -15,7 +15,7 @@ from typing import NamedTuple
 from hrcplan.errors import LimitError
 from hrcplan.pddl.joins import FactIndex, Join, JoinBinding, conjuncts, lifted_names, needed_atoms
 from hrcplan.pddl.model import DURATION, Action, Atom, Domain, Fact, Formula, Problem
-from hrcplan.pddl.semantics import LiftedState, Undefined, ground_key, holds, instances
+from hrcplan.pddl.semantics import LiftedState, ground_key, holds, instances
 
 MAX_GROUND_ACTIONS = 200_000
 _CHECK = 256  # ground actions between two looks at the clock
@@ -93,10 +93,7 @@ class _Search:
             raise LimitError(f"no time for more than {n_found} ground actions", hint=hint)
 
     def _can_hold(self, fixed: tuple[Formula, ...], binding: JoinBinding) -> bool:
-        try:
-            return all(holds(part, self._start, binding, self.problem) for part in fixed)
-        except Undefined:
-            return False
+        return all(holds(part, self._start, binding, self.problem) for part in fixed)
 
 
 class _Rule:

@@ -4,7 +4,7 @@
   )
   (:predicates
     (at ?x - )  ;; expect: bad-typed-list
-    (on - place)  ;; expect: bad-typed-list
+    (on - place)  ;; expect: empty-typed-list
     (in ?x - (place))  ;; expect: bad-typed-list
     here)  ;; expect: bad-predicate
   (:action go :parameters ?x  ;; expect: not-a-list

@@ -1,6 +1,6 @@
 (define (domain d)
   (:requirements :strips :typing :no-such-thing)  ;; expect: unknown-requirement
-  (:types place item - objekt)  ;; expect: unknown-type
+  (:types place item - objekt)  ;; expect: undeclared-supertype
   (:predicates (at ?p - place) (at ?i - item))  ;; expect: duplicate-predicate
   (:functons (total-cost))  ;; expect: unknown-section
   (:action go

@@ -1,5 +1,5 @@
 (define (domain d)
-  (:types place item - thing agent)  ;; expect: unknown-type
+  (:types place item - thing agent)  ;; expect: undeclared-supertype
   (:constants depot - plaice)  ;; expect: unknown-type
   (:predicates (at ?a - agnet ?p - place))  ;; expect: unknown-type
   (:action move
