@@ -68,6 +68,17 @@ def _claim(claim: Claim) -> str:
     )
 
 
+def readings(subjects: str) -> Section:
+    """Return the section that says where readings of a paper are explained."""
+    words = (
+        f"<p>Where the paper is silent a reading was chosen: {subjects}. The document "
+        "<code>reproduce</code> lists all of them with their reasons. A claim that lacks rows is "
+        "not stated. Every number but measured times can be computed again from "
+        "<code>rows.sqlite</code>, which has one row per episode.</p>"
+    )
+    return Section("Readings", words)
+
+
 def escape(text: object) -> str:
     """Return text as HTML."""
     return markup.escape(str(text), quote=True)

@@ -33,8 +33,8 @@ def report_study(folder: str | Path, study_name: str | None = None) -> dict[str,
     with Store.to_read(folder) as store:
         about = store.about()
         study = _study(about, folder, study_name)
-        options = about["options"]
-        rows = {table.name: store.rows(table) for table in study.tables}
+        options = {key: study.present_name(key, value) for key, value in about["options"].items()}
+        rows = {t.name: study.present_rows(t, store.rows(t)) for t in study.tables}
     main = study.tables[0]
     findings = study.findings(options, rows)
     by_cell = cells_of(rows[main.name], main.keys, main.cells(options))

@@ -1,14 +1,16 @@
-"""What a study is: tables of episodes, and a report made of their rows alone.
+"""The definition of a study: tables of episodes, and a report that depends on their rows alone.
 
 A study names its cells and says how one episode is run; it knows nothing of files or processes.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import islice
 
+from hrcplan.core.deprecation import warn_old_name
 from hrcplan.core.registry import ObjectRegistry
 from hrcplan.errors import UsageError
 
@@ -20,7 +22,7 @@ Say = Callable[[str], None]
 
 
 class Seed(str):
-    """What everything random in a run is derived from: text that names study seed and run."""
+    """The seed of one run, as text: study seed and number of the run."""
 
     study: int
     run: int
@@ -32,9 +34,9 @@ class Seed(str):
         >>> Seed(0, 17), Seed(0, 17).run
         ('0/17', 17)
         """
-        made = super().__new__(cls, f"{study}/{run}")
-        made.study, made.run = study, run
-        return made
+        seed = super().__new__(cls, f"{study}/{run}")
+        seed.study, seed.run = study, run
+        return seed
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +60,7 @@ class StudyTable:
 
 @dataclass(frozen=True, slots=True)
 class Claim:
-    """Something that the rows can show to hold, or not; claims of one group stand together."""
+    """A statement that the rows support or not; the page shows claims group by group."""
 
     claim: str
     holds: bool
@@ -76,7 +78,7 @@ class Section:
 
 @dataclass(frozen=True, slots=True)
 class Findings:
-    """What a study makes of its rows; ``lead`` is a sentence for the top of the page."""
+    """The content of a study's page; ``lead`` is the text at its top, as HTML."""
 
     lead: str
     claims: Sequence[Claim]
@@ -95,7 +97,9 @@ class Study:
     before are not added to. ``prepare`` makes what all episodes need, with a number of processes,
     and is given a function that tells the user. ``runs`` is how many runs a cell has by default.
     ``unit`` names the columns of which each value counts once in a standard error: means over its
-    rows are taken first; without it every row counts.
+    rows are taken first; without it every row counts. ``renamed`` holds, by key column or option,
+    the names of earlier versions with the present ones: they still work in options, and in rows
+    that were written before.
     """
 
     name: str
@@ -109,6 +113,18 @@ class Study:
     runs: Callable[[StudyOptions], int] = lambda options: 1000
     prepare: Callable[[StudyOptions, int, Say], None] = lambda options, jobs, say: None
     unit: tuple[str, ...] = ()
+    renamed: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
+
+    def present_name(self, key: str, value: str) -> str:
+        """Return a value of a key column or an option by the names of this version."""
+        return present_name(value, self.renamed.get(key, {}))
+
+    def present_rows(self, table: StudyTable, rows: Sequence[StudyRow]) -> list[StudyRow]:
+        """Return rows of a table, their keys by the names of this version."""
+        keys = [key for key in table.keys if key in self.renamed]
+        return [
+            {**row, **{key: self.present_name(key, str(row[key])) for key in keys}} for row in rows
+        ]
 
     def table(self, name: str) -> StudyTable:
         """Return a table by its name."""
@@ -117,10 +133,17 @@ class Study:
     def with_defaults(self, given: Mapping[str, str | None]) -> dict[str, str]:
         """Return all options, the given ones over the study's own.
 
+        A name of an earlier version is replaced, with a DeprecationWarning.
+
         Raises:
             UsageError: if the study has no such option.
         """
-        chosen = {key: value for key, value in given.items() if value is not None}
+        chosen: dict[str, str] = {}
+        for key, value in given.items():
+            if value is not None:
+                chosen[key] = self.present_name(key, value)
+                if chosen[key] != value:
+                    warn_old_name(f"option {key}", value, chosen[key])
         for key in chosen:
             if key not in self.options:
                 known = ", ".join(self.options) or "none"
@@ -128,9 +151,24 @@ class Study:
         return {**self.options, **chosen}
 
 
+def present_name(text: str, renamed: Mapping[str, str]) -> str:
+    """Return a name, or names with commas between, by the names of this version.
+
+    Args:
+        text: The names.
+        renamed: Names of earlier versions with the present ones.
+
+    >>> present_name("old, in order", {"old": "new"}), present_name("x,old", {"old": "new"})
+    ('new, in order', 'x,new')
+    """
+    for old, new in renamed.items():
+        text = re.sub(rf"(^|,\s*){re.escape(old)}(?=,|$)", rf"\g<1>{new}", text)
+    return text
+
+
 @dataclass(frozen=True, slots=True)
 class Episode:
-    """One row to be: a table, one of its cells, and the number of a run from 0."""
+    """The place of one row: a table, one of its cells, and the number of a run from 0."""
 
     table: str
     cell: Cell

@@ -19,7 +19,7 @@ WORKSHOP = Path(__file__).parent / "workshop"
 TASK = {"domain": str(WORKSHOP / "domain.pddl"), "goals": str(WORKSHOP)}
 QUICK = {**TASK, "methods": "recursive,hrcplan,oracle"}  # no forest is trained for them
 HUMANS = ["fixed", "optimal", "suboptimal"]
-METHODS = ["paper", "recursive", "recursive-best", "cdp", "infogain", "hrcplan", "oracle"]
+METHODS = ["rhp", "recursive", "recursive-best", "cdp", "infogain", "hrcplan", "oracle"]
 MEASURES = {"first_correct", "last_incorrect_pct", "last_incorrect_step", "correct_pct", "top3_pct",
             "wasted_robot_steps", "human_mistakes", "total_steps", "extra_steps",
             "extra_vs_oracle", "detection_delay", "false_changes", "decision_ms"}  # fmt: skip
@@ -196,9 +196,9 @@ def test_what_is_nothing_to_study_is_told_before_anything_is_made(
 
 
 def test_names_of_the_study_may_have_commas() -> None:
-    options = {**find(NAME).options, "methods": "oracle,paper, in order", "humans": "optimal"}
+    options = {**find(NAME).options, "methods": "oracle,rhp, in order", "humans": "optimal"}
     scenario.check(options)
-    assert scenario.cells("variants", options)[0] == ("optimal", "paper, in order")
+    assert scenario.cells("variants", options)[0] == ("optimal", "rhp, in order")
 
 
 def test_the_clock_is_measured_but_never_part_of_the_rows(tmp_path: Path) -> None:

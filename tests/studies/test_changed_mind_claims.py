@@ -17,16 +17,17 @@ from hrcplan.studies.changed_mind import claims, figures, reach, scenario
 from hrcplan.studies.changed_mind.cells import Cells
 from hrcplan.studies.changed_mind.findings import all_means, endings, findings
 from hrcplan.studies.changed_mind.findings import judged as all_claims
-from hrcplan.studies.changed_mind.measures import MEASURES, ends, number, signed
+from hrcplan.studies.changed_mind.measures import MEASURES
 from hrcplan.studies.estimate import Interval
+from hrcplan.studies.measure import ends, number, signed
 from hrcplan.studies.store import Store
 from hrcplan.studies.study import Claim, Episode, StudyRow, find
 
 STUDY = find("changed-mind")
 OPTIONS = scenario.defaults()
 PAIRS = list(permutations([f"goal-{i}" for i in range(5)], 2))
-RANKS = ("oracle", "hrcplan", "paper", "recursive-best", "recursive", "cdp", "infogain")
-"""Methods from the best to the worst; variants of the paper's method are like it."""
+RANKS = ("oracle", "hrcplan", "rhp", "recursive-best", "recursive", "cdp", "infogain")
+"""Methods from the best to the worst; variants of rhp are like it."""
 Made = dict[str, list[StudyRow]]
 
 
@@ -124,25 +125,25 @@ def test_made_up_rows_make_all_claims_hold() -> None:
 
 SUB, OPT, FIX = ({"human": human} for human in ("suboptimal", "optimal", "fixed"))
 BENT = [
-    ("first_correct", 2.5, {**SUB, "method": "paper"}, "After a change the first right guess"),
+    ("first_correct", 2.5, {**SUB, "method": "rhp"}, "After a change the first right guess"),
     ("first_correct", -9, {**OPT, "method": "cdp"}, "After a change the first right guess"),
-    ("last_incorrect_pct", 9, {**SUB, "method": "paper"}, "When the goal changes, the last wrong "
+    ("last_incorrect_pct", 9, {**SUB, "method": "rhp"}, "When the goal changes, the last wrong "
      "guess comes earlier than with any baseline (suboptimal human)"),
     ("last_incorrect_pct", -9, {**OPT, "method": "infogain"}, "When the goal changes, the last "
      "wrong guess comes earlier than with any baseline (optimal human)"),
     ("last_incorrect_pct", -5, {**FIX, "method": "cdp"}, "When the goal is fixed, the last wrong "
      "guess of the method and of recursive Bayes comes earlier"),
-    ("last_incorrect_pct", -4, {**FIX, "method": "paper"}, "When the goal is fixed, the last wrong "
+    ("last_incorrect_pct", -4, {**FIX, "method": "rhp"}, "When the goal is fixed, the last wrong "
      "guess of the method and of recursive Bayes is about"),
     ("last_incorrect_pct", 6, {**FIX, "method": "recursive"}, "When the goal is fixed, the last "
      "wrong guess of the method and of recursive Bayes is about"),
     ("correct_pct", 3, {**SUB, "method": "recursive"}, "When the goal changes, more guesses are "
      "right than with any baseline (suboptimal human)"),
-    ("correct_pct", -9, {**OPT, "method": "paper"}, "When the goal changes, more guesses are right "
+    ("correct_pct", -9, {**OPT, "method": "rhp"}, "When the goal changes, more guesses are right "
      "than with any baseline (optimal human)"),
-    ("extra_steps", 9, {**FIX, "method": "paper"}, "Fewer extra steps"),
+    ("extra_steps", 9, {**FIX, "method": "rhp"}, "Fewer extra steps"),
     ("correct_pct", 9, {**SUB, "method": "infogain"}, "When the goal changes, CDP"),
-    ("extra_steps", 0.6, {**SUB, "method": "paper"}, "The number of extra steps is minimal"),
+    ("extra_steps", 0.6, {**SUB, "method": "rhp"}, "The number of extra steps is minimal"),
     ("total_steps", 0.6, {**OPT, "method": "oracle"}, "Combinations of two goals take 28.7"),
     ("total_steps", -0.6, {**OPT, "method": "oracle"}, "Combinations of two goals take 28.7"),
     ("wasted_robot_steps", 0.06, {**FIX, "method": "hrcplan"}, "fixed: wasted robot steps"),
@@ -169,15 +170,15 @@ def test_bent_rows_make_a_claim_fail(
     assert not found[failed[0]].holds
 
 
-def test_waste_beyond_the_paper_is_counted_per_change() -> None:
-    claim = "Beyond the paper: at most 1 wasted robot step per change of goal"
+def test_waste_with_more_changes_is_counted_per_change() -> None:
+    claim = "More changes than one: at most 1 wasted robot step per change of goal"
     where = {"table": "beyond", "human": "3 changes", "method": "hrcplan"}
     assert bent(adding("wasted_robot_steps", 2.7), **where)[claim].holds
     assert not bent(adding("wasted_robot_steps", 2.8), **where)[claim].holds
 
 
 def test_every_bent_claim_is_bent_by_some_case() -> None:
-    starts = [claim for *_, claim in BENT] + ["Beyond the paper"]
+    starts = [claim for *_, claim in BENT] + ["More changes than one"]
     for claim in judged(GOOD):
         assert any(claim.startswith(start) for start in starts), claim
 
@@ -254,11 +255,11 @@ def test_on_another_task_nothing_printed_is_judged() -> None:
 
 def test_strangers_have_a_place() -> None:
     rows = copy.deepcopy(GOOD)
-    rows["rows"] += [{**row("optimal", "paper", run), "method": "mine:Robot"} for run in range(20)]
+    rows["rows"] += [{**row("optimal", "rhp", run), "method": "mine:Robot"} for run in range(20)]
     rows["rows"] += [
         {**row("optimal", method, run), "human": "mine:Human"}
         for run in range(20)
-        for method in ("paper", "hrcplan")
+        for method in ("rhp", "hrcplan")
     ]
     cells = Cells("rows", OPTIONS, rows["rows"])
     section = all_means(cells)
@@ -271,19 +272,19 @@ def test_strangers_have_a_place() -> None:
 def test_differences_are_paired_by_run_and_by_goals() -> None:
     rows = [
         {**row("optimal", method, run), "first_correct": run + (method == "cdp") * (1 + run % 2)}
-        for method in ("paper", "cdp")
+        for method in ("rhp", "cdp")
         for run in range(20)
     ]
     cells = Cells(
         "rows", OPTIONS, [r for r in rows if not (r["method"] == "cdp" and r["run"] == 0)]
     )
-    gap = cells.difference("optimal", "paper", "cdp", "first_correct")
+    gap = cells.difference("optimal", "rhp", "cdp", "first_correct")
     assert gap is not None
     assert gap.n == 19
     assert gap.mean == pytest.approx(-sum(1 + run % 2 for run in range(1, 20)) / 19)
     assert -2 <= gap.low < gap.mean < gap.high <= -1
-    assert cells.difference("fixed", "paper", "cdp", "first_correct") is None
-    assert cells.difference("optimal", "paper", "cdp", "detection_delay") is None
+    assert cells.difference("fixed", "rhp", "cdp", "first_correct") is None
+    assert cells.difference("optimal", "rhp", "cdp", "detection_delay") is None
 
 
 def test_a_method_that_declares_no_changes_has_no_false_ones() -> None:
@@ -333,7 +334,8 @@ def test_the_page_needs_nothing_but_itself_and_its_names_are_unique(folder: Path
     assert titles == [
         claims.GROUP, reach.GROUP, "Figure 3: guesses and steps", "All measures",
         "Paired differences", "Time of a decision", "Humans who choose otherwise",
-        "Beyond the paper", "Two banks, two kinds of consistency", "Parts exchanged", "Readings",
+        "More changes, waits and alternatives", "Two banks, two kinds of consistency",
+        "Parts exchanged", "Readings",
     ]  # fmt: skip
 
 

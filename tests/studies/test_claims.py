@@ -15,10 +15,10 @@ from hrcplan.studies.study import Episode, StudyRow, find
 STUDY = find("failure-anticipation")
 RUNS = 6
 GOOD = {
-    ("1a", "paper"): (25, 3.75, 44.5, 14.17),
-    ("1b", "paper"): (100, 1.0, 8.5, 19.0),
-    ("2a", "paper"): (37.5, 3.1, 36.75, 21.2),
-    ("2b", "paper"): (97, 1.3, 9.0, 27.0),
+    ("1a", "replan-always"): (25, 3.75, 44.5, 14.17),
+    ("1b", "replan-always"): (100, 1.0, 8.5, 19.0),
+    ("2a", "replan-always"): (37.5, 3.1, 36.75, 21.2),
+    ("2b", "replan-always"): (97, 1.3, 9.0, 27.0),
 }
 """Success, replans, failed, and the human's successful share of cells; others get the last line."""
 OTHERS = (100, 0.6, 5.0, 45.0)
@@ -52,7 +52,8 @@ def folder(tmp_path: Path) -> Path:
             ]
             store.add(table, made)
         allocation = STUDY.table("allocation")
-        cells = [(p, at, v) for p in ("paper", "hrcplan") for at in range(3) for v in range(21)]
+        profiles = ("replan-always", "hrcplan")
+        cells = [(p, at, v) for p in profiles for at in range(3) for v in range(21)]
         store.add(allocation, [(Episode("allocation", cell, 0), share(cell)) for cell in cells])
     return tmp_path
 
@@ -79,7 +80,8 @@ def test_made_up_rows_make_all_claims_hold(folder: Path) -> None:
     assert reported == found
 
 
-PAPER = "where \"case\" = '{}' and method = 'paper'"
+PAPER = "where \"case\" = '{}' and method = 'replan-always'"
+BASELINE = "where profile = 'replan-always'"
 BENT = [
     (f"update rows set success_pct = 37.5 {PAPER.format('2b')}", claims.H1),
     (f"update rows set replans = 3.76 {PAPER.format('1b')}", claims.H1),
@@ -88,13 +90,16 @@ BENT = [
     (f"update rows set successful_human_pct = 10 {PAPER.format('1b')}", claims.H2),
     (f"update rows set successful_human_pct = 18 {PAPER.format('2b')}", claims.H2),
     (f"delete from rows {PAPER.format('1a')}", claims.H1),
-    ("update allocation set n_human = 1 where profile = 'paper' and value = 11", "Above 10"),
+    (
+        f"update allocation set n_human = 1 {BASELINE} and value = 11",
+        "Above 10",
+    ),
     ("update allocation set n_human = 1 where profile = 'hrcplan' and value = 20", "Above 10"),
     ("update allocation set n_human = 0", "Above 10"),
     ("delete from allocation where value > 10", "Above 10"),
     ("delete from allocation", "Above 10"),
-    (f"update rows set success_pct = 36 {PAPER.format('1a')}", "1a paper"),
-    (f"update rows set replans = 1.06 {PAPER.format('1b')}", "1b paper"),
+    (f"update rows set success_pct = 36 {PAPER.format('1a')}", "1a replan-always"),
+    (f"update rows set replans = 1.06 {PAPER.format('1b')}", "1b replan-always"),
     ("update rows set success_pct = 99.9 where method = 'all-fail'", "2b all-fail"),
     ("update rows set failed_pct = failed_pct + .6 where method = 'hrcplan'", "2b hrcplan"),
     ("delete from variants", "2b hrcplan"),
@@ -108,7 +113,7 @@ def test_bent_rows_make_a_claim_fail(folder: Path, statement: str, claim: str) -
 
 
 def test_of_the_papers_profile_only_the_first_change_is_judged(folder: Path) -> None:
-    statement = "update allocation set n_human = 1 where profile = 'paper' and action = 1"
+    statement = "update allocation set n_human = 1 where profile = 'replan-always' and action = 1"
     assert bend(folder, statement) == set()
 
 

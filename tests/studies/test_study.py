@@ -20,7 +20,15 @@ from hrcplan.studies.study import episodes, find
 NAME = "failure-anticipation"
 FETCH = Path(__file__).parent / "fetch"
 TASK = {"domain": str(FETCH / "domain.pddl"), "problem": str(FETCH / "four-items.pddl")}
-METHODS = ["paper", "hrcplan", "memory", "interaction", "estimated", "random-time", "all-fail"]
+METHODS = [
+    "replan-always",
+    "hrcplan",
+    "memory",
+    "interaction",
+    "estimated",
+    "random-time",
+    "all-fail",
+]
 MEASURES = {"success_pct", "replans", "failed_pct", "assigned_human_pct", "successful_human_pct",
             "makespan_s"}  # fmt: skip
 TABLES = ("rows", "variants", "sweeps", "allocation", "example")
@@ -82,7 +90,7 @@ def test_every_promised_method_is_there_on_the_papers_task() -> None:
     study = find(NAME)
     cells = study.tables[0].cells(study.options)
     assert {method for _, method in cells} == set(METHODS)
-    assert [method for case, method in cells if case == "2a"] == ["paper", "memory"]
+    assert [method for case, method in cells if case == "2a"] == ["replan-always", "memory"]
 
 
 def test_cells_are_paired() -> None:
@@ -158,7 +166,7 @@ def test_the_keys_of_the_report(tmp_path: Path) -> None:
     cases = [row["cell"]["case"] for row in document["rows"]]
     assert sorted(set(cases)) == ["1a", "1b", "2a", "2b"]
     first = {case: document["rows"][cases.index(case)]["cell"]["method"] for case in cases}
-    assert set(first.values()) == {"paper"}
+    assert set(first.values()) == {"replan-always"}
     for claim in document["claims"]:
         assert set(claim) == {"claim", "holds", "evidence"}
         assert isinstance(claim["holds"], bool)

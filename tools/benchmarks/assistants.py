@@ -1,4 +1,4 @@
-"""How long robots think, also of many goals, and what the second paper's sweep takes.
+"""How long robots think, also of many goals, and what the sweep of the changed-mind study takes.
 
 The forest is used if the user's cache folder has it, or if the environment variable
 ``HRCPLAN_BENCH_FOREST`` is set (then it is trained, in minutes); else the exact belief about sets
@@ -35,7 +35,7 @@ from hrcplan.inference.exact import ExactBelief
 from hrcplan.studies.changed_mind import STUDY, scenario
 from hrcplan.studies.study import Seed
 
-OURS, PAPERS = "hrcplan", "paper"
+OURS, PAPERS = "hrcplan", "rhp"
 PUBLISHED = (PAPERS, "recursive", "cdp", "infogain")
 HUMANS = ("fixed", "optimal", "suboptimal")
 PROMISED_MS = {PAPERS: (2, 10), OURS: (0.3, None)}  # median, 99th percentile
@@ -141,7 +141,7 @@ def rows() -> Iterator[Row]:
     if has_forest:
         yield from _sweep(bank)
     else:
-        yield Row("the paper's sweep", "not measured", "there is no forest")
+        yield Row("the changed-mind study's sweep", "not measured", "there is no forest")
     yield from _growth()
 
 
@@ -220,7 +220,7 @@ def _sweep(bank: Bank) -> Iterator[Row]:
     total = n * episodes_s / N_JOBS + max(0.0, start_s)
     parts = ", ".join(f"{method} {seconds * 1e3:.0f}" for method, seconds in each.items())
     yield Row(
-        f"the paper's sweep, {n:,} episodes on {N_JOBS} processes",
+        f"the changed-mind study's sweep, {n:,} episodes on {N_JOBS} processes",
         f"{total:,.0f} s",
         f"from {episodes_s * 1e3:.1f} ms each ({parts}), and {start_s:.1f} s to start",
         f"<= {SWEEP_S} s",

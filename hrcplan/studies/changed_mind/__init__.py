@@ -1,4 +1,4 @@
-"""The second paper: a robot that helps a human whose goal it has to infer, while it may change.
+"""The changed-mind paper: a robot infers the goal of a human, which may change, and helps.
 
 Ghose, Gitelson, Jin, Abawe, Vázquez, Scassellati: I've Changed My Mind: Robots Adapting to Changing
 Human Goals during Collaboration. The four measures of its Figure 3, its robot study (Figure 4), and
@@ -29,4 +29,5 @@ STUDY = Study(
     runs=scenario.runs,
     prepare=scenario.prepare,
     unit=episodes.UNIT,
+    renamed=dict.fromkeys(("method", "methods"), scenario.RENAMED),
 )  # fmt: skip

@@ -1,4 +1,4 @@
-"""What the paper claims, each claim judged by the rows alone; ours are in ``reach.py``.
+"""The claims of the changed-mind paper, judged by the rows alone; our aims are in ``reach.py``.
 
 A claim that lacks the rows of one of its methods or humans is not stated.
 """
@@ -6,20 +6,22 @@ A claim that lacks the rows of one of its methods or humans is not stated.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from hrcplan.studies.changed_mind import scenario
 from hrcplan.studies.changed_mind.cells import Cells
 from hrcplan.studies.changed_mind.episodes import ORACLE
-from hrcplan.studies.changed_mind.measures import MEASURES, number, shown
+from hrcplan.studies.changed_mind.measures import MEASURES
 from hrcplan.studies.estimate import Interval
+from hrcplan.studies.measure import interval_text, mean_text, number
 from hrcplan.studies.study import Claim, StudyOptions
 
-GROUP = "Claims of the paper"
+GROUP = "Claims of the changed-mind paper"
+OTHER_TASK = "Claims on this task"
 FIXED, OPTIMAL, SUBOPTIMAL = HUMANS = ("fixed", "optimal", "suboptimal")
 CHANGING = (OPTIMAL, SUBOPTIMAL)
-PAPER, RECURSIVE, BEST = "paper", "recursive", "recursive-best"
+RHP, RECURSIVE, BEST = "rhp", "recursive", "recursive-best"
 BOUNDS = ("cdp", "infogain")
 BASELINES = (RECURSIVE, *BOUNDS)
 JUDGED = "Means of paired differences, 95 % intervals"
@@ -27,9 +29,9 @@ JUDGED = "Means of paired differences, 95 % intervals"
 
 @dataclass(frozen=True, slots=True)
 class Superiority:
-    """That a method is better than each of others in a measure, for each of some humans.
+    """The claim that a method beats each of ``others`` in a measure, for each of ``humans``.
 
-    ``also`` are measures that are shown beside it, and do not decide.
+    The measures ``also`` are shown too, and do not decide.
     """
 
     claim: str
@@ -37,26 +39,24 @@ class Superiority:
     humans: tuple[str, ...]
     note: str = ""
     also: tuple[str, ...] = ()
-    ours: tuple[str, ...] = (PAPER,)
+    ours: tuple[str, ...] = (RHP,)
     others: tuple[str, ...] = BASELINES
 
 
 _STOCHASTIC = (
-    "The paper says “when the human switches goals stochastically”: one or both of the humans "
-    "whose goal changes, so each is judged by itself."
+    "The changed-mind paper says “when the human switches goals stochastically”: one or both of "
+    "the humans whose goal changes, so each is judged by itself."
 )
 AHEAD = (
     Superiority(
-        "After a change the first right guess comes sooner than with any baseline, for "
-        "both "
+        "After a change the first right guess comes sooner than with any baseline, for both "
         "humans whose goal changes",
         "first_correct",
         CHANGING,
     ),
     *(
         Superiority(
-            f"When the goal changes, the last wrong guess comes earlier than with any "
-            "baseline "
+            "When the goal changes, the last wrong guess comes earlier than with any baseline "
             f"({human} human)",
             "last_incorrect_pct",
             (human,),
@@ -66,12 +66,11 @@ AHEAD = (
         for human in CHANGING
     ),
     Superiority(
-        "When the goal is fixed, the last wrong guess of the method and of recursive "
-        "Bayes comes "
+        "When the goal is fixed, the last wrong guess of the method and of recursive Bayes comes "
         "earlier than that of CDP and information gain",
         "last_incorrect_pct",
         (FIXED,),
-        ours=(PAPER, RECURSIVE),
+        ours=(RHP, RECURSIVE),
         others=BOUNDS,
     ),
     *(
@@ -94,12 +93,12 @@ AHEAD = (
 
 def claims(options: StudyOptions, cells: Cells) -> list[Claim]:
     """Return the paper's claims; those about printed numbers on the study's own task only."""
-    found = [ahead(wanted, cells) for wanted in AHEAD]
-    found.append(bounds(cells))
-    if scenario.is_own_task(options):
-        printed = scenario.data()["printed"]
-        found += [midpoint(printed, cells), minimal(printed, cells), length(printed, cells)]
-    return [claim for claim in found if claim is not None]
+    judged = [*(ahead(one, cells) for one in AHEAD), bounds(cells)]
+    if not scenario.is_own_task(options):
+        return [replace(claim, group=OTHER_TASK) for claim in judged if claim is not None]
+    printed = scenario.data()["printed"]
+    judged += [midpoint(printed, cells), minimal(printed, cells), length(printed, cells)]
+    return [claim for claim in judged if claim is not None]
 
 
 def ahead(wanted: Superiority, cells: Cells) -> Claim | None:
@@ -146,7 +145,7 @@ def _measured(
 
 def against(found: Mapping[str, Interval]) -> str:
     """Return differences in words."""
-    return ", ".join(f"{shown(one)} against {other}" for other, one in found.items())
+    return ", ".join(f"{interval_text(one)} against {other}" for other, one in found.items())
 
 
 def _runs(n: Sequence[int]) -> str:
@@ -161,12 +160,13 @@ def bounds(cells: Cells) -> Claim | None:
     for human in CHANGING:
         for measure in names:
             for bound in BOUNDS:
-                found = differences(cells, human, bound, (PAPER, RECURSIVE), measure)
+                found = differences(cells, human, bound, (RHP, RECURSIVE), measure)
                 if found is None:
                     return None
                 n += [one.n for one in found.values()]
                 behind += [
-                    f"{human}, {MEASURES[measure].name}: {bound} {shown(one)} against {other}"
+                    f"{human}, {MEASURES[measure].name}: {bound} {interval_text(one)} "
+                    f"against {other}"
                     for other, one in found.items()
                     if MEASURES[measure].verdict(one) != "worse"
                 ]
@@ -186,11 +186,11 @@ def bounds(cells: Cells) -> Claim | None:
 def midpoint(printed: Mapping[str, Any], cells: Cells) -> Claim | None:
     """Return that with a fixed goal the last wrong guess is about the middle of the episode."""
     low, high = printed["midpoint_pct"]
-    found = {name: cells.mean(FIXED, name, "last_incorrect_pct") for name in (PAPER, RECURSIVE)}
+    found = {name: cells.mean(FIXED, name, "last_incorrect_pct") for name in (RHP, RECURSIVE)}
     had = {name: e for name, e in found.items() if e is not None}
     if len(had) < len(found):
         return None
-    words = ", ".join(f"{name} {number(e.mean)} ± {number(e.se)} %" for name, e in had.items())
+    words = ", ".join(f"{name} {mean_text(e)} %" for name, e in had.items())
     claim = (
         "When the goal is fixed, the last wrong guess of the method and of recursive Bayes is "
         "about the midpoint"
@@ -204,15 +204,15 @@ def midpoint(printed: Mapping[str, Any], cells: Cells) -> Claim | None:
 
 def minimal(printed: Mapping[str, Any], cells: Cells) -> Claim | None:
     """Return that the method's extra steps are few, for every human."""
-    found = {human: cells.mean(human, PAPER, "extra_steps") for human in HUMANS}
+    found = {human: cells.mean(human, RHP, "extra_steps") for human in HUMANS}
     had = {human: e for human, e in found.items() if e is not None}
     if len(had) < len(found):
         return None
     most = printed["minimal_steps"]
-    words = ", ".join(f"{human} {number(e.mean)} ± {number(e.se)}" for human, e in had.items())
+    words = ", ".join(f"{human} {mean_text(e)}" for human, e in had.items())
     evidence = (
         f"{words}. “Minimal” is read as less than {most:g} step. Extra steps count the human's own "
-        "mistakes too, as in the paper."
+        "mistakes too, as in the changed-mind paper."
     )
     claim = "The number of extra steps is minimal for all three humans"
     return Claim(claim, all(e.mean < most for e in had.values()), evidence, GROUP)
@@ -225,7 +225,7 @@ def length(printed: Mapping[str, Any], cells: Cells) -> Claim | None:
         return None
     mean, within = printed["combined_length"], printed["combined_within"]
     evidence = (
-        f"{number(found.mean)} ± {number(found.se)} timesteps with a robot that is told the goal "
+        f"{mean_text(found)} timesteps with a robot that is told the goal "
         f"and a human without mistakes; read as within {within:g} of the printed mean. The goals "
         "are ours: the paper does not list its own."
     )

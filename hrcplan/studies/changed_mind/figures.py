@@ -13,26 +13,26 @@ from hrcplan.studies.estimate import CONFIDENT
 from hrcplan.studies.page import keys
 
 COLORS = {
-    "paper": plots.ORANGE, "recursive": "#86cfb8", "recursive-best": plots.GREEN,
+    "rhp": plots.ORANGE, "recursive": "#86cfb8", "recursive-best": plots.GREEN,
     "cdp": plots.RED, "infogain": plots.PINK, "hrcplan": plots.BLUE, "oracle": plots.GRAY,
 }  # fmt: skip
-_STRANGERS = ("#6a4c93", "#8a6d3b", "#56b4e9", "#3d5a5a")
+_OTHERS = ("#6a4c93", "#8a6d3b", "#56b4e9", "#3d5a5a")
 BOUNDS = {"cdp": "line", "infogain": "dashed", "oracle": "dotted"}
 """Methods that are drawn as lines behind the others, as the paper draws its two bounds."""
 _LINES = {"line": "-", "dashed": (0, (4, 2)), "dotted": (0, (1, 1.5))}
 
 
 def color(method: str, methods: Sequence[str]) -> str:
-    """Return the color of a method; those that are not the study's own get the next free one."""
-    strangers = [name for name in methods if name not in COLORS]
+    """Return the color of a method; a user's own method gets the next free one."""
+    others = [name for name in methods if name not in COLORS]
     if method in COLORS:
         return COLORS[method]
-    return _STRANGERS[strangers.index(method) % len(_STRANGERS)]
+    return _OTHERS[others.index(method) % len(_OTHERS)]
 
 
 def have_colors(methods: Sequence[str]) -> bool:
-    """Whether each method has a color of its own: there are few for strangers."""
-    return sum(name not in COLORS for name in methods) <= len(_STRANGERS)
+    """Whether each method has a color of its own: there are few for users' methods."""
+    return sum(name not in COLORS for name in methods) <= len(_OTHERS)
 
 
 def without_oracle(methods: Sequence[str]) -> list[str]:

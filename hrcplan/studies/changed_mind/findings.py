@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from hrcplan.episodes.episode import REACHED
 from hrcplan.studies.changed_mind import claims, figures, reach, scenario, tables
 from hrcplan.studies.changed_mind.cells import Cells
-from hrcplan.studies.changed_mind.measures import number
-from hrcplan.studies.page import escape, panels, picture, table
+from hrcplan.studies.measure import number
+from hrcplan.studies.page import escape, panels, picture, readings, table
 from hrcplan.studies.study import Claim, Findings, Section, StudyOptions, StudyRows
 
 GUESSES = ("first_correct", "last_incorrect_step", "last_incorrect_pct", "correct_pct", "top3_pct",
@@ -25,14 +25,19 @@ PLOTTED = {
     "last_incorrect_step": "Last wrong guess",
     "extra_vs_oracle": "More steps than the oracle",
 }
-BANKS = ("paper", "paper, in order", "paper, in order, sampled")
-BESIDE = claims.PAPER
+BESIDE = claims.RHP
+BANKS = (BESIDE, f"{BESIDE}, in order", f"{BESIDE}, in order, sampled")
+READINGS = (
+    "the goals and their steps, what a sequence of the classifier is, which history counts as "
+    "consistent, what the baselines' likelihoods are, what a mistake is and when the goal changes"
+)
 LEAD = (
     "A human and a robot take turns at one task. The robot is not told the human's goal, which may "
-    "change on the way; it infers the goal from the human's actions and helps meanwhile. <em>paper"
-    "</em> is the paper's method as we read it, <em>recursive</em> is recursive Bayes as printed, "
-    "<em>recursive-best</em> the same at its best setting, <em>cdp</em> and <em>infogain</em> are "
-    "made for fixed goals, <em>hrcplan</em> is ours, and <em>oracle</em> is told the goal."
+    "change on the way; it infers the goal from the human's actions and helps meanwhile. "
+    "<em>rhp</em> is the method of the changed-mind paper, <em>recursive</em> is recursive Bayes "
+    "as printed, <em>recursive-best</em> the same at its best setting, <em>cdp</em> and "
+    "<em>infogain</em> are made for fixed goals, <em>hrcplan</em> is this package's own method, and "
+    "<em>oracle</em> is told the goal."
 )
 COLORED = (
     '<span class="in">Green</span>: better with 95 % confidence, '
@@ -42,19 +47,20 @@ COLORED = (
 
 def findings(options: StudyOptions, rows: StudyRows) -> Findings:
     """Return claims and sections; what has no rows is left out."""
-    found = {name: Cells(name, options, had) for name, had in rows.items()}
-    main, beyond = found[scenario.MAIN], found["beyond"]
+    cells = {name: Cells(name, options, of_table) for name, of_table in rows.items()}
+    main, beyond = cells[scenario.MAIN], cells["beyond"]
     sections = [
-        figure_3(main), all_means(main), differences(main), decisions(main),
-        other_choosers(found["choosers"]), more_than_paper(beyond),
-        banks(found["variants"]), exchanged(found["variants"]), readings(),
+        guesses_and_steps(main, scenario.is_own_task(options)),
+        all_means(main), differences(main), decisions(main),
+        other_choosers(cells["choosers"]), more_changes(beyond),
+        banks(cells["variants"]), exchanged(cells["variants"]), readings(READINGS),
     ]  # fmt: skip
     stated = judged(options, main, beyond)
     return Findings(LEAD, stated, [section for section in sections if section is not None])
 
 
 def judged(options: StudyOptions, main: Cells, beyond: Cells) -> list[Claim]:
-    """Return the paper's claims, and on the study's own task what we want to reach."""
+    """Return the paper's claims, and on the study's own task the aims for hrcplan."""
     stated = claims.claims(options, main)
     return [*stated, *(reach.claims(main, beyond) if scenario.is_own_task(options) else ())]
 
@@ -73,12 +79,12 @@ def how_many(cells: Cells) -> str:
     return f"n per method: {'; '.join(words)}."
 
 
-def figure_3(cells: Cells) -> Section | None:
-    """Return the four panels of the paper's Figure 3, and one in timesteps."""
+def guesses_and_steps(cells: Cells, is_own_task: bool) -> Section | None:
+    """Return guesses and steps by human and method, as in Figure 3 of the changed-mind paper."""
     if not cells.rows:
         return None
     changing = [human for human in cells.humans if scenario.human_data(human)["changes"]]
-    wanted = [
+    panel_of = [
         ("first_correct", "a: First right guess after a change", changing),
         ("last_incorrect_pct", "b: Last wrong guess", cells.humans),
         ("last_incorrect_step", "b: the same, in timesteps", cells.humans),
@@ -86,12 +92,16 @@ def figure_3(cells: Cells) -> Section | None:
         ("correct_pct", "d: Right guesses", cells.humans),
         ("wasted_robot_steps", "Wasted robot steps", cells.humans),
     ]
-    drawn = [figures.bars(cells, humans, name, title) for name, title, humans in wanted if humans]
+    svgs = [figures.bars(cells, humans, name, title) for name, title, humans in panel_of if humans]
     caption = (
-        "a to d as in the paper; lines are what it calls empirical bounds, and the oracle. Means "
-        f"over pairs of goals ± one standard error. {how_many(cells)} The paper prints no numbers "
-        "for this figure, so none stand beside ours."
+        "Lines: methods for fixed goals, and the oracle. Means over pairs of goals ± one standard "
+        f"error. {how_many(cells)}"
     )
+    if is_own_task:
+        caption += (
+            " Panels a to d are those of the paper's Figure 3; the paper prints no numbers for it, "
+            "so none stand beside ours."
+        )
     words = (
         "<p>Percentages of the episode flatter a robot that wastes steps: it makes the episode "
         "longer, so the same last wrong guess comes at a smaller percentage, and the human, who "
@@ -99,7 +109,8 @@ def figure_3(cells: Cells) -> Section | None:
         "the wasted steps.</p>"
     )
     keys = figures.legend(cells.methods, lines=True)
-    return Section("Figure 3: guesses and steps", words + panels(drawn, caption, keys))
+    title = "Figure 3: guesses and steps" if is_own_task else "Guesses and steps"
+    return Section(title, words + panels(svgs, caption, keys))
 
 
 def all_means(cells: Cells) -> Section | None:
@@ -142,7 +153,7 @@ def _note(text: str) -> str:
 
 
 def differences(cells: Cells) -> Section | None:
-    """Return paired differences to the paper's method, and of ours to the best baseline."""
+    """Return paired differences to rhp, and of hrcplan to the best baseline."""
     parts = []
     for human in cells.humans:
         had = cells.methods_of(human)
@@ -178,7 +189,8 @@ def decisions(cells: Cells) -> Section | None:
     note = (
         "Measured by the clock while the rows were made, with whatever else the machine did: the "
         "only figures here that the same seed does not give again. Mean over episodes of the mean "
-        f"time of a decision. The paper reports {low} to {high} s on an NVIDIA RTX 4090."
+        f"time of a decision. The changed-mind paper reports {low} to {high} s on an NVIDIA RTX "
+        "4090."
     )
     html = table(
         ["", *(f"{escape(human)}<small>ms</small>" for human in cells.humans)], lines, "narrow"
@@ -187,22 +199,22 @@ def decisions(cells: Cells) -> Section | None:
 
 
 def other_choosers(cells: Cells) -> Section | None:
-    """Return humans that choose otherwise than our belief assumes."""
+    """Return humans that choose in other ways than hrcplan's belief assumes."""
     words = (
-        "Our belief assumes that the human takes any useful next step with equal probability. "
-        "These humans do not: <em>cc-htn</em> follows a network of chains and cliques, as in the "
-        "paper; <em>plans</em> follows any plan of its goal, all plans alike."
+        "The belief of hrcplan assumes that the human takes any useful next step with equal "
+        "probability. These humans do not: <em>cc-htn</em> follows a network of chains and "
+        "cliques; <em>plans</em> follows any plan of its goal, all plans alike."
     )
     return _beside("Humans who choose otherwise", words, cells, "choosers")
 
 
-def more_than_paper(cells: Cells) -> Section | None:
+def more_changes(cells: Cells) -> Section | None:
     """Return humans who change their goal more often, wait, or have alternatives."""
     words = (
         "More changes than one, humans who wait, and goals that can be reached by different sets "
         "of steps. The first right guess is the mean over changes."
     )
-    found = _beside("Beyond the paper", words, cells, "beyond")
+    found = _beside("More changes, waits and alternatives", words, cells, "beyond")
     if found is None:
         return None
     parts = {human: reach.n_changes(human) for human in cells.humans}
@@ -212,7 +224,7 @@ def more_than_paper(cells: Cells) -> Section | None:
 
 
 def _beside(title: str, words: str, cells: Cells, name: str) -> Section | None:
-    """Return plots of a table, and per human its means with differences to the paper's method."""
+    """Return plots of a table, and per human its means with differences to rhp."""
     if not cells.rows:
         return None
     drawn = [figures.dots(cells, measure, text, name) for measure, text in PLOTTED.items()]
@@ -229,17 +241,18 @@ def _beside(title: str, words: str, cells: Cells, name: str) -> Section | None:
 
 
 def banks(cells: Cells) -> Section | None:
-    """Return what the bank and the order of steps do to the paper's detection of changes."""
+    """Return how bank and order of steps affect the detection of changes by rhp."""
     had = [method for method in BANKS if method in cells.methods]
     if len(had) < 2:
         return None
     names = ("false_changes", "false_before", "n_detected", "detection_delay", "correct_pct",
              "wasted_robot_steps")  # fmt: skip
     parts = [
-        "<p>The paper calls a history consistent if a policy of the bank has its actions in any "
-        "order (<em>paper</em>, the reading taken), and elsewhere if it is a subsequence of one "
-        "(<em>in order</em>); its bank holds 10,000 sampled sequences per goal, not all plans "
-        "(<em>sampled</em>). A false change is one that is declared though the goal stayed.</p>",
+        "<p>The changed-mind paper calls a history consistent if a policy of the bank has its "
+        "actions in any order (<em>rhp</em>, the reading chosen), and elsewhere if it is a "
+        "subsequence of one (<em>in order</em>); its bank holds 10,000 sampled sequences per goal, "
+        "not all plans (<em>sampled</em>). A false change is one that is declared though the goal "
+        "stayed.</p>",
         _false_ones(cells, had),
     ]
     for human in cells.humans:
@@ -264,7 +277,7 @@ def _false_ones(cells: Cells, methods: Sequence[str]) -> str:
 
 
 def exchanged(cells: Cells) -> Section | None:
-    """Return the paper's method with one part or number exchanged, and ours likewise."""
+    """Return rhp with one part or number exchanged, and hrcplan too."""
     had = [method for method in cells.methods if method not in BANKS[1:]]
     if not had:
         return None
@@ -273,11 +286,11 @@ def exchanged(cells: Cells) -> Section | None:
     caption = f"Means over pairs of goals, 95 % intervals; dots: {filled}. {how_many(cells)}"
     svg = figures.variants(cells, ("correct_pct", "false_changes", "wasted_robot_steps"))
     parts = [
-        "<p><em>our belief</em>: the robot acts as in the paper, but guesses by our filter; "
-        "<em>our steps</em>: the belief is theirs, but the robot takes the step that is most "
-        "likely to be useful. <em>sequences</em>: how many candidate sequences are kept (3 in the "
-        "paper). <em>exact belief</em>: counted in the bank, not learnt by a forest. <em>looks "
-        "ahead</em>: our robot also weighs what the human's answer would tell.</p>",
+        "<p><em>our belief</em>: the robot chooses steps as <em>rhp</em> does, but guesses by the "
+        "filter of <em>hrcplan</em>; <em>our steps</em>: the other way round. <em>sequences</em>: "
+        "the number of candidate sequences (3 in <em>rhp</em>). <em>exact belief</em>: counted in "
+        "the bank, not learnt by a forest. <em>looks ahead</em>: <em>hrcplan</em> also weighs what "
+        "the human's next action would tell.</p>",
         picture(svg, caption),
     ]
     for human in cells.humans:
@@ -287,16 +300,3 @@ def exchanged(cells: Cells) -> Section | None:
             parts.append(tables.both(cells, human, COMPACT[:-1], BESIDE, methods))
     parts.append(_note(f"Below the means: paired differences to <em>{BESIDE}</em>. {COLORED}"))
     return Section("Parts exchanged", "\n".join(parts))
-
-
-def readings() -> Section:
-    """Return where the readings are explained."""
-    words = (
-        "<p>Where the paper is silent a reading was taken: the goals and their steps, what a "
-        "sequence of the classifier is, which history counts as consistent, what the baselines' "
-        "likelihoods are, what a mistake is and when the goal changes. "
-        "<code>docs/reproduce.md</code> lists all of them with their reasons. A claim that lacks "
-        "the rows of one of its methods or humans is not stated. Every number but the times can be "
-        "computed again from <code>rows.sqlite</code>, one row per episode.</p>"
-    )
-    return Section("Readings", words)

@@ -1,4 +1,4 @@
-"""What we want to reach, with the numbers of ``scenario.toml``; judged on its own task only."""
+"""The aims for hrcplan, with the numbers of ``scenario.toml``; judged on its own task only."""
 
 from __future__ import annotations
 
@@ -7,11 +7,12 @@ from typing import Any
 
 from hrcplan.studies.changed_mind import scenario
 from hrcplan.studies.changed_mind.cells import Cells
-from hrcplan.studies.changed_mind.measures import MEASURES, number, shown
+from hrcplan.studies.changed_mind.measures import MEASURES
 from hrcplan.studies.estimate import Interval, MeanEstimate
+from hrcplan.studies.measure import interval_text, mean_text, number
 from hrcplan.studies.study import Claim
 
-GROUP = "What we want to reach"
+GROUP = "Aims of hrcplan"
 
 
 def claims(main: Cells, beyond: Cells) -> list[Claim]:
@@ -32,7 +33,7 @@ def wanted(one: Mapping[str, Any], method: str, cells: Cells) -> Claim | None:
     name, unit = MEASURES[measure].name, MEASURES[measure].unit
     start = f"{human}: {name} ({unit})"
     if "most" in one:
-        evidence = f"{_mean(ours)}; n = {cells.n_runs(human, method):,}"
+        evidence = f"{mean_text(ours)}; n = {cells.n_runs(human, method):,}"
         return Claim(f"{start} at most {one['most']:g}", ours.mean <= one["most"], evidence, GROUP)
     theirs = cells.mean(human, one["beside"], measure)
     gap = cells.difference(human, method, one["beside"], measure)
@@ -40,8 +41,8 @@ def wanted(one: Mapping[str, Any], method: str, cells: Cells) -> Claim | None:
         return None
     goal, holds = _judged(one, ours, theirs, gap)
     evidence = (
-        f"{_mean(ours)} beside {_mean(theirs)} ({_share(ours, theirs)}); paired difference "
-        f"{shown(gap)}, n = {gap.n:,}"
+        f"{mean_text(ours)} beside {mean_text(theirs)} ({_share(ours, theirs)}); paired difference "
+        f"{interval_text(gap)}, n = {gap.n:,}"
     )
     return Claim(f"{start} {goal}", holds, evidence, GROUP)
 
@@ -63,10 +64,6 @@ def _judged(
         return f"at least {one['over']:g} above {whose}", gap.mean >= one["over"]
     is_worse = MEASURES[one["measure"]].verdict(gap) == "worse"
     return f"no worse than {whose}", gap.is_known and not is_worse
-
-
-def _mean(e: MeanEstimate) -> str:
-    return f"{number(e.mean)} ± {number(e.se)}"
 
 
 def _share(ours: MeanEstimate, theirs: MeanEstimate) -> str:
@@ -101,12 +98,12 @@ def _worse(
     measure: str, other: str, gap: Interval, human: str, data: Mapping[str, Any], cells: Cells
 ) -> str:
     """Return where a baseline is better, and why if a reason is known and the rows bear it out."""
-    text = f"{MEASURES[measure].name} {shown(gap)} against {other}"
+    text = f"{MEASURES[measure].name} {interval_text(gap)} against {other}"
     for reason in data["reasons"]:
         if reason["measure"] == measure and other in reason["beside"]:
             price = cells.difference(human, other, data["method"], reason["pays"])
             if price is not None and MEASURES[reason["pays"]].verdict(price) == "worse":
-                text += f" (a likely reason: {reason['why']}, {shown(price)})"
+                text += f" (a likely reason: {reason['why']}, {interval_text(price)})"
     return text
 
 
@@ -121,7 +118,7 @@ def waste(data: Mapping[str, Any], beyond: Cells) -> Claim | None:
     n = [e.n for e in had.values()]
     words = "; ".join(f"{human}: {number(mean)}" for human, mean in per_change.items())
     many = f"{min(n):,}" if min(n) == max(n) else f"{min(n):,} to {max(n):,}"
-    claim = f"Beyond the paper: at most {most:g} wasted robot step per change of goal"
+    claim = f"More changes than one: at most {most:g} wasted robot step per change of goal"
     evidence = f"{words}. Means over {many} pairs of goals each."
     return Claim(claim, all(mean <= most for mean in per_change.values()), evidence, GROUP)
 

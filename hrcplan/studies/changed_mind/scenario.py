@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import json
 import random
-import tomllib
 from collections.abc import Mapping
-from functools import cache, lru_cache
+from functools import lru_cache
 from itertools import permutations
 from pathlib import Path
 from typing import Any
@@ -21,7 +19,7 @@ from hrcplan.errors import UsageError
 from hrcplan.inference.classifier.forest import ForestBelief
 from hrcplan.inference.registry import METHODS
 from hrcplan.pddl.conventions import people, robots
-from hrcplan.pddl.write import domain_text, problem_text
+from hrcplan.studies.scenario import Scenario
 from hrcplan.studies.study import Cell, Say, Seed, StudyOptions
 
 HERE = Path(__file__).parent
@@ -30,22 +28,11 @@ SPREAD = 4  # further changes come within the time that a fraction of the goal's
 
 ADDED = ("methods", "humans")
 """Options that name more than one part, with commas between."""
+RENAMED = {"paper": "rhp"}
+"""Methods by their names in earlier versions."""
 
-
-@cache
-def data() -> Mapping[str, Any]:
-    """Return the whole file."""
-    return tomllib.loads((HERE / "scenario.toml").read_text(encoding="utf-8"))
-
-
-def defaults() -> dict[str, str]:
-    """Return the task that the study is about; methods and humans are all of the study's own."""
-    return {**data()["task"], **dict.fromkeys(ADDED, "")}
-
-
-def is_own_task(options: StudyOptions) -> bool:
-    """Whether the options name the task that the file was written for."""
-    return all(options[key] == value for key, value in data()["task"].items())
+SCENARIO = Scenario(HERE, ADDED)
+data, defaults, is_own_task = SCENARIO.data, SCENARIO.defaults, SCENARIO.is_own_task
 
 
 # Cells.
@@ -66,11 +53,11 @@ def humans(table: str, options: StudyOptions) -> list[str]:
 
 
 def chosen(wanted: str, own: list[str]) -> list[str]:
-    """Return which parts are compared: those that are named, or all of our own and strangers'.
+    """Return the parts that are compared: those named, or the study's own and the user's.
 
-    >>> chosen("paper,mine:Robot", ["paper", "cdp"]), chosen("mine:Robot", ["paper", "cdp"])
-    (['paper', 'mine:Robot'], ['paper', 'cdp', 'mine:Robot'])
-    >>> chosen("oracle", ["paper", "cdp"])
+    >>> chosen("rhp,mine:Robot", ["rhp", "cdp"]), chosen("mine:Robot", ["rhp", "cdp"])
+    (['rhp', 'mine:Robot'], ['rhp', 'cdp', 'mine:Robot'])
+    >>> chosen("oracle", ["rhp", "cdp"])
     ['oracle']
     """
     named = parted(wanted)
@@ -81,8 +68,8 @@ def chosen(wanted: str, own: list[str]) -> list[str]:
 def parted(text: str) -> list[str]:
     """Return the names in a text with commas between; those of the study may have some themselves.
 
-    >>> parted("paper, in order,mine:Robot"), parted("paper,oracle")
-    (['paper, in order', 'mine:Robot'], ['paper', 'oracle'])
+    >>> parted("rhp, in order,mine:Robot"), parted("rhp,oracle")
+    (['rhp, in order', 'mine:Robot'], ['rhp', 'oracle'])
     """
     found: list[str] = []
     longest_first = sorted((name for key in ADDED for name in data()[key]), key=len, reverse=True)
@@ -148,17 +135,16 @@ def task_of(options: StudyOptions, human: str) -> tuple[str, str]:
 
 
 def human_data(name: str) -> Mapping[str, Any]:
-    """Return what is said of a human; somebody's own is one whose goal changes once."""
+    """Return what is said of a human; a user's own is one whose goal changes once."""
     found: Mapping[str, Any] = data()["humans"].get(name, {"changes": 1, "chooser": name})
     return found
 
 
 def human(name: str, bank: Bank, course: Course, options: StudyOptions) -> EpisodeHuman:
     """Return a human who follows a course."""
-    made: EpisodeHuman = HUMANS.find(human_data(name).get("chooser", options["chooser"]))(
-        bank, course
-    )
-    return made
+    chooser = HUMANS.find(human_data(name).get("chooser", options["chooser"]))
+    follower: EpisodeHuman = chooser(bank, course)
+    return follower
 
 
 @lru_cache(maxsize=32)
@@ -199,28 +185,25 @@ def _learns(method: str) -> bool:
 
 @lru_cache(maxsize=4)
 def world(name: str, domain: str, goals: str) -> TurnWorld:
-    """Return where episodes happen; each begins it anew."""
-    made: TurnWorld = WORLDS.find(name)(bank_of(domain, goals))
-    return made
+    """Return the world of the episodes; each episode resets it."""
+    shared: TurnWorld = WORLDS.find(name)(bank_of(domain, goals))
+    return shared
 
 
 def inputs(options: StudyOptions) -> str:
-    """Return domain and problems of the study, and what its file says of cells and courses.
+    """Return what rows depend on: tables of the file, the problems, and their goals.
 
     Raises:
         UsageError: if something that options name cannot be found, or is nothing to study.
     """
     check(options)
-    own = {key: data()[key] for key in ("study", "humans", "methods", "tables")}
-    found = dict.fromkeys(
+    tasks = dict.fromkeys(
         task_of(options, name) for table in data()["tables"] for name in humans(table, options)
     )
-    texts = []
-    for task in found:
-        goals = bank_of(*task).goals
-        texts += [domain_text(goals.problem.domain), problem_text(goals.problem)]
-        texts += [*goals.names, *map(str, goals.formulas)]
-    return json.dumps([own, *texts], sort_keys=True)
+    goals = [bank_of(*task).goals for task in tasks]
+    texts = [text for one in goals for text in (*one.names, *map(str, one.formulas))]
+    keys = ("study", "humans", "methods", "tables")
+    return SCENARIO.inputs(keys, [one.problem for one in goals], texts)
 
 
 # Courses.

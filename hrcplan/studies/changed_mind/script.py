@@ -18,6 +18,7 @@ from hrcplan.episodes.episode import EpisodeTurn, play
 from hrcplan.episodes.humans import Course, Scripted
 from hrcplan.errors import InputError
 from hrcplan.studies.changed_mind import scenario
+from hrcplan.studies.study import present_name
 
 SHIPPED = ("golden",)
 TOP = 3
@@ -103,10 +104,11 @@ def episodes(script: Mapping[str, Any], methods: Sequence[str] = ()) -> list[Nar
     wanted = tuple(_goal(bank, goal) for goal in script["wanted"])
     course = Course(wanted, tuple(script["change_turns"]), seed=str(script.get("seed", "")))
     steps = [_step(bank, text) for text in script["human"]]
-    for name in script["methods"] if not methods else ():
+    names = methods or script["methods"]
+    chosen = [present_name(name, scenario.RENAMED) for name in names]
+    for name in chosen if not methods else ():
         if name not in scenario.data()["methods"]:
             ASSISTANTS.find_listed(name)  # a script must not choose which code runs
-    chosen = methods or script["methods"]
     robots = {method: scenario.robot(method, *task) for method in chosen}
     return [_played(name, robot, bank, course, steps) for name, robot in robots.items()]
 

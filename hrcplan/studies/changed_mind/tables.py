@@ -7,8 +7,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from hrcplan.studies.changed_mind import figures
 from hrcplan.studies.changed_mind.cells import Cells
 from hrcplan.studies.changed_mind.episodes import ORACLE
-from hrcplan.studies.changed_mind.measures import MEASURES, ends, head, number, shown, signed
+from hrcplan.studies.changed_mind.measures import MEASURES
 from hrcplan.studies.estimate import CONFIDENT, Interval, MeanEstimate
+from hrcplan.studies.measure import ends, interval_text, mean_html, number, signed
 from hrcplan.studies.page import escape, key, table
 
 NOTHING = "\u2013"
@@ -21,7 +22,7 @@ def means(cells: Cells, human: str, measures: Sequence[str]) -> str:
         [named(cells, method), *(_mean(cells.mean(human, method, name)) for name in measures)]
         for method in cells.methods_of(human)
     ]
-    return table(["", *map(head, measures)], lines)
+    return table(["", *(MEASURES[name].head for name in measures)], lines)
 
 
 def named(cells: Cells, method: str) -> str:
@@ -36,11 +37,7 @@ def _mean(e: MeanEstimate | None) -> str:
         return NOTHING
     half = CONFIDENT * e.se
     interval = f"{number(e.mean - half)} to {number(e.mean + half)}" if e.n > 1 else "n = 1"
-    return f"{_short(e)}<small>{interval}</small>"
-
-
-def _short(e: MeanEstimate) -> str:
-    return f'{number(e.mean)} <span class="se">± {number(e.se)}</span>'
+    return f"{mean_html(e)}<small>{interval}</small>"
 
 
 def ratios(cells: Cells, measure: str, parts: Mapping[str, float]) -> str:
@@ -63,14 +60,7 @@ def gaps(cells: Cells, human: str, measures: Sequence[str], beside: str) -> str:
         for method in cells.methods_of(human)
         if method != beside
     ]
-    return table(["", *map(_goal, measures)], lines, "tight")
-
-
-def _goal(measure: str) -> str:
-    """Return the head of a column of differences, which says which way is better."""
-    found = MEASURES[measure]
-    way = {True: "more is better", False: "less is better", None: ""}[found.more_is_better]
-    return f"{found.head}<small>{found.unit}</small><small>{way}</small>"
+    return table(["", *(MEASURES[name].directed_head for name in measures)], lines, "tight")
 
 
 def _gap(measure: str, gap: Interval | None, name: str = "") -> str:
@@ -97,7 +87,7 @@ def best(
             other = _best(cells, human, name, baselines)
             line.append(_gap(name, cells.difference(human, ours, other, name), other))
         lines.append(line)
-    return table(["", *map(_goal, measures)], lines, "tight")
+    return table(["", *(MEASURES[name].directed_head for name in measures)], lines, "tight")
 
 
 def _best(cells: Cells, human: str, measure: str, baselines: Iterable[str]) -> str:
@@ -122,13 +112,13 @@ def both(
             e = cells.mean(human, method, name)
             is_alone = method in (beside, ORACLE)
             gap = None if is_alone else cells.difference(human, method, beside, name)
-            line.append(NOTHING if e is None else _short(e) + _below(name, gap))
+            line.append(NOTHING if e is None else mean_html(e) + _below(name, gap))
         lines.append(line)
-    return table(["", *map(head, measures)], lines, "tight")
+    return table(["", *(MEASURES[name].head for name in measures)], lines, "tight")
 
 
 def _below(measure: str, gap: Interval | None) -> str:
     if gap is None:
         return ""
     verdict = MEASURES[measure].verdict(gap)
-    return f'<small class="{_MARKS[verdict]}">{shown(gap)}</small>'
+    return f'<small class="{_MARKS[verdict]}">{interval_text(gap)}</small>'

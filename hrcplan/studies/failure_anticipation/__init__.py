@@ -1,4 +1,4 @@
-"""The first paper: plans that fail less because the state of the human is part of their cost.
+"""The failure-anticipation paper: plans fail less because their cost includes the human's state.
 
 Izquierdo-Badiola, Canal, Rizzo, Alenyà: Improved Task Planning through Failure Anticipation in
 Human-Robot Collaboration. Cases 1a to 2b of its Table I, its Figure 5, and what goes beyond it;
@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from hrcplan.studies.failure_anticipation import episodes, scenario
+from hrcplan.studies.failure_anticipation import episodes, measures, scenario
 from hrcplan.studies.failure_anticipation.findings import findings
 from hrcplan.studies.study import Study, StudyTable
 
@@ -29,11 +29,10 @@ STUDY = Study(
         StudyTable("example", ("variant",), episodes.TOLD,
               episodes.example_cells, episodes.shown, at_most=1),
     ),
-    measures=("success_pct", "replans", "failed_pct", "assigned_human_pct",
-              "successful_human_pct", "makespan_s"),
-    details=("assigned_robot_pct", "successful_robot_pct", "replans_change", "replans_failure",
-             "replans_deviation", "plans_confirmed", "interactions"),
+    measures=measures.MAIN,
+    details=measures.DETAILS,
     options=scenario.defaults(),
     findings=findings,
     inputs=scenario.inputs,
+    renamed={key: {"paper": "replan-always"} for key in ("method", "profile")},
 )  # fmt: skip

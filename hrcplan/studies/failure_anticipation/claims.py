@@ -1,42 +1,37 @@
-"""What the rows show to hold: the paper's hypotheses, its Figure 5, and what we want to reach."""
+"""Claims about the rows: the hypotheses and Figure 5 of the paper, and the aims for hrcplan."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from hrcplan.agents.state import MOST
 from hrcplan.studies.estimate import CONFIDENT, MeanEstimate, difference
 from hrcplan.studies.failure_anticipation import scenario
+from hrcplan.studies.failure_anticipation.measures import MEASURES
+from hrcplan.studies.measure import difference_text, number
 from hrcplan.studies.report import estimates
 from hrcplan.studies.study import Claim, StudyOptions, StudyRow, StudyRows
 
-NAMES = {
-    "success_pct": "success",
-    "replans": "replans",
-    "failed_pct": "failed",
-    "assigned_human_pct": "assigned to the human",
-    "assigned_robot_pct": "assigned to the robot",
-    "successful_human_pct": "human's successful share",
-    "successful_robot_pct": "robot's successful share",
-    "makespan_s": "makespan",
-}
-UNITS = {"makespan_s": " s", "replans": ""}
 H1 = "H1: the model raises success and lowers failed actions and replans"
-PAPER, OURS = "Claims of the paper", "What we want to reach"
+BASELINE = "replan-always"
+"""The method of the failure-anticipation paper, and its profile."""
+PAPER, AIMS = "Claims of the failure-anticipation paper", "Aims of hrcplan"
+OTHER_TASK = "Claims on this task"
 H2 = "H2: with the model the human contributes more, and fails less"
 
 
 def claims(options: StudyOptions, rows: StudyRows) -> list[Claim]:
     """Return all claims, each judged by the rows alone."""
-    found = [hypothesis_1(rows), hypothesis_2(rows)]
-    found += [
+    stated = [hypothesis_1(rows), hypothesis_2(rows)]
+    stated += [
         switch(options, profile, rows["allocation"])
         for profile in scenario.data()["allocation"]["profiles"]
     ]
     if scenario.is_own_task(options):
-        found += [reach(wanted, rows) for wanted in reaches(options)]
-    return found
+        return [*stated, *(reach(aim, rows) for aim in aims(options))]
+    return [replace(claim, group=OTHER_TASK) for claim in stated]
 
 
 def of_cell(rows: Iterable[StudyRow], case: str, method: str) -> list[StudyRow]:
@@ -45,14 +40,14 @@ def of_cell(rows: Iterable[StudyRow], case: str, method: str) -> list[StudyRow]:
 
 
 def by_run(rows: Iterable[StudyRow], measure: str) -> dict[int, float]:
-    """Return a measure by the number of the run."""
+    """Return the values of a measure by the number of the run."""
     return {int(row["run"] or 0): float(row[measure] or 0) for row in rows}
 
 
 def effect(rows: Sequence[StudyRow], case: str, measure: str) -> MeanEstimate:
-    """Return what the model changes in case 1 or 2: paired runs of the paper's profile, b - a."""
+    """Return the effect of the model in case 1 or 2: paired differences b - a of the baseline."""
     ours, theirs = (
-        by_run(of_cell(rows, f"{case}{letter}", "paper"), measure)
+        by_run(of_cell(rows, f"{case}{letter}", BASELINE), measure)
         for letter in (scenario.WITH_MODEL, scenario.WITHOUT_MODEL)
     )
     return difference(ours, theirs)
@@ -62,10 +57,11 @@ def hypothesis_1(rows: StudyRows) -> Claim:
     """Return H1: success up, failed actions and replans down, in both cases."""
     holds, words = True, []
     for case in "12":
-        found = {m: effect(rows["rows"], case, m) for m in ("success_pct", "failed_pct", "replans")}
-        holds &= found["success_pct"].is_above_zero
-        holds &= found["failed_pct"].is_below_zero and found["replans"].is_below_zero
-        words.append(f"case {case}: {_changes(found)}")
+        names = ("success_pct", "failed_pct", "replans")
+        effects = {m: effect(rows["rows"], case, m) for m in names}
+        holds &= effects["success_pct"].is_above_zero
+        holds &= effects["failed_pct"].is_below_zero and effects["replans"].is_below_zero
+        words.append(f"case {case}: {_changes(effects)}")
     evidence = f"{'; '.join(words)}. Means of b minus a over pairs of runs, ± standard error."
     return Claim(H1, holds, evidence, PAPER)
 
@@ -74,31 +70,27 @@ def hypothesis_2(rows: StudyRows) -> Claim:
     """Return H2: fewer failures, a larger human share, and more of it the more the human can do."""
     holds, words = True, []
     for case in "12":
-        found = {m: effect(rows["rows"], case, m) for m in ("failed_pct", "successful_human_pct")}
-        holds &= found["failed_pct"].is_below_zero
-        holds &= found["successful_human_pct"].is_above_zero
-        words.append(f"case {case}: {_changes(found)}")
+        effects = {m: effect(rows["rows"], case, m) for m in ("failed_pct", "successful_human_pct")}
+        holds &= effects["failed_pct"].is_below_zero
+        holds &= effects["successful_human_pct"].is_above_zero
+        words.append(f"case {case}: {_changes(effects)}")
     able, unable = (
-        by_run(of_cell(rows["rows"], case, "paper"), "successful_human_pct")
+        by_run(of_cell(rows["rows"], case, BASELINE), "successful_human_pct")
         for case in ("2b", "1b")
     )
     more = difference(able, unable)
     holds &= more.is_above_zero
-    words.append(f"the human's share is {_signed(more)} points larger in 2b than in 1b")
+    words.append(f"the human's share is {difference_text(more)} points larger in 2b than in 1b")
     evidence = f"{'; '.join(words)}. Means of b minus a over pairs of runs, ± standard error."
     return Claim(H2, holds, evidence, PAPER)
 
 
-def _changes(found: Mapping[str, MeanEstimate]) -> str:
+def _changes(effects: Mapping[str, MeanEstimate]) -> str:
     texts = [
-        f"{NAMES[name]} {_signed(e)}{'' if name == 'replans' else ' points'}"
-        for name, e in found.items()
+        f"{MEASURES[name].name} {difference_text(e)}{'' if name == 'replans' else ' points'}"
+        for name, e in effects.items()
     ]
-    return f"{', '.join(texts)} (n = {min(e.n for e in found.values())})"
-
-
-def _signed(e: MeanEstimate) -> str:
-    return f"{e.mean:+.2f} ± {e.se:.2f}".replace("-", "\u2212")
+    return f"{', '.join(texts)} (n = {min(e.n for e in effects.values())})"
 
 
 def switch(options: StudyOptions, profile: str, rows: Iterable[StudyRow]) -> Claim:
@@ -109,14 +101,14 @@ def switch(options: StudyOptions, profile: str, rows: Iterable[StudyRow]) -> Cla
     """
     points = [row for row in rows if row["profile"] == profile]
     changes = sorted({int(row["action"] or 0) for row in points})
-    judged = changes[:1] if profile == "paper" else changes
+    judged = changes[:1] if profile == BASELINE else changes
     thresholds = {at: last_with_human(points, at) for at in changes}
-    when = "known before the first action" if profile == "paper" else "at any time"
+    when = "known before the first action" if profile == BASELINE else "at any time"
     text = f"Above {MOST} all actions go to the robot ({profile} profile, change {when})"
     holds = bool(judged) and all(_switches(thresholds[at], points, at) for at in judged)
     words = [f"{_until(thresholds[at], points)} (before action {at + 1})" for at in changes]
     evidence = f"The human gets actions {', '.join(words)}." if words else "no rows"
-    return Claim(text, holds, evidence, PAPER if profile == "paper" else OURS)
+    return Claim(text, holds, evidence, PAPER if profile == BASELINE else AIMS)
 
 
 def last_with_human(points: Iterable[StudyRow], at: int) -> int | None:
@@ -138,51 +130,51 @@ def _until(last: int | None, points: Iterable[StudyRow]) -> str:
     return f"at all values up to {most}" if last == most else f"up to {last}"
 
 
-def reaches(options: StudyOptions) -> Iterator[Mapping[str, Any]]:
-    """Yield what is wanted of cells that the study has."""
-    known = set(scenario.cells("methods", options))
-    yield from (w for w in scenario.data()["reach"] if tuple(w["cell"]) in known)
+def aims(options: StudyOptions) -> Iterator[Mapping[str, Any]]:
+    """Yield the aims for cells that the study has."""
+    cells = set(scenario.cells("methods", options))
+    yield from (aim for aim in scenario.data()["reach"] if tuple(aim["cell"]) in cells)
 
 
-def reach(wanted: Mapping[str, Any], rows: StudyRows) -> Claim:
-    """Return that the means of a cell lie in their bands."""
-    case, method = wanted["cell"]
-    found = of_cell(rows["rows"], case, method)
-    bands = {name: band for name, band in wanted.items() if name in NAMES}
-    got = estimates(found, list(bands))
-    holds = bool(found) and all(lo <= got[m].mean <= hi for m, (lo, hi) in bands.items())
-    goals = [f"{NAMES[m]} {_band(m, lo, hi)}" for m, (lo, hi) in bands.items()]
-    words = [f"{NAMES[m]} {_shown(m, e)}" for m, e in got.items()]
-    if (bound := wanted.get("above")) is not None:
-        more, least = _above(bound, found, rows)
-        holds &= more.n > 0 and more.mean <= bound["by"]
-        goals.append(f"{NAMES[bound['measure']]} at most {bound['by']} points above {least}")
-        words.append(f"{NAMES[bound['measure']]} {_signed(more)} points above (n = {more.n})")
-    return Claim(
-        f"{case} {method}: {', '.join(goals)}", holds, f"{', '.join(words)}; n = {len(found)}", OURS
-    )
+def reach(aim: Mapping[str, Any], rows: StudyRows) -> Claim:
+    """Return the claim that the means of a cell lie in their bands."""
+    case, method = aim["cell"]
+    own = of_cell(rows["rows"], case, method)
+    bands = {name: band for name, band in aim.items() if name in MEASURES}
+    means = estimates(own, list(bands))
+    holds = bool(own) and all(lo <= means[m].mean <= hi for m, (lo, hi) in bands.items())
+    goals = [f"{MEASURES[m].name} {_band(m, lo, hi)}" for m, (lo, hi) in bands.items()]
+    words = [f"{MEASURES[m].name} {_shown(m, e)}" for m, e in means.items()]
+    if (bound := aim.get("above")) is not None:
+        excess, variant = _above(bound, own, rows)
+        name = MEASURES[bound["measure"]].name
+        holds &= excess.n > 0 and excess.mean <= bound["by"]
+        goals.append(f"{name} at most {bound['by']} points above {variant}")
+        words.append(f"{name} {difference_text(excess)} points above (n = {excess.n})")
+    evidence = f"{', '.join(words)}; n = {len(own)}"
+    return Claim(f"{case} {method}: {', '.join(goals)}", holds, evidence, AIMS)
 
 
 def _above(
-    bound: Mapping[str, Any], found: Iterable[StudyRow], rows: StudyRows
+    bound: Mapping[str, Any], own: Iterable[StudyRow], rows: StudyRows
 ) -> tuple[MeanEstimate, str]:
-    """Return how far a cell is above a variant on the same runs, and the variant's name."""
+    """Return by how much a cell is above a variant on the same runs, and the variant's name."""
     case, name = bound["variant"]
-    theirs = by_run(of_cell(rows["variants"], case, name), bound["measure"])
-    return difference(by_run(found, bound["measure"]), theirs), name
+    others = by_run(of_cell(rows["variants"], case, name), bound["measure"])
+    return difference(by_run(own, bound["measure"]), others), name
 
 
 def _band(measure: str, low: float, high: float) -> str:
-    unit = UNITS.get(measure, " %")
+    amount = MEASURES[measure].amount
     if low == high:
-        return f"{low:g}{unit}"
+        return amount(f"{low:g}")
     if low == 0:
-        return f"at most {high:g}{unit}"
-    return f"at least {low:g}{unit}" if high == 100 else f"{low:g} to {high:g}{unit}"
+        return f"at most {amount(f'{high:g}')}"
+    return f"at least {amount(f'{low:g}')}" if high == 100 else amount(f"{low:g} to {high:g}")
 
 
 def _shown(measure: str, e: MeanEstimate) -> str:
-    return f"{e.mean:.2f}{UNITS.get(measure, ' %')} ± {e.se:.2f}"
+    return f"{MEASURES[measure].amount(number(e.mean))} ± {number(e.se)}"
 
 
 def is_far(ours: MeanEstimate, printed: float, runs: int) -> bool:

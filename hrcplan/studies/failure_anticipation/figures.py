@@ -9,6 +9,8 @@ from typing import Any
 from hrcplan.agents.state import MOST
 from hrcplan.plots import style as plots
 from hrcplan.studies.estimate import CONFIDENT, estimate
+from hrcplan.studies.failure_anticipation.claims import BASELINE
+from hrcplan.studies.failure_anticipation.measures import MEASURES
 from hrcplan.studies.study import Cell, StudyRow
 
 CASE_COLORS = {"1a": plots.GRAY, "1b": plots.BLUE, "2a": plots.PINK, "2b": plots.GREEN}
@@ -23,7 +25,7 @@ _ACTION_COLORS = ("#7fb8da", "#f3c969", "#7cc7ae", "#d9a5c4", "#c8b273", "#a7b7e
 @plots.styled
 def measures(
     by_cell: Mapping[Cell, Sequence[StudyRow]],
-    names: Mapping[str, str],
+    names: Sequence[str],
     printed: Mapping[str, Mapping[str, float]],
 ) -> str:
     """Return a dot per cell and measure with 95 % intervals; diamonds are printed figures."""
@@ -31,7 +33,7 @@ def measures(
     height = 0.9 + 0.27 * len(cells)
     figure, grid = plots.figure(len(names), 1, 11.5, height, sharey=True)
     places = _places(cells)
-    for axes, (measure, title) in zip(grid[0], names.items(), strict=True):
+    for axes, measure in zip(grid[0], names, strict=True):
         for cell, y in zip(cells, places, strict=True):
             case, method = map(str, cell)
             e = estimate(float(row[measure] or 0) for row in by_cell[cell])
@@ -39,10 +41,10 @@ def measures(
             axes.plot([e.mean - CONFIDENT * e.se, e.mean + CONFIDENT * e.se], [y, y],
                       color=color, linewidth=2.2, alpha=0.45, solid_capstyle="round")  # fmt: skip
             axes.plot([e.mean], [y], "o", color=color, markersize=6)
-            if method == "paper" and measure in printed.get(case, {}):
+            if method == BASELINE and measure in printed.get(case, {}):
                 axes.plot([printed[case][measure]], [y], "D", markersize=5, zorder=1,
                           markerfacecolor="white", markeredgecolor=plots.INK)  # fmt: skip
-        axes.set_title(title)
+        axes.set_title(MEASURES[measure].title)
         axes.margins(x=0.12)
         plots.bare(axes)
     grid[0][0].set_yticks(places, labels=[f"{case}  {method}" for case, method in cells])
@@ -82,15 +84,15 @@ def reasons(by_cell: Mapping[Cell, Sequence[StudyRow]]) -> str:
 
 @plots.styled
 def allocation(rows: Sequence[StudyRow], element: str) -> str:
-    """Return Figure 5: shares of the replanned plan against the value, a panel per profile."""
+    """Return shares of human and robot in the new plan against the value, a panel per profile."""
     profiles = list(dict.fromkeys(str(row["profile"]) for row in rows))
-    profiles.sort(key=lambda name: name != "paper")
+    profiles.sort(key=lambda name: name != BASELINE)
     figure, grid = plots.figure(max(1, len(profiles)), 1, 11.5, 3.9, sharey=True)
     for axes, profile in zip(grid[0], profiles, strict=False):
         points = [row for row in rows if row["profile"] == profile]
         _shares(axes, points)
         axes.set_title(f"profile {profile}")
-        axes.set_xlabel(f"{element} (value told to the planner)")
+        axes.set_xlabel(f"{element} (value that the planner gets)")
     grid[0][0].set_ylabel("share of the plan's actions (%)")
     handles, labels = grid[0][0].get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=len(labels))
@@ -125,22 +127,22 @@ def _shares(axes: Any, points: Sequence[StudyRow]) -> None:
 
 
 @plots.styled
-def levels(lines: Mapping[str, Sequence[StudyRow]], names: Mapping[str, str]) -> str:
+def levels(lines: Mapping[str, Sequence[StudyRow]], names: Sequence[str]) -> str:
     """Return measures against the value that was drawn; a line per name, one panel per measure."""
     colors = (plots.GRAY, plots.BLUE, plots.GREEN, plots.ORANGE)
     figure, grid = plots.figure(len(names), 1, 11.5, 2.9)
-    for axes, (measure, title) in zip(grid[0], names.items(), strict=True):
+    for axes, measure in zip(grid[0], names, strict=True):
         for color, (name, rows) in zip(colors, lines.items(), strict=False):
             values = sorted({float(row["value"] or 0) for row in rows})
-            found = [
+            points = [
                 estimate(float(r[measure] or 0) for r in rows if r["value"] == v) for v in values
             ]
-            means = [e.mean for e in found]
-            low = [e.mean - CONFIDENT * e.se for e in found]
-            high = [e.mean + CONFIDENT * e.se for e in found]
+            means = [e.mean for e in points]
+            low = [e.mean - CONFIDENT * e.se for e in points]
+            high = [e.mean + CONFIDENT * e.se for e in points]
             axes.fill_between(values, low, high, color=color, alpha=0.15, linewidth=0)
             axes.plot(values, means, "o-", color=color, markersize=4, label=name)
-        axes.set_title(title)
+        axes.set_title(MEASURES[measure].title)
         axes.set_xlabel("value drawn for the element")
         plots.bare(axes, "y")
     grid[0][0].legend(loc="best", fontsize=8)
@@ -148,22 +150,22 @@ def levels(lines: Mapping[str, Sequence[StudyRow]], names: Mapping[str, str]) ->
 
 
 @plots.styled
-def sweeps(by_cell: Mapping[Cell, Sequence[StudyRow]], names: Mapping[str, str]) -> str:
+def sweeps(by_cell: Mapping[Cell, Sequence[StudyRow]], names: Sequence[str]) -> str:
     """Return measures against each swept parameter: a column per parameter, a row per measure."""
     parameters = list(dict.fromkeys(str(parameter) for parameter, _ in by_cell))
     figure, grid = plots.figure(
         len(parameters), len(names), 11.5, 0.6 + 1.7 * len(names), sharex="col", sharey="row"
     )
     for column, parameter in enumerate(parameters):
-        found = sorted((float(v), rows) for (name, v), rows in by_cell.items() if name == parameter)
-        for line, (measure, title) in enumerate(names.items()):
+        cells = sorted((float(v), rows) for (name, v), rows in by_cell.items() if name == parameter)
+        for line, measure in enumerate(names):
             axes = grid[line][column]
-            got = [estimate(float(row[measure] or 0) for row in rows) for _, rows in found]
-            axes.errorbar([v for v, _ in found], [e.mean for e in got],
-                          [CONFIDENT * e.se for e in got], fmt="o-", markersize=4,
+            means = [estimate(float(row[measure] or 0) for row in rows) for _, rows in cells]
+            axes.errorbar([v for v, _ in cells], [e.mean for e in means],
+                          [CONFIDENT * e.se for e in means], fmt="o-", markersize=4,
                           color=plots.BLUE, elinewidth=1, linewidth=1.4)  # fmt: skip
             if column == 0:
-                axes.set_ylabel(title)
+                axes.set_ylabel(MEASURES[measure].title)
             plots.bare(axes, "y")
         grid[-1][column].set_xlabel(parameter)
     return plots.svg(figure, "sweeps", "Measures against the numbers of the interactions")

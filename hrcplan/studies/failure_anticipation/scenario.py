@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -13,10 +11,12 @@ from hrcplan.errors import UsageError
 from hrcplan.execution import Spec
 from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import FluentKey
-from hrcplan.pddl.write import domain_text, problem_text
+from hrcplan.studies.scenario import Scenario
 from hrcplan.studies.study import Cell, StudyOptions
 
 HERE = Path(__file__).parent
+SCENARIO = Scenario(HERE)
+data, defaults, is_own_task = SCENARIO.data, SCENARIO.defaults, SCENARIO.is_own_task
 WITH_MODEL, WITHOUT_MODEL = "b", "a"
 
 
@@ -29,45 +29,30 @@ class Method:
     changes: Mapping[str, Any]
 
 
-@cache
-def data() -> Mapping[str, Any]:
-    """Return the whole file."""
-    return tomllib.loads((HERE / "scenario.toml").read_text(encoding="utf-8"))
-
-
-def defaults() -> dict[str, str]:
-    """Return the task that the study is about."""
-    return dict(data()["task"])
-
-
-def is_own_task(options: StudyOptions) -> bool:
-    """Whether the options name the task that the file was written for."""
-    return dict(options) == defaults()
-
-
 def inputs(options: StudyOptions) -> str:
-    """Return domain and problems of the study, and its own files."""
-    own = [path.read_text(encoding="utf-8") for path in sorted(HERE.glob("*.toml"))]
+    """Return what rows depend on: the file's tables, problems of all methods, and profiles."""
+    keys = ("methods", "variants", "allocation", "example", "sweep")
+    profiles = [path.read_text("utf-8") for path in sorted(HERE.glob("*.toml"))
+                if path.name != "scenario.toml"]  # fmt: skip
     tasks = [
         {**options, **{k: v for k, v in method.changes.items() if k in options}}
         for method in methods("methods", options).values()
     ]
     names = sorted({(task["domain"], task["problem"]) for task in tasks})
-    problems = [read(*name) for name in names]
-    return "".join([*own, *(domain_text(p.domain) + problem_text(p) for p in problems)])
+    return SCENARIO.inputs(keys, [read(*name) for name in names], profiles)
 
 
 def methods(kind: str, options: StudyOptions) -> dict[str, Method]:
     """Return the ``methods`` or ``variants``; on another task, those that do not name this one."""
-    found = {}
+    chosen = {}
     for name, table in data()[kind].items():
         changes = {key: value for key, value in table.items() if key != "cases"}
         if not is_own_task(options):
             if changes.keys() & options.keys():
                 continue
             changes.pop("can_fail", None)  # names of this task's actions
-        found[name] = Method(name, tuple(table["cases"]), changes)
-    return found
+        chosen[name] = Method(name, tuple(table["cases"]), changes)
+    return chosen
 
 
 def sweep_cells(options: StudyOptions) -> list[Cell]:
@@ -128,5 +113,10 @@ def element(kind: str, options: StudyOptions, elements: Sequence[FluentKey]) -> 
     if is_own_task(options):
         return tuple(data()[kind]["element"].split())
     if not elements:
-        raise UsageError("nobody in this problem has a state that could change", code="no-human")
+        raise UsageError("no human of this problem has a state that could change", code="no-human")
     return next((key for key in elements if len(key) == 2), elements[0])
+
+
+def element_name(kind: str, options: StudyOptions) -> str:
+    """Return how texts call that element; which one it is on another task is left to the rows."""
+    return str(data()[kind]["element"]) if is_own_task(options) else "the human's state"
