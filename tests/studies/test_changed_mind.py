@@ -159,7 +159,7 @@ def test_a_strangers_robot_and_human_join(tmp_path: Path, monkeypatch: pytest.Mo
     [
         ({"methods": "papre"}, "no method 'papre'"),
         ({"humans": "optimall"}, "no human 'optimall'"),
-        ({"chooser": "nobody:Human"}, "cannot load 'nobody:Human'"),
+        ({"chooser": "nobody:Human"}, "no module 'nobody'"),
         ({"world": "real"}, "no world 'real'"),
         ({"colour": "red"}, "no option 'colour'"),
     ],
@@ -299,3 +299,13 @@ def test_a_script_of_another_domain(tmp_path: Path) -> None:
     path.write_text(path.read_text().replace("table", "tabel"))
     with pytest.raises(InputError, match="no goal 'tabel'"):
         script.episodes(script.read(str(path)))
+
+
+def test_names_of_earlier_versions_still_work() -> None:
+    study = find(NAME)
+    with pytest.warns(DeprecationWarning, match="'rhp,oracle'"):
+        options = study.with_defaults({"methods": "paper,oracle"})
+    assert scenario.cells("rows", options)[:2] == [("fixed", "rhp"), ("fixed", "oracle")]
+    rows = [{"human": "optimal", "method": name, "run": 0} for name in ("paper", "paper, in order")]
+    current = study.present_rows(study.tables[0], rows)
+    assert [row["method"] for row in current] == ["rhp", "rhp, in order"]

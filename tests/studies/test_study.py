@@ -173,6 +173,27 @@ def test_the_keys_of_the_report(tmp_path: Path) -> None:
         assert claim["evidence"]
 
 
+def test_rows_of_an_earlier_version_are_reported_by_the_names_of_this_one(tmp_path: Path) -> None:
+    run(tmp_path, runs=2)
+    documents = []
+    for _ in range(2):
+        report_study(tmp_path)
+        documents.append([(tmp_path / name).read_text() for name in ("report.json", "report.html")])
+        with sqlite3.connect(tmp_path / "rows.sqlite") as file:
+            for table, key in (
+                ("rows", "method"),
+                ("variants", "method"),
+                ("allocation", "profile"),
+            ):
+                statement = f"update {table} set {key} = replace({key}, 'replan-always', 'paper')"
+                assert file.execute(statement).rowcount > 0
+            assert file.execute(
+                "select * from variants where method = 'paper, random time'"
+            ).fetchall()
+    assert documents[0] == documents[1]
+    assert "replan-always, random time" in documents[0][1]
+
+
 def test_the_page_needs_nothing_but_itself(tmp_path: Path) -> None:
     run(tmp_path, runs=2)
     report_study(tmp_path)
@@ -251,7 +272,7 @@ def test_rows_that_are_damaged_or_out_of_reach_are_told_apart(tmp_path: Path) ->
 def test_an_unknown_study_and_an_empty_folder_are_named(tmp_path: Path) -> None:
     with pytest.raises(UsageError, match="no study 'failure-anticpation'"):
         run_study("failure-anticpation", tmp_path)
-    with pytest.raises(UsageError, match="no study nowhere:STUDY"):
+    with pytest.raises(UsageError, match="no module 'nowhere'"):
         run_study("nowhere:STUDY", tmp_path)
     with pytest.raises(InputError, match=r"no rows\.sqlite"):
         report_study(tmp_path / "empty")
@@ -278,6 +299,6 @@ def test_a_failing_episode_is_named_and_the_rows_before_it_stay(
     with pytest.raises(ZeroDivisionError) as error:
         run_study("breaking:STUDY", tmp_path / "out", runs=50)
     assert "run 40" in "".join(error.value.__notes__)
-    document = report_study(tmp_path / "out")
+    document = report_study(tmp_path / "out", "breaking:STUDY")
     assert document["n_rows"] == 32
     assert document["rows"][0]["measures"]["x"] == {"mean": 1.0, "se": 0.0}

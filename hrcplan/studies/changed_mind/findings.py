@@ -36,7 +36,7 @@ LEAD = (
     "change on the way; it infers the goal from the human's actions and helps meanwhile. "
     "<em>rhp</em> is the method of the changed-mind paper, <em>recursive</em> is recursive Bayes "
     "as printed, <em>recursive-best</em> the same at its best setting, <em>cdp</em> and "
-    "<em>infogain</em> are made for fixed goals, <em>hrcplan</em> is this package's own method, and "
+    "<em>infogain</em> are made for fixed goals, <em>hrcplan</em> is this package's method, and "
     "<em>oracle</em> is told the goal."
 )
 COLORED = (
