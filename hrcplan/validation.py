@@ -14,6 +14,7 @@ from types import EllipsisType
 from typing import NamedTuple, overload
 
 from hrcplan.core.numbers import Number, number_text
+from hrcplan.core.text import cut
 from hrcplan.pddl.inputs import Readable, as_problem
 from hrcplan.pddl.interference import Access, access, clash
 from hrcplan.pddl.model import (
@@ -51,6 +52,14 @@ class Report:
     reason: str | None = None
     state: frozenset[Fact] = frozenset()
     step_costs: tuple[Number, ...] = ()
+
+    def __repr__(self) -> str:
+        if not self.valid:
+            step = "" if self.failed_step is None else f" at step {self.failed_step}"
+            return cut(f"<Report: invalid{step}: {self.reason}", 190) + ">"
+        figures = {"cost": self.cost, "metric": self.metric, "makespan_s": self.makespan_s}
+        shown = [f"{name} {number_text(n)}" for name, n in figures.items() if n is not None]
+        return cut(f"<Report: {', '.join(['valid', *shown])}", 190) + ">"
 
 
 class _BrokenError(Exception):

@@ -10,6 +10,8 @@ from typing import Any
 
 from hrcplan.bank import Bank, Goals, StepTable, build
 from hrcplan.bank.ramirez_geffner import OBSERVATIONS, is_folder, read_actions, read_instance
+from hrcplan.core import svg
+from hrcplan.core.text import cut, plural
 from hrcplan.errors import InputError, LimitError
 from hrcplan.inference.changes import GoalChange
 from hrcplan.inference.observations import Resolver
@@ -52,6 +54,35 @@ class Inference:
     ignored: tuple[Ignored, ...]
     method: str
     note: str | None = None
+
+    def __repr__(self) -> str:
+        row = self.posterior[-1]
+        best = max(range(len(row)), key=row.__getitem__)
+        seen = f"{plural(len(self.actions), 'action')}, {plural(len(self.changes), 'change')}"
+        goal = f"{row[best]:.0%} {cut(self.goals[best], 80)}"
+        return f"<Inference by {cut(self.method, 40)}: {seen}, now {goal}>"
+
+    def _repr_html_(self) -> str:
+        """Return the posterior as a picture: the goals that were likeliest over all steps."""
+        columns = [list(column) for column in zip(*self.posterior, strict=True)]
+        order = sorted(range(len(columns)), key=lambda goal: -sum(columns[goal]))[: len(svg.COLORS)]
+        marks = [change.at + 0.5 for change in self.changes]
+        return svg.lines([(self.goals[goal], columns[goal]) for goal in order], marks)
+
+    def rows(self) -> list[dict[str, str | int | float | bool | None]]:
+        """Return one row per observation and goal, the prior first, for ``pandas.DataFrame``.
+
+        Keys: ``observation`` (0 is the prior), ``action`` (None for the prior), ``goal``,
+        ``probability``, ``ignored``.
+        """
+        ignored = {i.at for i in self.ignored}
+        actions = [None, *self.actions]
+        return [
+            {"observation": at, "action": actions[at], "goal": goal, "probability": p,
+             "ignored": at - 1 in ignored}
+            for at, row in enumerate(self.posterior)
+            for goal, p in zip(self.goals, row, strict=True)
+        ]  # fmt: skip
 
     def as_json(self) -> dict[str, Any]:
         """Return the JSON document of ``hrcplan infer``."""

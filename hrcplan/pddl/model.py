@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from hrcplan.core.numbers import Number, number_text
+from hrcplan.core.text import cut, plural
 
 Fact = tuple[str, ...]
 FluentKey = tuple[str, ...]
@@ -244,6 +245,9 @@ class Domain:
     notes: tuple[Note, ...] = ()
     path: str = ""
 
+    def __repr__(self) -> str:
+        return f"<Domain {cut(self.name, 80)}: {plural(len(self.actions), 'action')}>"
+
     @cached_property
     def _ancestors(self) -> dict[str, frozenset[str]]:
         """Types already asked for, with themselves and all that are above them."""
@@ -305,6 +309,10 @@ class Problem:
     metric: Expr | None = None
     maximize: bool = False
     path: str = ""
+
+    def __repr__(self) -> str:
+        counts = f"{plural(len(self.all_objects), 'object')}, {plural(len(self.facts), 'fact')}"
+        return f"<Problem {cut(f'{self.domain.name}/{self.name}', 120)}: {counts}>"
 
     @cached_property
     def all_objects(self) -> dict[str, str]:
