@@ -68,20 +68,21 @@ class Profile:
         """Return what is remembered, or believed, before anything has happened."""
         return AgentStateEstimate.begin(Prior.of(model)) if self.estimate else Memory()
 
-    def told(
+    def planner_values(
         self, model: AgentModel, sensed: Mapping[FluentKey, Number], memory: Experience
     ) -> dict[FluentKey, Number]:
-        """Return the function values that the planner is given for a belief about the agents.
+        """Return the function values that the planner gets for a belief about the agents.
 
         Every element has a value, also those at their low value, so that equal beliefs are equal.
         """
         blame = self._blamed(memory.blame()) if self.memory or self.estimate else {}
-        told = {
+        elements = {
             key: self._value(sensed.get(key, low), low, blame.get(key, 0))
             for key, low in model.low.items()
         }
-        left = model.problem.values
-        return told | {key: self._value(left[key], low, 0) for key, low in model.left.items()}
+        initial = model.problem.values
+        residuals = {k: self._value(initial[k], low, 0) for k, low in model.residuals.items()}
+        return elements | residuals
 
     def _value(self, value: Number, low: Number, blame: Number) -> Number:
         p = 0.0 if value <= low else min(1.0, float(value) / 10)

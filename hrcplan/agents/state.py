@@ -101,10 +101,10 @@ class AgentModel:
         )
 
     @cached_property
-    def left(self) -> Mapping[FluentKey, Number]:
-        """The functions whose value interactions leave, with the least low value of each.
+    def residuals(self) -> Mapping[FluentKey, Number]:
+        """The functions whose value an interaction assigns, with the least low value of each.
 
-        They are sensed values as the elements are, so planners are told of them in the same way.
+        They are sensed values as the elements are, so planners get them in the same way.
         """
         found: dict[FluentKey, Number] = {}
         for action in self.problem.domain.actions:

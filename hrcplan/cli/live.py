@@ -100,9 +100,9 @@ class Live:
         self._notes = []
 
     def _progress(self, run: Run) -> str:
-        if run.pursuit is None:
+        if run.current_plan is None:
             return ""
-        n, whole = len(run.pursuit.ended), len(run.pursuit.plan.actions)
+        n, whole = len(run.current_plan.ended), len(run.current_plan.plan.actions)
         return f"{'█' * n}{'░' * (whole - n)} {n}/{whole}" if whole <= 30 else f"{n}/{whole}"
 
     def _print_cells(self, when: str, progress: str = "") -> None:

@@ -13,10 +13,12 @@ from hrcplan.execution.driver import PlanProvider, RunWatch
 from hrcplan.execution.events import Command, Event
 from hrcplan.execution.humans import STEADY, WorldChange, nature_for
 from hrcplan.execution.journal import Journal, JournalWriter, RunSetup, read_journal
+from hrcplan.execution.model import ExecutionModel
+from hrcplan.execution.monitor import Monitor
 from hrcplan.execution.outcome import Outcome
 from hrcplan.execution.replanner import DEFAULT_TIMEOUT_S, Replanner
 from hrcplan.execution.run import Run
-from hrcplan.execution.simulate import Spec, make_engine
+from hrcplan.execution.simulate import Engine, Spec
 from hrcplan.execution.timeline import Timeline
 from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import FluentKey, Problem
@@ -89,7 +91,8 @@ def make_setup(
     """
     chosen = load_profile(profile).limited_to(replan_limit)
     planners = tuple(planner.split(",")) if not planner.startswith("cmd:") else (planner,)
-    engine = make_engine(problem, chosen, model, Replanner(problem, planners, timeout_s))
+    shared = ExecutionModel(problem)
+    engine = Engine(Monitor(shared, chosen, model), Replanner(shared, planners, timeout_s))
     nature = nature_for(human, Spec(seed=seed), engine, changes)
     return RunSetup(problem, chosen, model, nature, planners)
 
@@ -115,8 +118,9 @@ def carry_out(
         writer = (
             JournalWriter.begin(journal, setup) if known is None else JournalWriter.resume(known)
         )
-    answering = planner or Replanner(setup.problem, setup.planners, timeout_s)
-    engine = make_engine(setup.problem, setup.profile, setup.sensing, answering)
+    model = ExecutionModel(setup.problem)
+    answering = planner or Replanner(model, setup.planners, timeout_s)
+    engine = Engine(Monitor(model, setup.profile, setup.sensing), answering)
     timeline = Timeline()
 
     def both(run: Run, event: Event, commands: tuple[Command, ...]) -> None:
@@ -125,7 +129,7 @@ def carry_out(
             watch(run, event, commands)
 
     run = engine.run(setup.nature, writer, both)
-    row = engine.row(run)
+    row = engine.outcome(run)
     if writer is not None:
         writer.close(row)
     return Executed(row, run, timeline, 0 if known is None else len(known.lines))

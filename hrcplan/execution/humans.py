@@ -75,10 +75,10 @@ def nature_for(
             in [0, 10].
     """
     if ":" in text or text in NATURES.names():
-        nature = NATURES.make(text).nature(engine.monitor.problem, spec.seed)
+        nature = NATURES.make(text).nature(engine.model.problem, spec.seed)
     else:
         nature = nature_of(spec_of(text, spec), engine)
-    agents = engine.monitor.agents
+    agents = engine.model.agents
     checked = tuple(
         StateChange(c.t, {key: agents.check(key, value) for key, value in c.values.items()})
         for c in changes

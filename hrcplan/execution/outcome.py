@@ -78,27 +78,27 @@ class Outcome:
 
 def outcome_of(run: Run, robots: frozenset[str]) -> Outcome:
     """Return the row of a run; of an unfinished one as far as it has come."""
-    tally = run.tally
+    counts = run.counts
 
-    def split(counts: Mapping[str, int]) -> tuple[int, int]:
-        robot = sum(n for agent, n in counts.items() if agent in robots or not agent)
-        return sum(counts.values()) - robot, robot
+    def split(by_agent: Mapping[str, int]) -> tuple[int, int]:
+        robot = sum(n for agent, n in by_agent.items() if agent in robots or not agent)
+        return sum(by_agent.values()) - robot, robot
 
-    assigned, done = split(tally.assigned), split(tally.done)
-    failed, cancelled = split(tally.failed), split(tally.cancelled)
+    assigned, done = split(counts.assigned), split(counts.done)
+    failed, cancelled = split(counts.failed), split(counts.cancelled)
     return Outcome(
         success=run.ending == ev.GOAL,
         ending=run.ending or "unfinished",
-        replans_change=tally.replans.get(ev.CHANGE, 0),
-        replans_failure=tally.replans.get(ev.FAILURE, 0),
-        replans_deviation=tally.replans.get(ev.DEVIATION, 0),
-        plans_confirmed=tally.plans_confirmed,
+        replans_change=counts.replans.get(ev.CHANGE, 0),
+        replans_failure=counts.replans.get(ev.FAILURE, 0),
+        replans_deviation=counts.replans.get(ev.DEVIATION, 0),
+        plans_confirmed=counts.plans_confirmed,
         assigned_human=assigned[0], assigned_robot=assigned[1],
         executed_human=done[0], executed_robot=done[1],
         failed_human=failed[0], failed_robot=failed[1],
         cancelled_human=cancelled[0], cancelled_robot=cancelled[1],
-        interactions=tally.interactions,
-        makespan_s=round(tally.last_end_s, 6),
+        interactions=counts.interactions,
+        makespan_s=round(counts.last_end_s, 6),
     )  # fmt: skip
 
 

@@ -8,11 +8,10 @@ from dataclasses import replace
 
 from hrcplan.errors import HrcplanError, LimitError, UnsupportedError
 from hrcplan.execution import events as ev
-from hrcplan.execution.acting import ActionModel
+from hrcplan.execution.model import ExecutionModel
 from hrcplan.pddl.model import Problem
 from hrcplan.planners import registry
 from hrcplan.planners.contract import Planner, Status
-from hrcplan.planners.expected_price import expected_retries
 from hrcplan.planners.solve import Result, solve
 from hrcplan.task import Task
 from hrcplan.task.regrounding import Groundings
@@ -31,17 +30,15 @@ class Replanner:
     """
 
     def __init__(
-        self, problem: Problem, planners: Sequence[str | Planner] = (),
+        self, model: ExecutionModel, planners: Sequence[str | Planner] = (),
         timeout_s: float = DEFAULT_TIMEOUT_S,
     ) -> None:  # fmt: skip
-        self.problem = problem
+        self.model = model
         self.timeout_s = timeout_s
         self.planners = list(with_successors(planners))
         self.wall_s: list[float] = []
-        self._priced = expected_retries(problem)
-        self._acting = ActionModel(problem)
         self._groundings = Groundings()
-        self._known: dict[_Key, ev.Planned] = {}
+        self._answers: dict[_Key, ev.Planned] = {}
 
     @property
     def n_asked(self) -> int:
@@ -52,15 +49,15 @@ class Replanner:
         """Return a checked plan for what was asked, or none with the reason."""
         values = tuple(sorted(ask.values.items()))
         key = (ask.facts, values, tuple(sorted(ask.numbers.items())))
-        found = self._known.get(key)
-        if found is None:
-            begun = time.perf_counter()
-            found = self._ask(ask)
-            found = replace(found, wall_s=round(time.perf_counter() - begun, 6))
-            self.wall_s.append(found.wall_s)
-            if found.plan is not None:
-                self._known[key] = found
-        return replace(found, t=ask.t)
+        answer = self._answers.get(key)
+        if answer is None:
+            begin = time.perf_counter()
+            answer = self._ask(ask)
+            answer = replace(answer, wall_s=round(time.perf_counter() - begin, 6))
+            self.wall_s.append(answer.wall_s)
+            if answer.plan is not None:
+                self._answers[key] = answer
+        return replace(answer, t=ask.t)
 
     def _ask(self, ask: ev.AskPlan) -> ev.Planned:
         deadline = time.monotonic() + self.timeout_s
@@ -92,7 +89,7 @@ class Replanner:
         except HrcplanError as error:
             failures.append(f"{name}: {error.message}")
             return None
-        except Exception as error:  # noqa: BLE001  a stranger's planner must not stop the robot
+        except Exception as error:  # noqa: BLE001  a user's planner must not stop the robot
             failures.append(f"{name}: {type(error).__name__}: {error}")
             return None
         if result.status is Status.UNSOLVED:
@@ -102,9 +99,10 @@ class Replanner:
 
     def _from_now(self, ask: ev.AskPlan) -> tuple[Problem, Task | None]:
         """Return the problem from here on, and its grounding if bits can hold it."""
-        state = self._acting.state(ask.facts, ask.numbers)
+        state = self.model.actions.state(ask.facts, ask.numbers)
         values = {**ask.numbers, **ask.values}
-        problem = replace(self._priced.with_values(values), facts=frozenset(state.facts))
+        priced = self.model.priced_problem.with_values(values)
+        problem = replace(priced, facts=frozenset(state.facts))
         try:
             return problem, self._groundings.task(problem)
         except (UnsupportedError, LimitError):

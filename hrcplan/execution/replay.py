@@ -10,6 +10,7 @@ from typing import Any
 from hrcplan.execution import events as ev
 from hrcplan.execution.codec import from_json, to_json
 from hrcplan.execution.journal import Journal
+from hrcplan.execution.model import ExecutionModel
 from hrcplan.execution.monitor import Monitor
 from hrcplan.execution.outcome import Outcome, outcome_of
 from hrcplan.execution.run import Run
@@ -42,7 +43,7 @@ def replay(journal: Journal) -> Replayed:
         InputError: if the journal has no beginning, or an event cannot be read.
     """
     setup = journal.setup()
-    monitor = Monitor(setup.problem, setup.profile, setup.sensing)
+    monitor = Monitor(ExecutionModel(setup.problem), setup.profile, setup.sensing)
     run = monitor.begin()
     due: list[dict[str, Any]] | None = None
     n_events = n_decisions = 0
@@ -53,7 +54,7 @@ def replay(journal: Journal) -> Replayed:
             n_decisions += difference is None
             due = None
         elif "row" in line:
-            row = outcome_of(run, monitor.agents.robots).to_json()
+            row = outcome_of(run, monitor.model.agents.robots).to_json()
             difference = _differs(number, {"row": row}, line)
         else:
             difference = _unfounded(number, line, run, monitor)
@@ -63,7 +64,7 @@ def replay(journal: Journal) -> Replayed:
                 n_events += 1
         if difference is not None:
             break
-    return Replayed(n_events, n_decisions, outcome_of(run, monitor.agents.robots), difference)
+    return Replayed(n_events, n_decisions, outcome_of(run, monitor.model.agents.robots), difference)
 
 
 def _differs(
@@ -86,7 +87,7 @@ def _unfounded(
     if run.is_over:
         return Difference(number, "nothing: the run is over", json.dumps({**line}))
     if isinstance(event, ev.Planned) and event.plan is not None:
-        report = validate(monitor.now(run), event.plan)
+        report = validate(monitor.decider.problem_now(run), event.plan)
         if not report.valid:
             return Difference(number, "a valid plan", f"{report.reason}")
     return None

@@ -9,7 +9,8 @@ from dataclasses import dataclass, field, replace
 from hrcplan.agents.memory import Memory
 from hrcplan.agents.profile import Experience
 from hrcplan.core.numbers import Number
-from hrcplan.execution.acting import BoundAction, Undo
+from hrcplan.execution.action_model import BoundAction, StartEffects
+from hrcplan.execution.events import Command
 from hrcplan.execution.order import Waits
 from hrcplan.pddl.model import FluentKey
 from hrcplan.pddl.semantics import LiftedState
@@ -35,7 +36,7 @@ class RunningAction:
     step: BoundAction
     begun_s: float
     duration_s: float
-    undo: Undo
+    start_effects: StartEffects
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,29 +100,34 @@ def plus(counts: Mapping[str, int], names: Iterable[str]) -> Mapping[str, int]:
     >>> plus({"a": 1}, ["a", "b"])
     {'a': 2, 'b': 1}
     """
-    found = dict(counts)
+    total = dict(counts)
     for name in names:
-        found[name] = found.get(name, 0) + 1
-    return found
+        total[name] = total.get(name, 0) + 1
+    return total
 
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """Everything the monitor knows; the next one follows from it and one event."""
+    """Everything the monitor knows; the next run follows from this one and one event.
+
+    ``sensed_values``: the last valid value of each element. ``observation``: an observed state that
+    was not yet compared with the expected ``state``. ``n_reasons_asked``: how many ``reasons`` the
+    planner was asked with. ``confirmation_s``: when the current plan was confirmed last.
+    """
 
     state: LiftedState
     phase: Phase = Phase.IDLE
     t: float = 0.0
-    sensed: Mapping[FluentKey, Number] = field(default_factory=dict)
+    sensed_values: Mapping[FluentKey, Number] = field(default_factory=dict)
     memory: Experience = field(default_factory=Memory)
-    pursuit: FollowedPlan | None = None
+    current_plan: FollowedPlan | None = None
     running: tuple[RunningAction, ...] = ()
     n_dispatched: int = 0
     reasons: tuple[Reason, ...] = ()
-    observed: LiftedState | None = None
-    n_asked: int = 0
-    confirmed_s: float | None = None
-    tally: RunCounts = field(default_factory=RunCounts)
+    observation: LiftedState | None = None
+    n_reasons_asked: int = 0
+    confirmation_s: float | None = None
+    counts: RunCounts = field(default_factory=RunCounts)
     ending: str | None = None
     why: str = ""
 
@@ -130,7 +136,7 @@ class Run:
         """Whether the run has ended."""
         return self.phase is Phase.OVER
 
-    def find(self, number: int) -> RunningAction | None:
+    def running_action(self, number: int) -> RunningAction | None:
         """Return the running action with this dispatch number."""
         return next((r for r in self.running if r.number == number), None)
 
@@ -138,6 +144,22 @@ class Run:
         """Return the running actions but one."""
         return tuple(r for r in self.running if r.number != action.number)
 
-    def because(self, kind: str, text: str) -> Run:
+    def with_sensed(self, key: FluentKey, value: Number) -> Run:
+        """Return this run with another value of an element; old failures do not count for it."""
+        values = {**self.sensed_values, key: value}
+        return replace(self, sensed_values=values, memory=self.memory.sensed(key))
+
+    def with_reason(self, kind: str, text: str) -> Run:
         """Return this run with one more reason to replan."""
         return replace(self, reasons=(*self.reasons, Reason(kind, text)))
+
+    def __repr__(self) -> str:
+        counts = self.counts
+        n_done, n_failed = (sum(c.values()) for c in (counts.done, counts.failed))
+        phase = self.ending or self.phase.value
+        actions = f"{n_done} actions done, {n_failed} failed"
+        return f"Run({phase}, t={self.t:g}, {actions}, {counts.n_replans} replans)"
+
+
+RunStep = tuple[Run, tuple[Command, ...]]
+"""What one event leads to: the next run, and commands in order."""

@@ -9,11 +9,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import lru_cache
 
-from hrcplan.agents import REPLAN_ALWAYS, Profile, load_profile
+from hrcplan.agents import REPLAN_ALWAYS, load_profile
 from hrcplan.core.numbers import Number
 from hrcplan.errors import UsageError
 from hrcplan.execution import events as ev
 from hrcplan.execution.driver import Driver, NullRecord, PlanProvider, RunRecord, RunWatch
+from hrcplan.execution.model import ExecutionModel
 from hrcplan.execution.monitor import Monitor
 from hrcplan.execution.outcome import Outcome, outcome_of
 from hrcplan.execution.replanner import Replanner
@@ -30,8 +31,9 @@ from hrcplan.execution.worlds.simulated import (
     StateChange,
 )
 from hrcplan.pddl.inputs import read
-from hrcplan.pddl.model import FluentKey, Problem
+from hrcplan.pddl.model import FluentKey
 from hrcplan.planners.expected_price import with_success
+from hrcplan.plans import Plan
 
 CASES = (0, 1, 2)
 LEVELS = (5, 10)
@@ -86,17 +88,27 @@ class Engine:
     monitor: Monitor
     planner: PlanProvider
 
+    @property
+    def model(self) -> ExecutionModel:
+        """The problem, prepared for execution."""
+        return self.monitor.model
+
     def run(
         self, nature: Nature, record: RunRecord | None = None, watch: RunWatch | None = None
     ) -> Run:
         """Return one finished run in a simulated world."""
-        problem, monitor = self.monitor.problem, self.monitor
-        world = SimulatedWorld(problem, nature, monitor.acting, monitor.agents)
-        return Driver(monitor, world, self.planner, record or NullRecord(), watch).run()
+        world = SimulatedWorld(self.model, nature)
+        return Driver(self.monitor, world, self.planner, record or NullRecord(), watch).run()
 
-    def row(self, run: Run) -> Outcome:
-        """Return the row of a run."""
-        return outcome_of(run, self.monitor.agents.robots)
+    def outcome(self, run: Run) -> Outcome:
+        """Return what a run came to."""
+        return outcome_of(run, self.model.agents.robots)
+
+    def first_plan(self) -> Plan | None:
+        """Return the plan that every run begins with; None if there is none."""
+        _, commands = self.monitor.step(self.monitor.begin(), ev.Settled(0.0))
+        ask = next(command for command in commands if isinstance(command, ev.AskPlan))
+        return self.planner.answer(ask).plan
 
 
 def simulate(spec: Spec) -> Outcome:
@@ -106,7 +118,7 @@ def simulate(spec: Spec) -> Outcome:
         InputError: if domain, problem or profile cannot be read.
     """
     engine = engine_for(spec)
-    return engine.row(engine.run(nature_of(spec, engine)))
+    return engine.outcome(engine.run(nature_of(spec, engine)))
 
 
 def engine_for(spec: Spec) -> Engine:
@@ -129,7 +141,7 @@ def _engine(
 ) -> Engine:  # fmt: skip
     shared = _replanner(domain, problem, values, planner, success)
     chosen = load_profile(profile_name).limited_to(replan_limit)
-    return make_engine(shared.problem, chosen, model, shared)
+    return Engine(Monitor(shared.model, chosen, model), shared)
 
 
 @lru_cache(maxsize=16)
@@ -140,14 +152,7 @@ def _replanner(
     loaded = read(domain, problem).with_values(dict(values))
     if success is not None:
         loaded = with_success(loaded, success)
-    return Replanner(loaded, tuple(planner.split(",")))
-
-
-def make_engine(
-    problem: Problem, chosen: Profile, model: bool = True, planner: PlanProvider | None = None
-) -> Engine:
-    """Return the engine for a problem and a profile; ``model`` false leaves sensing unused."""
-    return Engine(Monitor(problem, chosen, model), planner or Replanner(problem))
+    return Replanner(ExecutionModel(loaded), tuple(planner.split(",")))
 
 
 def nature_of(spec: Spec, engine: Engine) -> Nature:
@@ -163,10 +168,10 @@ def nature_of(spec: Spec, engine: Engine) -> Nature:
 
 def cause_of(spec: Spec, engine: Engine) -> FluentKey:
     """Return the element that changes: any function, then any of a human's elements of it."""
-    agents = engine.monitor.agents
+    agents = engine.model.agents
     keys = [key for key in agents.low if key[1] not in agents.robots]
     if not keys:
-        raise UsageError("nobody in this problem has a state that could change", code="no-human")
+        raise UsageError("no human here has an agent state that could change", code="no-human")
     names = list(dict.fromkeys(key[0] for key in keys))
     name = chance.choice(names, spec.seed, "cause")
     return chance.choice([key for key in keys if key[0] == name], spec.seed, "where")
@@ -183,14 +188,10 @@ def _change_time(spec: Spec, engine: Engine) -> float:
     """Return when the change happens: 0, or the planned start of one of the human's actions."""
     if spec.when == START:
         return 0.0
-    _, commands = engine.monitor.step(engine.monitor.begin(), ev.Settled(0.0))
-    ask = next(c for c in commands if isinstance(c, ev.AskPlan))
-    plan = engine.planner.answer(ask).plan
-    steps = [] if plan is None else [(engine.monitor.acting.step(a), a) for a in plan.actions]
-    agents = engine.monitor.agents
+    plan = engine.first_plan() or Plan()
     starts = [
         float(action.start_s or 0)
-        for step, action in steps
-        if step is not None and step.agent and step.agent not in agents.robots
+        for action in plan.actions
+        if (step := engine.model.actions.step(action)) and engine.model.is_human(step.agent)
     ]
     return chance.choice(starts, spec.seed, "when") if starts else 0.0

@@ -39,7 +39,7 @@ class Timeline:
 
     bars: dict[int, Bar] = field(default_factory=dict)
     plans: list[Adopted] = field(default_factory=list)
-    told: list[ev.Tell] = field(default_factory=list)
+    messages: list[ev.Tell] = field(default_factory=list)
 
     def watch(self, run: Run, event: Event, commands: tuple[Command, ...]) -> None:
         """Take in one step of the monitor."""
@@ -54,7 +54,7 @@ class Timeline:
                 case ev.Cancel(t, number) if isinstance(event, ev.Overdue):
                     self._close(number, t, ev.FAILED)
                 case ev.Tell():
-                    self.told.append(command)
+                    self.messages.append(command)
 
     def _open(self, command: ev.Dispatch) -> None:
         end_s = command.t + command.duration_s
@@ -83,5 +83,5 @@ class Timeline:
                 {"t": p.t, "why": p.why or None, "steps": format_plan(p.plan).splitlines()}
                 for p in self.plans
             ],
-            "messages": [{"t": m.t, "code": m.code, "message": m.message} for m in self.told],
+            "messages": [{"t": m.t, "code": m.code, "message": m.message} for m in self.messages],
         }  # fmt: skip

@@ -60,8 +60,10 @@ def test_unknown_element_is_refused(agents: AgentModel) -> None:
         agents.check(("mood", "human"), 3)
 
 
-def test_paper_tells_the_planner_what_is_sensed(agents: AgentModel) -> None:
-    told = load_profile("replan-always").told(agents, {MOTIVATION: 9}, Memory().failed([KNOWLEDGE]))
+def test_replan_always_gives_the_planner_the_sensed_values(agents: AgentModel) -> None:
+    told = load_profile("replan-always").planner_values(
+        agents, {MOTIVATION: 9}, Memory().failed([KNOWLEDGE])
+    )
     assert told[MOTIVATION] == 9
     assert told[KNOWLEDGE] == 1
     assert set(told) == set(agents.low)
@@ -69,10 +71,12 @@ def test_paper_tells_the_planner_what_is_sensed(agents: AgentModel) -> None:
 
 def test_hrcplan_tells_log_losses_and_what_failed(agents: AgentModel) -> None:
     own = load_profile("hrcplan")
-    told = own.told(agents, {MOTIVATION: 5, CAPACITY: 10}, Memory())
+    told = own.planner_values(agents, {MOTIVATION: 5, CAPACITY: 10}, Memory())
     assert float(told[MOTIVATION]) == pytest.approx(1 - 10 * math.log(0.5), abs=0.01)
     assert told[CAPACITY] == 61  # low + cap
-    assert own.told(agents, {MOTIVATION: 5}, Memory().failed([MOTIVATION]))[MOTIVATION] == 61
+    assert (
+        own.planner_values(agents, {MOTIVATION: 5}, Memory().failed([MOTIVATION]))[MOTIVATION] == 61
+    )
 
 
 def test_memory_narrows_the_cause_down() -> None:

@@ -106,7 +106,7 @@ def test_what_is_told_is_the_price_of_failing_of_whatever_comes_next() -> None:
     model = AgentModel(read("transport", "two-boxes"))
     told_by = load_profile("estimated")
     belief = told_by.begin(model).failed(model.touching("move", ("human", "wp1", "wp4")))
-    told = told_by.told(model, {}, belief)
+    told = told_by.planner_values(model, {}, belief)
     p = belief.failing()
     for place in ("wp4", "wp2"):
         keys = [("motivation", "human"), ("knowledge", "human"), ("capacity", "human", place)]

@@ -3,6 +3,7 @@
 from hrcplan.agents import load_profile
 from hrcplan.execution import events as ev
 from hrcplan.execution.events import Command, Event
+from hrcplan.execution.model import ExecutionModel
 from hrcplan.execution.monitor import Monitor
 from hrcplan.execution.run import Run
 from hrcplan.pddl.inputs import read
@@ -37,7 +38,7 @@ class Script:
 
     def __init__(self, name: str = "replan-always", sensing: bool = True) -> None:
         problem = read("transport", "two-boxes")
-        self.monitor = Monitor(problem, load_profile(name), sensing)
+        self.monitor = Monitor(ExecutionModel(problem), load_profile(name), sensing)
         self.run: Run = self.monitor.begin()
         self.commands: tuple[Command, ...] = ()
 
@@ -57,7 +58,7 @@ class Script:
     def plan(self, text: str, t: float = 0.0) -> tuple[Command, ...]:
         """Answer the request for a plan, and let the instant settle."""
         plan = parse_plan(text)
-        now = self.monitor.now(self.run)
+        now = self.monitor.decider.problem_now(self.run)
         report = validate(now, plan)
         metric = objective(now, report) if report.valid else None
         return self.tell(ev.Planned(t, plan, metric, "script"), ev.Settled(t))

@@ -181,4 +181,4 @@ def test_a_domain_without_agents_is_executed_too(tmp_path: Path) -> None:
     assert "goal reached: 2 steps" in run.stdout
     nobody = hrcplan("execute", str(domain), str(problem), "--human", "case1")
     assert nobody.returncode == 2
-    assert "nobody" in nobody.stderr
+    assert "no human" in nobody.stderr

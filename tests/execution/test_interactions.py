@@ -11,8 +11,11 @@ from hrcplan.execution import Outcome, Spec, engine_for, means, simulate
 from hrcplan.execution import events as ev
 from hrcplan.execution.execute import carry_out, make_setup
 from hrcplan.execution.journal import read_journal
+from hrcplan.execution.model import ExecutionModel
+from hrcplan.execution.monitor import Monitor
+from hrcplan.execution.replanner import Replanner
 from hrcplan.execution.replay import replay
-from hrcplan.execution.simulate import make_engine
+from hrcplan.execution.simulate import Engine
 from hrcplan.execution.worlds.simulated import Nature, StateChange
 from hrcplan.pddl.inputs import read
 from hrcplan.planners.expected_price import with_success
@@ -30,14 +33,15 @@ def rows(n: int, **changes: Any) -> list[Outcome]:
 def coached(probability: float, seed: int = 0, value: float = 8) -> tuple[Outcome, list[str]]:
     """Return a run whose human is unmotivated from the start, and what was done in it."""
     problem = with_success(read("transport-coached", "two-boxes"), probability)
-    engine = make_engine(problem, load_profile("hrcplan"))
+    model = ExecutionModel(problem)
+    engine = Engine(Monitor(model, load_profile("hrcplan")), Replanner(model))
     nature = Nature(seed, (StateChange(0.0, {MOTIVATION: value}),), sensed="before")
     done: list[str] = []
 
     def watch(run: object, event: ev.Event, commands: tuple[ev.Command, ...]) -> None:
         done.extend(str(c) for c in commands if isinstance(c, ev.Dispatch))
 
-    return engine.row(engine.run(nature, watch=watch)), done
+    return engine.outcome(engine.run(nature, watch=watch)), done
 
 
 def test_a_reminder_that_works_needs_no_replan() -> None:
@@ -68,8 +72,9 @@ def test_what_never_works_is_not_tried() -> None:
 def test_an_interaction_that_leaves_more_is_worth_less() -> None:
     """What is left is a sensed value like others, and told to the planner like others."""
     problem = read("transport-coached", "two-boxes").with_values({("residual",): 5})
-    engine = make_engine(problem, load_profile("hrcplan"))
-    told = engine.monitor.told(engine.monitor.begin())
+    model = ExecutionModel(problem)
+    engine = Engine(Monitor(model, load_profile("hrcplan")), Replanner(model))
+    told = engine.monitor.decider.planner_values(engine.monitor.begin())
     assert float(told["residual",]) == pytest.approx(1 + 6.93, abs=0.01)
     assert told[MOTIVATION] == 1
 
@@ -108,7 +113,7 @@ def test_the_same_seed_gives_the_same_rows() -> None:
     for changes in (COACHED, {"case": 2, **ESTIMATED}):
         first = rows(6, **changes)
         for known in (engine_for(Spec(planner="exact", **changes)).planner,):
-            known._known.clear()
+            known._answers.clear()
         assert rows(6, **changes) == first
 
 

@@ -21,6 +21,7 @@ from hrcplan.execution import events as ev
 from hrcplan.execution.codec import from_json, to_json
 from hrcplan.execution.execute import Executed, carry_out, execute, make_setup
 from hrcplan.execution.journal import JournalWriter, RunSetup, read_journal, setup_from_json
+from hrcplan.execution.model import ExecutionModel
 from hrcplan.execution.replanner import Replanner
 from hrcplan.execution.replay import replay
 from hrcplan.execution.worlds.simulated import FactChange, Nature, StateChange
@@ -45,7 +46,7 @@ def eventful(journal: Path, resume: bool = False) -> Executed:
 @lru_cache
 def shared_planner() -> Replanner:
     """Plans are the same every time, so one planner with its memory serves all runs."""
-    return Replanner(read("transport", "two-boxes"))
+    return Replanner(ExecutionModel(read("transport", "two-boxes")))
 
 
 def content(path: Path) -> list[dict[str, object]]:

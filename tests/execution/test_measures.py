@@ -41,7 +41,7 @@ def test_simulated_runs_are_of_these_types(element: tuple[str, ...], like: Outco
     """Without the model the same plan is tried again until the replan limit ends the run."""
     engine = engine_for(Spec(model=False, profile="replan-always"))
     run = engine.run(Nature(0, (StateChange(0.0, {element: 10}),)))
-    found = engine.row(run)
+    found = engine.outcome(run)
     counted = {k: v for k, v in found.to_json().items() if k != "makespan_s"}
     assert counted == {k: v for k, v in like.to_json().items() if k != "makespan_s"}
 

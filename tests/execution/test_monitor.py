@@ -26,8 +26,8 @@ def test_a_plan_is_carried_out_to_the_goal() -> None:
         script.tell(ev.Ended(t, 2 * step, ev.DONE), ev.Ended(t, 2 * step + 1, ev.DONE))
         script.settle(t)
     assert script.commands == (ev.Finish(200.0, ev.GOAL),)
-    assert script.run.tally.done == {"robot": 4, "human": 4}
-    assert script.run.tally.last_end_s == 200.0
+    assert script.run.counts.done == {"robot": 4, "human": 4}
+    assert script.run.counts.last_end_s == 200.0
 
 
 def test_an_agent_goes_on_as_soon_as_its_own_action_ends() -> None:
@@ -55,9 +55,9 @@ def test_a_change_drains_and_then_replans_once() -> None:
     assert ("at", "human", "wp1") in ask.facts  # the failed move left no trace
     assert ("at", "robot", "wp3") in ask.facts  # the robot's took effect
     script.plan(ROBOT_ONLY, 60.0)
-    assert script.run.tally.replans == {"failure": 1}
-    assert script.run.tally.failed == {"human": 1}
-    assert script.run.tally.assigned == {"robot": 11, "human": 4}
+    assert script.run.counts.replans == {"failure": 1}
+    assert script.run.counts.failed == {"human": 1}
+    assert script.run.counts.assigned == {"robot": 11, "human": 4}
 
 
 def test_a_draining_human_is_cancelled_if_the_profile_says_so() -> None:
@@ -72,8 +72,8 @@ def test_a_draining_human_is_cancelled_if_the_profile_says_so() -> None:
     script.tell(ev.Ended(50.0, 0, ev.DONE))
     script.settle(50.0)
     assert script.has(ev.AskPlan)
-    assert script.run.tally.cancelled == {"human": 1}
-    assert script.run.tally.failed == {}
+    assert script.run.counts.cancelled == {"human": 1}
+    assert script.run.counts.failed == {}
 
 
 def test_the_planner_is_asked_again_if_something_changed_while_it_thought() -> None:
@@ -85,7 +85,7 @@ def test_the_planner_is_asked_again_if_something_changed_while_it_thought() -> N
     commands = script.plan(ROBOT_ONLY, 52.0)
     assert [type(c) for c in commands] == [ev.AskPlan]
     script.plan(ROBOT_ONLY, 53.0)
-    assert script.run.tally.n_replans == 1
+    assert script.run.counts.n_replans == 1
 
 
 def test_hrcplan_confirms_a_plan_that_stays_the_best() -> None:
@@ -95,8 +95,8 @@ def test_hrcplan_confirms_a_plan_that_stays_the_best() -> None:
     script.tell(ev.Ended(50.0, 0, ev.DONE), ev.Ended(50.0, 1, ev.DONE))
     script.settle(50.0)
     commands = script.plan(ROBOT_ONLY, 50.0)  # worse: the human would do it for less
-    assert script.run.tally.plans_confirmed == 1
-    assert script.run.tally.n_replans == 0
+    assert script.run.counts.plans_confirmed == 1
+    assert script.run.counts.n_replans == 0
     assert dispatched(commands) == ["(grasp robot green wp3)", "(grasp human blue wp4)"]
 
 
@@ -107,14 +107,14 @@ def test_paper_counts_a_replan_also_if_the_plan_stays_the_same() -> None:
     script.tell(ev.Ended(50.0, 0, ev.DONE), ev.Ended(50.0, 1, ev.DONE))
     script.settle(50.0)
     commands = script.plan(ROBOT_ONLY, 50.0)
-    assert script.run.tally.replans == {"change": 1}
+    assert script.run.counts.replans == {"change": 1}
     assert len(adopted(commands).actions) == 6  # what was left of the better plan, kept
 
 
 def test_an_observation_that_differs_is_a_deviation() -> None:
     script = Script()
     script.begin()
-    facts = script.monitor.acting.changing(script.run.state)
+    facts = script.monitor.model.actions.changing(script.run.state)
     moved = facts - {("box-at", "blue", "wp4")} | {("box-at", "blue", "wp0")}
     script.tell(ev.Observed(10.0, moved))
     script.settle(10.0)
@@ -128,7 +128,7 @@ def test_an_observation_that_differs_is_a_deviation() -> None:
 def test_an_observation_as_expected_is_none() -> None:
     script = Script()
     script.begin()
-    script.tell(ev.Observed(10.0, script.monitor.acting.changing(script.run.state)))
+    script.tell(ev.Observed(10.0, script.monitor.model.actions.changing(script.run.state)))
     assert script.settle(10.0) == ()
     assert script.run.reasons == ()
 
@@ -153,14 +153,14 @@ def test_bad_sensed_values_are_rejected_and_the_last_good_one_stays(value: float
     assert isinstance(told, ev.Tell)
     assert told.code == "bad-sensed-value"
     assert "[0, 10]" in told.message
-    assert script.run.sensed[MOTIVATION] == 4
+    assert script.run.sensed_values[MOTIVATION] == 4
 
 
 def test_one_bad_value_does_not_spoil_the_others() -> None:
     script = Script()
     script.begin()
     script.tell(ev.Sensed(5.0, {("mood", "human"): 3, MOTIVATION: 7}))
-    assert script.run.sensed == {MOTIVATION: 7}
+    assert script.run.sensed_values == {MOTIVATION: 7}
 
 
 def test_an_action_that_was_never_dispatched_changes_nothing() -> None:
@@ -212,7 +212,7 @@ def test_a_plan_that_nobody_asked_for_is_not_followed() -> None:
     script.begin()
     (told, *_) = script.plan(ROBOT_ONLY, 10.0)
     assert isinstance(told, ev.Tell)
-    assert script.run.tally.n_replans == 0
+    assert script.run.counts.n_replans == 0
 
 
 def test_the_sixth_failure_ends_the_run() -> None:
@@ -229,8 +229,8 @@ def test_the_sixth_failure_ends_the_run() -> None:
             # No better plan: what is left of the running one is tried again.
             script.tell(ev.Planned(t, None), ev.Settled(t))
     assert script.run.ending == ev.REPLAN_LIMIT
-    assert script.run.tally.n_replans == 5
-    assert script.run.tally.assigned == {"robot": 10, "human": 24}
+    assert script.run.counts.n_replans == 5
+    assert script.run.counts.assigned == {"robot": 10, "human": 24}
 
 
 def test_no_plan_is_a_named_ending_and_stops_everybody() -> None:
@@ -265,8 +265,8 @@ def test_an_overdue_action_counts_as_failed_and_is_broken_off() -> None:
     script = Script()
     script.begin()
     assert script.tell(ev.Overdue(500.0, 1)) == (ev.Cancel(500.0, 1),)
-    assert script.run.tally.failed == {"human": 1}
-    assert script.run.find(1) is None
+    assert script.run.counts.failed == {"human": 1}
+    assert script.run.running_action(1) is None
 
 
 def test_stopping_is_a_named_ending_and_the_last_word() -> None:
@@ -298,7 +298,7 @@ def test_no_sequence_of_events_confuses_the_monitor(events: list[ev.Event], name
             script.tell(ev.Planned(event.t, None), ev.Settled(event.t))
         busy = [agent for r in script.run.running for agent in r.step.busy]
         assert len(busy) == len(set(busy))
-        tally = script.run.tally
+        tally = script.run.counts
         closed = sum(map(sum, (d.values() for d in (tally.done, tally.failed, tally.cancelled))))
         assert closed + len(script.run.running) == script.run.n_dispatched
         assert tally.n_replans <= 5

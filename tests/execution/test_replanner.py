@@ -7,10 +7,11 @@ import pytest
 from hrcplan.agents import load_profile
 from hrcplan.errors import PlannerError
 from hrcplan.execution import events as ev
+from hrcplan.execution.model import ExecutionModel
 from hrcplan.execution.monitor import Monitor
 from hrcplan.execution.replanner import Replanner
 from hrcplan.execution.run import Run
-from hrcplan.execution.simulate import Engine, make_engine
+from hrcplan.execution.simulate import Engine
 from hrcplan.execution.timeline import Timeline
 from hrcplan.execution.worlds.simulated import Nature, StateChange
 from hrcplan.pddl.inputs import read
@@ -52,13 +53,13 @@ class Faulty:
 
 
 def engine_with(planner: Replanner) -> Engine:
-    return make_engine(planner.problem, load_profile("replan-always"), True, planner)
+    return Engine(Monitor(planner.model, load_profile("replan-always")), planner)
 
 
 @pytest.mark.parametrize("fault", ["crash", "bug", "timeout", "lie"])
 def test_the_next_planner_takes_over(fault: str) -> None:
     problem = read("transport", "two-boxes")
-    planner = Replanner(problem, (Faulty(fault),), timeout_s=1.0)
+    planner = Replanner(ExecutionModel(problem), (Faulty(fault),), timeout_s=1.0)
     timeline = Timeline()
     asked: list[ev.Planned] = []
 
@@ -81,7 +82,7 @@ class Silent(Replanner):
 
 
 def test_without_any_planner_the_running_plan_goes_on_and_the_run_ends_by_name() -> None:
-    planner = Silent(read("transport", "two-boxes"))
+    planner = Silent(ExecutionModel(read("transport", "two-boxes")))
     last: list[ev.Command] = []
 
     def watch(run: Run, event: ev.Event, commands: tuple[ev.Command, ...]) -> None:
@@ -95,27 +96,27 @@ def test_without_any_planner_the_running_plan_goes_on_and_the_run_ends_by_name()
 def test_an_unsolvable_rest_is_a_named_ending() -> None:
     """The robot alone cannot hand a box over, and the human's actions have no cause to fail."""
     problem = read("transport", "two-boxes")
-    stranded = Monitor(problem, load_profile("replan-always"))
+    stranded = Monitor(ExecutionModel(problem), load_profile("replan-always"))
     facts = problem.facts - {("free", "human"), ("free", "robot")}
-    ask = ev.AskPlan(0.0, stranded.acting.changing(stranded.acting.initial()) & facts, {},
-                     dict(stranded.agents.low), ("failure: x",))  # fmt: skip
-    planned = Replanner(problem).answer(ask)
+    actions, low = stranded.model.actions, dict(stranded.model.agents.low)
+    ask = ev.AskPlan(0.0, actions.changing(actions.initial()) & facts, {}, low, ("failure: x",))
+    planned = Replanner(ExecutionModel(problem)).answer(ask)
     assert planned.plan is None
     assert planned.note == "the goal is unsolvable"
 
 
 def test_equal_questions_are_answered_once() -> None:
-    planner = Replanner(read("transport", "two-boxes"))
+    planner = Replanner(ExecutionModel(read("transport", "two-boxes")))
     engine = engine_with(planner)
-    first = engine.row(engine.run(DISTRACTED))
+    first = engine.outcome(engine.run(DISTRACTED))
     n_asked = planner.n_asked
-    assert engine.row(engine.run(DISTRACTED)) == first
+    assert engine.outcome(engine.run(DISTRACTED)) == first
     assert planner.n_asked == n_asked
 
 
 def test_replanning_is_quick() -> None:
     """The goal is 20 ms in the median; the bound here leaves room for a busy machine."""
-    planner = Replanner(read("transport", "two-boxes"))
+    planner = Replanner(ExecutionModel(read("transport", "two-boxes")))
     engine = engine_with(planner)
     for value in range(2, 11):
         engine.run(Nature(0, (StateChange(0.0, {("motivation", "human"): value}),)))

@@ -8,6 +8,7 @@ from hrcplan.errors import UsageError
 from hrcplan.execution import Spec, engine_for, simulate
 from hrcplan.execution import events as ev
 from hrcplan.execution.events import Event
+from hrcplan.execution.model import ExecutionModel
 from hrcplan.execution.simulate import cause_of, nature_of
 from hrcplan.execution.worlds import chance
 from hrcplan.execution.worlds.simulated import FactChange, Nature, SimulatedWorld, StateChange
@@ -29,7 +30,7 @@ def lost(t: float) -> StateChange:
 
 
 def moving(problem: Problem, nature: Nature, human_s: float = 50.0) -> SimulatedWorld:
-    world = SimulatedWorld(problem, nature)
+    world = SimulatedWorld(ExecutionModel(problem), nature)
     world.begin()
     world.do(ev.Dispatch(0.0, 0, "robot", "move", ("robot", "wp0", "wp3"), 50.0))
     world.do(ev.Dispatch(0.0, 1, "human", "move", ("human", "wp1", "wp4"), human_s))
@@ -67,7 +68,7 @@ def test_the_human_fails_and_the_robot_does_not(problem: Problem) -> None:
 
 @pytest.mark.parametrize(("sensed", "t"), [("before", 0.0), ("during", 25.0), ("after", 50.0)])
 def test_when_a_change_is_sensed(problem: Problem, sensed: str, t: float) -> None:
-    world = SimulatedWorld(problem, Nature(changes=(lost(0.0),), sensed=sensed))
+    world = SimulatedWorld(ExecutionModel(problem), Nature(changes=(lost(0.0),), sensed=sensed))
     first = [e.t for e in world.begin() if isinstance(e, ev.Sensed)]
     world.do(ev.Dispatch(0.0, 1, "human", "move", ("human", "wp1", "wp4"), 50.0))
     assert first + [e.t for e in everything(world) if isinstance(e, ev.Sensed)] == [t]
@@ -93,7 +94,7 @@ def test_actions_that_cannot_fail_do_not(problem: Problem) -> None:
 
 def test_a_cancelled_action_leaves_no_trace(problem: Problem) -> None:
     world = moving(problem, Nature())
-    before = SimulatedWorld(problem, Nature()).state.facts
+    before = SimulatedWorld(ExecutionModel(problem), Nature()).state.facts
     world.do(ev.Cancel(0.0, 0))
     world.do(ev.Cancel(0.0, 1))
     assert {(e.number, e.outcome) for e in everything(world) if isinstance(e, ev.Ended)} == {
@@ -104,7 +105,9 @@ def test_a_cancelled_action_leaves_no_trace(problem: Problem) -> None:
 
 def test_an_accident_is_observed(problem: Problem) -> None:
     fact = ("box-at", "blue", "wp0")
-    world = SimulatedWorld(problem, Nature(accidents=(FactChange(5.0, frozenset({fact})),)))
+    world = SimulatedWorld(
+        ExecutionModel(problem), Nature(accidents=(FactChange(5.0, frozenset({fact})),))
+    )
     (event, *_) = world.next()
     assert isinstance(event, ev.Observed)
     assert fact in event.facts
@@ -113,7 +116,7 @@ def test_an_accident_is_observed(problem: Problem) -> None:
 def test_outcomes_are_drawn_once_or_at_every_attempt(problem: Problem) -> None:
     def outcomes(draws: str) -> set[str]:
         change = StateChange(0.0, {MOTIVATION: 5})
-        world = SimulatedWorld(problem, Nature("s", (change,), draws=draws))
+        world = SimulatedWorld(ExecutionModel(problem), Nature("s", (change,), draws=draws))
         found = set()
         for n in range(30):
             world.do(ev.Dispatch(50.0 * n, n, "human", "move", ("human", "wp1", "wp1"), 50.0))
@@ -164,7 +167,7 @@ def test_unequal_durations_lose_no_time_and_reach_the_goal() -> None:
     slow = Nature("slow", stretch=(1.5, 1.5))
     run = engine.run(slow)
     assert run.ending == ev.GOAL
-    assert run.tally.last_end_s == 300.0
+    assert run.counts.last_end_s == 300.0
     varied = Nature("varied", (lost(120.0),), stretch=(0.5, 2.0))
     assert engine_for(Spec(profile="hrcplan")).run(varied).ending == ev.GOAL
 
@@ -191,7 +194,7 @@ def test_an_interaction_changes_the_truth_if_it_succeeds(
     loaded = read(
         str(tmp_path / "transport.pddl"), str(library.find_problem("transport", "two-boxes"))
     )
-    world = SimulatedWorld(loaded, Nature(changes=(lost(0.0),), sensed="before"))
+    world = SimulatedWorld(ExecutionModel(loaded), Nature(changes=(lost(0.0),), sensed="before"))
     world.begin()
     world.do(ev.Dispatch(0.0, 0, "robot", "remind", ("robot", "human"), 10.0))
     assert everything(world) == [ev.Ended(10.0, 0, ev.DONE), ev.Sensed(10.0, {MOTIVATION: value})]

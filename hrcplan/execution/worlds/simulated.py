@@ -10,15 +10,15 @@ import heapq
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from hrcplan.agents import AgentModel
 from hrcplan.agents.state import LEAST, MOST
 from hrcplan.core.numbers import Number
 from hrcplan.execution import events as ev
-from hrcplan.execution.acting import ActionModel, BoundAction, Undo
+from hrcplan.execution.action_model import BoundAction, StartEffects
 from hrcplan.execution.codec import exact_number
 from hrcplan.execution.events import Command, Event
+from hrcplan.execution.model import ExecutionModel
 from hrcplan.execution.worlds import chance
-from hrcplan.pddl.model import Fact, FluentKey, Problem
+from hrcplan.pddl.model import Fact, FluentKey
 from hrcplan.pddl.semantics import LiftedState
 
 BEFORE, DURING, AFTER = "before", "during", "after"
@@ -71,7 +71,7 @@ class _Acted:
     step: BoundAction
     duration: Number
     end_s: float
-    undo: Undo
+    start_effects: StartEffects
 
 
 _END, _ACCIDENT, _CHANGE, _SENSE, _WAKE = range(5)
@@ -81,14 +81,11 @@ _END, _ACCIDENT, _CHANGE, _SENSE, _WAKE = range(5)
 class SimulatedWorld:
     """Carries actions out as the PDDL says, with the failures and changes that nature holds."""
 
-    def __init__(
-        self, problem: Problem, nature: Nature, acting: ActionModel | None = None,
-        agents: AgentModel | None = None,
-    ) -> None:  # fmt: skip
+    def __init__(self, model: ExecutionModel, nature: Nature) -> None:
         self.nature = nature
-        self.acting = acting or ActionModel(problem)
-        self.agents = agents or AgentModel(problem)
-        self.state: LiftedState = self.acting.initial()
+        self.model = model
+        self.actions, self.agents = model.actions, model.agents
+        self.state: LiftedState = self.actions.initial()
         self.values: dict[FluentKey, Number] = dict(self.agents.low)
         self._acted: dict[int, _Acted] = {}
         self._unsensed: dict[FluentKey, Number] = {}
@@ -122,12 +119,12 @@ class SimulatedWorld:
                 self._at(at_s, _WAKE, None)
 
     def _begin(self, command: ev.Dispatch) -> None:
-        step = self.acting.step(ev.planned(command))
+        step = self.actions.step(ev.planned(command))
         assert step is not None
         duration = exact_number(command.duration_s)
-        self.state, undo = self.acting.begin(self.state, step, duration)  # type: ignore[arg-type]
+        self.state, effects = self.actions.begin(self.state, step, duration)  # type: ignore[arg-type]
         end_s = command.t + command.duration_s * self._stretch(step, command.number)
-        self._acted[command.number] = _Acted(step, duration, end_s, undo)  # type: ignore[arg-type]
+        self._acted[command.number] = _Acted(step, duration, end_s, effects)  # type: ignore[arg-type]
         self._at(end_s, _END, command.number)
         if self._unsensed and self._is_human(step):
             self._schedule_sensing(command.t, end_s)
@@ -142,11 +139,11 @@ class SimulatedWorld:
         """Break an action off in this instant; it leaves no effect."""
         action = self._acted.pop(number, None)
         if action is not None:
-            self.state = self.acting.undo(self.state, action.undo)
+            self.state = self.actions.revert(self.state, action.start_effects)
             self._at(self._now, _END, ev.Ended(self._now, number, ev.CANCELLED))
 
     def _is_human(self, step: BoundAction) -> bool:
-        return bool(step.agent) and step.agent not in self.agents.robots
+        return self.model.is_human(step.agent)
 
     def next(self) -> tuple[Event, ...]:
         """Return the events of the next instant: outcomes, then changes, then what is sensed."""
@@ -190,14 +187,14 @@ class SimulatedWorld:
         if action is None:
             return []  # it was cancelled
         if not self._succeeds(number, action):
-            self.state = self.acting.undo(self.state, action.undo)
+            self.state = self.actions.revert(self.state, action.start_effects)
             return [ev.Ended(t, number, ev.FAILED)]
-        self.state = self.acting.finish(self.state, action.step, action.duration)
+        self.state = self.actions.finish(self.state, action.step, action.duration)
         return [ev.Ended(t, number, ev.DONE), *self._influence(t, number, action.step)]
 
     def _influence(self, t: float, number: int, step: BoundAction) -> Sequence[Event]:
         """Let an interaction have its effect, or not, and sense what has come of it."""
-        values = self.acting.influence(step, self.values)
+        values = self.actions.influence(step, self.values)
         if not values:
             return []
         name = step.schema.name
@@ -208,7 +205,7 @@ class SimulatedWorld:
         return [ev.Sensed(t, {key: self.values[key] for key in values})]
 
     def _success(self, name: str) -> float:
-        return float(self.acting.problem.domain.success(name))
+        return float(self.model.problem.domain.success(name))
 
     def _succeeds(self, number: int, action: _Acted) -> bool:
         """Return the outcome of an action, from the true agent state and what was drawn for it."""
@@ -244,4 +241,4 @@ class SimulatedWorld:
         return [ev.Sensed(t, values)] if values else []
 
     def _observation(self) -> ev.Observed:
-        return ev.Observed(self._now, self.acting.changing(self.state), self.state.values)
+        return ev.Observed(self._now, self.actions.changing(self.state), self.state.values)

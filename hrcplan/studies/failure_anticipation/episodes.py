@@ -50,7 +50,7 @@ def row_of(spec: Spec) -> StudyRow:
     """Return the row of one simulated run."""
     engine = engine_for(spec)
     nature = nature_of(spec, engine)
-    outcome = engine.row(engine.run(nature))
+    outcome = engine.outcome(engine.run(nature))
     drawn: StudyRow = dict.fromkeys(_DRAWN)
     for change in nature.changes:
         for key, value in change.values.items():
@@ -65,8 +65,8 @@ def allocated(options: StudyOptions, cell: Cell, seed: str) -> StudyRow:
     monitor = engine.monitor
     key = scenario.element("allocation", options, human_elements(engine))
     before = drained(engine, starts_of_human(engine)[at])
-    told = monitor.profile.told(monitor.agents, {key: value}, Memory())
-    facts = monitor.acting.changing(before)
+    told = monitor.profile.planner_values(monitor.model.agents, {key: value}, Memory())
+    facts = monitor.model.actions.changing(before)
     found = engine.planner.answer(ev.AskPlan(0.0, facts, before.values, told))
     actions = () if found.plan is None else found.plan.actions
     n_human = sum(is_human(engine, action) for action in actions)
@@ -106,7 +106,7 @@ def shown(options: StudyOptions, cell: Cell, seed: str) -> StudyRow:
     run = engine.run(Nature(seed, (change,)), watch=film)
     return {
         "ending": run.ending or "",
-        "replans": run.tally.n_replans,
+        "replans": run.counts.n_replans,
         "bars": json.dumps(film.bars),
         "plans": json.dumps(film.plans),
     }
@@ -143,21 +143,14 @@ def _plain(options: StudyOptions, **changes: Any) -> Spec:
 
 def human_elements(engine: Engine) -> list[FluentKey]:
     """Return the elements of agent state that are not a robot's."""
-    agents = engine.monitor.agents
+    agents = engine.monitor.model.agents
     return [key for key in agents.low if key[1] not in agents.robots]
 
 
 def is_human(engine: Engine, action: PlannedAction) -> bool:
     """Whether an action is done by an agent that takes no commands."""
-    step = engine.monitor.acting.step(action)
-    return bool(step and step.agent) and step.agent not in engine.monitor.agents.robots  # type: ignore[union-attr]
-
-
-def first_plan(engine: Engine) -> Plan:
-    """Return the plan that a run begins with; an empty one if there is none."""
-    _, commands = engine.monitor.step(engine.monitor.begin(), ev.Settled(0.0))
-    ask = next(command for command in commands if isinstance(command, ev.AskPlan))
-    return engine.planner.answer(ask).plan or Plan()
+    step = engine.model.actions.step(action)
+    return step is not None and engine.model.is_human(step.agent)
 
 
 def starts_of_human(engine: Engine) -> list[float]:
@@ -166,16 +159,16 @@ def starts_of_human(engine: Engine) -> list[float]:
 
 
 def _starts(engine: Engine) -> Iterator[float]:
-    for action in first_plan(engine).actions:
+    for action in (engine.first_plan() or Plan()).actions:
         if is_human(engine, action):
             yield float(action.start_s or 0)
 
 
 def drained(engine: Engine, t: float) -> LiftedState:
     """Return the state of the first plan when what had begun before ``t`` has ended."""
-    acting = engine.monitor.acting
+    acting = engine.monitor.model.actions
     state = acting.initial()
-    for action in first_plan(engine).actions:
+    for action in (engine.first_plan() or Plan()).actions:
         step = acting.step(action)
         if step is None or float(action.start_s or 0) >= t - ev.INSTANT_S:
             continue

@@ -51,8 +51,8 @@ class BoundAction:
 
 
 @dataclass(frozen=True, slots=True)
-class Undo:
-    """What the start of an action changed, so that a failed one leaves no trace."""
+class StartEffects:
+    """What the start of an action changed; `ActionModel.revert` takes it back if it fails."""
 
     added: frozenset[Fact]
     removed: frozenset[Fact]
@@ -69,8 +69,8 @@ class ActionModel:
         self._agent_state = agent_state_functions(problem.domain)
         moved = {e.target.name for a in problem.domain.actions for e in a.effects}
         self.static = frozenset(fact for fact in problem.facts if fact[0] not in moved)
-        told = self._agent_state | {TOTAL_COST}
-        self._moving = moved.intersection(problem.domain.functions) - told
+        costs = self._agent_state | {TOTAL_COST}
+        self._moving = moved.intersection(problem.domain.functions) - costs
         self._compares = bool(self._moving) or _compares(problem)
 
     def initial(self) -> LiftedState:
@@ -93,18 +93,18 @@ class ActionModel:
     def step(self, action: PlannedAction) -> BoundAction | None:
         """Return a planned action as a step, or None if the problem has no such action."""
         key = (action.name, *action.args)
-        found = self._steps.get(key)
-        if found is None:
+        step = self._steps.get(key)
+        if step is None:
             schema = self._schemas.get(action.name)
             binding = "" if schema is None else bind(schema, action.args, self.problem)
             if schema is None or isinstance(binding, str):
                 return None
-            found = self._steps[key] = self._make(schema, binding, action)
-        return found
+            step = self._steps[key] = self._make(schema, binding, action)
+        return step
 
     def _make(self, schema: Action, binding: Binding, action: PlannedAction) -> BoundAction:
-        told = self._agent_state | {TOTAL_COST}
-        effects = [e for e in schema.effects if e.value is None or e.target.name not in told]
+        costs = self._agent_state | {TOTAL_COST}
+        effects = [e for e in schema.effects if e.value is None or e.target.name not in costs]
         # A step without duration takes effect when it is finished: only then is its outcome known.
         return BoundAction(
             schema,
@@ -150,21 +150,21 @@ class ActionModel:
 
     def begin(
         self, state: LiftedState, step: BoundAction, duration: Number = 0
-    ) -> tuple[LiftedState, Undo]:
+    ) -> tuple[LiftedState, StartEffects]:
         """Return the state just after a step has begun, and how to take that back."""
         after = self._changed(state, step, step.at_start, duration)
         before_facts, facts = frozenset(state.facts), frozenset(after.facts)
         old = {k: v for k, v in state.values.items() if after.values.get(k) != v}
-        return after, Undo(facts - before_facts, before_facts - facts, old)
+        return after, StartEffects(facts - before_facts, before_facts - facts, old)
 
     def finish(self, state: LiftedState, step: BoundAction, duration: Number = 0) -> LiftedState:
         """Return the state just after a step has ended well."""
         return self._changed(state, step, step.at_end, duration)
 
-    def undo(self, state: LiftedState, undo: Undo) -> LiftedState:
+    def revert(self, state: LiftedState, effects: StartEffects) -> LiftedState:
         """Return the state as if a step that failed had never begun."""
-        facts = frozenset(state.facts) - undo.added | undo.removed
-        return LiftedState(facts, {**state.values, **undo.numbers})
+        facts = frozenset(state.facts) - effects.added | effects.removed
+        return LiftedState(facts, {**state.values, **effects.numbers})
 
     def _changed(
         self, state: LiftedState, step: BoundAction, effects: tuple[Effect, ...], duration: Number
