@@ -42,7 +42,7 @@ class ImaginedSteps:
     def after(self, track: Progress, step: int) -> Progress:
         """Return where goals would stand after a step that somebody can do."""
         joint, before = self.tracker.joint, track.world
-        world = self.tracker.successor(before, step)
+        world = self.tracker.bank.table.successor(before, step)
         if world is None or world == before:
             return track
         goals = joint.concerned(step, before ^ world)

@@ -10,7 +10,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from hrcplan.assistance.rhp.consistency import labels
 from hrcplan.bank import Bank
 from hrcplan.core.arrays import Ids
 from hrcplan.core.bits import positions
@@ -39,8 +38,8 @@ class Bigrams:
     """
 
     def __init__(self, bank: Bank, n_plans: int = N_PLANS, seed: int = 0) -> None:
-        label = np.array([*labels(bank.table), -1])
-        self.n_labels = int(label.max(initial=-1)) + 1
+        label = np.array([*bank.table.labels, -1])
+        self.n_labels = bank.table.n_labels
         rng = np.random.default_rng(seed)
         parts = [
             self._count(goal, label[bank.sampler(goal).draw(n_plans, rng)])

@@ -70,7 +70,7 @@ class Lookahead:
 
     def after(self, place: TreePosition, step: int) -> TreePosition:
         """Return the place after a step that can be done."""
-        world = self._ahead.tracker.successor(place.track.world, step)
+        world = self._ahead.tracker.bank.table.successor(place.track.world, step)
         key = place.track.world if world is None else world
         if key not in place.known:
             track = self._ahead.after(place.track, step)

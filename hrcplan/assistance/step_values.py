@@ -90,12 +90,12 @@ class StepValues:
 
     def _touched(self, track: Progress, step: int) -> Ids:
         """Return the goals that a step may move."""
-        world = self.tracker.successor(track.world, step)
+        world = self.tracker.bank.table.successor(track.world, step)
         return self.tracker.joint.concerned(step, track.world ^ (world or 0))
 
     def _change(self, track: Progress, goal: int, step: int) -> float:
         """Return by how many steps a step that is not next in any plan brings a goal nearer."""
-        world = self.tracker.successor(track.world, step)
+        world = self.tracker.bank.table.successor(track.world, step)
         if world is None or not (track.world ^ world) & self.bank.graphs[goal].relevant:
             return 0.0
         key = goal, world & self._matters[goal]
@@ -113,7 +113,7 @@ class StepValues:
             return False  # where it is on its graph the number of steps is known
         state: int | None = world
         for step, _ in shortest(*self._place(goal, track)):
-            state = None if state is None else self.tracker.successor(state, step)
+            state = None if state is None else self.tracker.bank.table.successor(state, step)
         return state is not None and self.bank.goals.is_reached(goal, state)
 
     def to_go(self, goal: int, track: Progress) -> float:

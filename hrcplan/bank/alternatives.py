@@ -105,7 +105,7 @@ class _Search:
             if way is None:
                 continue
             op, more = way
-            after = op.after(now) & self.needed.facts
+            after = op.apply(now) & self.needed.facts
             cost = paid + op.cost
             if after == now or cost + self._to_pay(met | more) > self.bound:
                 continue
@@ -122,7 +122,7 @@ class _Search:
         for shadow in shadows:
             op = next((op for op, _ in ways if meets(shadow, op.tests)), None)
             if op is not None:
-                yield op.after(shadow) & self.needed.facts
+                yield op.apply(shadow) & self.needed.facts
 
     def _serves(self, shadow: int, state: int) -> bool:
         """Whether whatever can be done from ``state`` to reach the goal can be from a shadow.

@@ -12,10 +12,8 @@ import numpy as np
 from hrcplan.bank import Bank, PlanGraph
 from hrcplan.core.arrays import Bools, Floats, Ids
 from hrcplan.core.bits import positions
-from hrcplan.task import Task
+from hrcplan.task.transitions import Rule
 
-_Rule = tuple[int, int, int, int]
-"""Mask and value of a test, touched facts, added facts."""
 _BitRules = tuple[tuple[int, int, int, int, int], ...]
 _Part = tuple[int, _BitRules, tuple[tuple[int, tuple[int, ...]], ...]]
 """Labels: all others as bits, their rules with their bits, and their actions that are no rules."""
@@ -39,10 +37,8 @@ class CombinedGraph:
 
     def __init__(self, bank: Bank) -> None:
         self.bank = bank
-        labels: dict[tuple[str, ...], int] = {}
         table = bank.table
-        self.label = tuple(labels.setdefault(table[i].name, len(labels)) for i in range(len(table)))
-        self.n_labels, self.n_steps = len(labels), len(table)
+        self.label, self.n_labels, self.n_steps = table.labels, table.n_labels, len(table)
         self.one_label_each = self.n_labels == self.n_steps
         self._concerned: dict[tuple[int, int], Ids] = {}
         sizes = [graph.n_nodes for graph in bank.graphs]
@@ -143,7 +139,7 @@ class ApplicableSteps:
     def __init__(self, joint: CombinedGraph) -> None:
         table, task = joint.bank.table, joint.bank.goals.task
         self._task = task
-        self._rules: list[list[_Rule]] = [[] for _ in range(joint.n_labels)]
+        self._rules: list[list[Rule]] = [[] for _ in range(joint.n_labels)]
         self._odd: list[list[int]] = [[] for _ in range(joint.n_labels)]
         self._mentions: dict[int, set[int]] = {}
         for step in range(len(table)):
@@ -154,12 +150,11 @@ class ApplicableSteps:
 
     def _take(self, index: int, label: int) -> None:
         action = self._task.actions[index]
-        if len(action.tests) == 1 and not action.conditional:
-            mask, value = action.tests[0]
-            self._rules[label].append((mask, value, action.adds | action.deletes, action.adds))
-        else:
+        if action.rules is None:
             self._odd[label].append(index)
-        for position in positions(_mentioned(self._task, index)):
+        else:
+            self._rules[label].extend(action.rules)
+        for position in positions(action.mentioned):
             self._mentions.setdefault(position, set()).add(label)
 
     def _part(self, labels: Iterable[int]) -> _Part:
@@ -217,25 +212,4 @@ def _shares(graph: PlanGraph) -> Floats:
         large: Floats = np.exp(logs[graph.targets] - logs[sources])
         return large
     found: Floats = counts[graph.targets] / counts[sources]
-    return found
-
-
-def _touched(task: Task, actions: tuple[int, ...]) -> int:
-    found = 0
-    for index in actions:
-        action = task.actions[index]
-        found |= action.adds | action.deletes
-        for change in (*action.at_start, *action.at_end):
-            found |= change.adds | change.deletes
-    return found
-
-
-def _mentioned(task: Task, index: int) -> int:
-    found = _touched(task, (index,))
-    action = task.actions[index]
-    for mask, _ in action.tests:
-        found |= mask
-    for change in (*action.at_start, *action.at_end):
-        for mask, _ in change.tests:
-            found |= mask
     return found

@@ -82,7 +82,7 @@ def graph_of_plans(
         state, paid = goals.task.initial, 0
         for step in plan:
             op = next(op for op in table.ways(step) if meets(state, op.tests))
-            after = op.after(state)
+            after = op.apply(state)
             edges[paid, state & needed.facts, step] = (paid + op.cost, after & needed.facts)
             state, paid = after, paid + op.cost
     root = (0, goals.task.initial & needed.facts)

@@ -17,7 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hrcplan.bank.graph import PlanGraph
-from hrcplan.bank.walk import Multiset, plans, step_multisets
+from hrcplan.bank.multisets import Multiset, step_multisets
+from hrcplan.bank.walk import plans
 from hrcplan.core.arrays import Bools, Ids
 from hrcplan.core.bits import positions
 from hrcplan.core.numbers import Number

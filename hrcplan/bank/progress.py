@@ -65,24 +65,11 @@ class ProgressTracker:
         self.bank = bank
         self.joint = combined_graph_of(bank)
         self._doable = ApplicableSteps(self.joint)
-        self._quick = [self._rule(step) for step in range(len(bank.table))]
         self._relevant = [graph.relevant for graph in bank.graphs]
         self._known: dict[tuple[int, int], int] = {}
         self._matters: dict[int, int] = {}
         world = bank.initial
         self.start = Progress(world, self.joint.roots, self._doable.of(world))
-
-    def _rule(self, step: int) -> tuple[int, int, int, int] | None:
-        """Return mask, value, kept and added facts of a step with one condition and effect."""
-        task = self.bank.goals.task
-        actions = [task.actions[index] for index in self.bank.table[step].actions]
-        if any(action.conditional for action in actions):
-            return None
-        rules = {(test, ~a.deletes, a.adds) for a in actions for test in a.tests}
-        if len(rules) != 1:
-            return None
-        (mask, value), keeps, adds = rules.pop()
-        return mask, value, keeps, adds
 
     def follow(self, track: Progress, step: int) -> tuple[Progress, Evidence] | None:
         """Return where everything stands after a step, and what it says; None if nobody can do it.
@@ -90,7 +77,7 @@ class ProgressTracker:
         What it says, it says about the moment before.
         """
         joint = self.joint
-        before, world = track.world, self.successor(track.world, step)
+        before, world = track.world, self.bank.table.successor(track.world, step)
         if world is None:
             return None
         goals = joint.concerned(step, before ^ world)
@@ -114,14 +101,6 @@ class ProgressTracker:
         off = self._jumps(track, step, world, missed, nodes)
         doable = self._doable.after(track.doable, before, world)
         return Progress(world, nodes, doable, off), seen
-
-    def successor(self, world: int, step: int) -> int | None:
-        """Return the state after a step; None if nobody can do it."""
-        quick = self._quick[step]
-        if quick is None:
-            return self.bank.table.successor(world, step)
-        mask, value, keeps, adds = quick
-        return world & keeps | adds if world & mask == value else None
 
     def _look_off(self, track: Progress, step: int, seen: Evidence) -> Evidence:
         label, n_next = self.joint.label, seen.n_next

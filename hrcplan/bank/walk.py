@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from itertools import islice
 
@@ -13,9 +12,6 @@ from hrcplan.bank.graph import PlanGraph
 from hrcplan.core.arrays import Bools, Floats, Ids, SmallIds
 from hrcplan.errors import LimitError
 
-MAX_MULTISETS = 10_000
-MAX_OBSERVED = 20  # steps that the subset test can look at where there are too many multisets
-MAX_WORK = 2_000_000  # steps of a search before its answer is "unknown"
 MAX_TRIES = 1_000  # samples thrown away for each one that is kept
 
 CHUNK = 8192  # plans that are drawn together: their arrays stay in the processor's cache
@@ -164,112 +160,6 @@ def is_subsequence(graph: PlanGraph, observed: Sequence[int]) -> bool:
         done = matched[sources]
         np.maximum.at(matched, graph.targets[edges], done + (graph.steps[edges] == wanted[done]))
     return bool(matched[graph.is_goal].max() == len(observed))
-
-
-def is_subset(graph: PlanGraph, observed: Sequence[int]) -> bool | None:
-    """Return whether some plan holds these steps in any order, as often as they stand here.
-
-    None means unknown: there are more than ``MAX_MULTISETS`` kinds of plans, and either more than
-    ``MAX_OBSERVED`` steps or too much to look at.
-    """
-    seen = Counter(observed)
-    if not seen.keys() <= graph.used_steps:
-        return not seen
-    kinds = step_multisets(graph)
-    if kinds is not None:
-        return any(seen <= Counter(dict(kind)) for kind in kinds)
-    return _has_subset(graph, seen) if len(observed) <= MAX_OBSERVED else None
-
-
-Multiset = frozenset[tuple[int, int]]
-
-
-def step_multisets(graph: PlanGraph) -> frozenset[Multiset] | None:
-    """Return the distinct multisets of steps of plans, as (step, times) pairs.
-
-    None means that there are more than ``MAX_MULTISETS``.
-    """
-    if "_multisets" not in graph.__dict__:
-        graph.__dict__["_multisets"] = _one_multiset(graph) or _all_multisets(graph)
-    found: frozenset[Multiset] | None = graph.__dict__["_multisets"]
-    return found
-
-
-def _one_multiset(graph: PlanGraph) -> frozenset[Multiset] | None:
-    """Return the multisets where all ways to a node hold the same steps; None if they do not."""
-    used = sorted(graph.used_steps)
-    if not graph.n_nodes or graph.n_nodes * len(used) > MAX_WORK * 100:
-        return None
-    column = np.full(max(used, default=0) + 1, 0, dtype=np.int64)
-    column[used] = np.arange(len(used))
-    times = np.zeros((graph.n_nodes, len(used)), dtype=np.uint8)
-    for edges, sources in graph.edges_by_layer():
-        after = times[sources]
-        after[np.arange(len(sources)), column[graph.steps[edges]]] += 1
-        times[graph.targets[edges]] = after
-        if (times[graph.targets[edges]] != after).any():
-            return None
-    sources = np.repeat(np.arange(graph.n_nodes), np.diff(graph.first))
-    gained = times[graph.targets].astype(np.int16) - times[sources]
-    gained[np.arange(len(sources)), column[graph.steps]] -= 1
-    if gained.any():  # ways from different layers meet in one node
-        return None
-    ends = np.unique(times[graph.is_goal], axis=0)
-    return frozenset(
-        frozenset((step, int(n)) for step, n in zip(used, row, strict=True) if n) for row in ends
-    )
-
-
-def _all_multisets(graph: PlanGraph) -> frozenset[Multiset] | None:
-    """Return the multisets by collecting them from the goal backwards, up to the limit."""
-    behind: list[frozenset[tuple[int, ...]]] = [frozenset()] * graph.n_nodes
-    work = 0
-    for node in reversed(range(graph.n_nodes)):
-        if graph.is_goal[node]:
-            behind[node] = frozenset([()])
-            continue
-        behind[node] = frozenset(
-            tuple(sorted((step, *rest)))
-            for step, target in _following(graph, node)
-            for rest in behind[target]
-        )
-        work += len(behind[node])
-        if len(behind[node]) > MAX_MULTISETS or work > MAX_WORK:
-            return None
-    ends = behind[0] if graph.n_nodes else frozenset[tuple[int, ...]]()
-    return frozenset(frozenset(Counter(steps).items()) for steps in ends)
-
-
-def _has_subset(graph: PlanGraph, seen: Counter[int]) -> bool | None:
-    """Return whether one plan holds all of ``seen``: which of them a way has met, as bits."""
-    places: dict[int, list[int]] = {}
-    for position, step in enumerate(seen.elements()):
-        places.setdefault(step, []).append(1 << position)
-    everything = (1 << seen.total()) - 1
-    met: list[set[int]] = [set() for _ in range(graph.n_nodes)]
-    met[0].add(0)
-    work = 0
-    for node in range(graph.n_nodes):
-        if graph.is_goal[node] and everything in met[node]:
-            return True
-        for step, target in _following(graph, node):
-            met[target].update(_meet(mask, places.get(step, ())) for mask in met[node])
-        work += len(met[node])
-        met[node] = set()
-        if work > MAX_WORK:
-            return None
-    return False
-
-
-def _following(graph: PlanGraph, node: int) -> Iterator[tuple[int, int]]:
-    """Return the edges of a node; unlike ``next``, also those that read alike."""
-    edges = slice(graph.first[node], graph.first[node + 1])
-    return zip(graph.steps[edges].tolist(), graph.targets[edges].tolist(), strict=True)
-
-
-def _meet(mask: int, places: Sequence[int]) -> int:
-    """Return the mask with the first free place of a step taken."""
-    return next((mask | place for place in places if not mask & place), mask)
 
 
 def shortest(graph: PlanGraph, node: int = 0) -> Iterator[tuple[int, int]]:

@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import Protocol, runtime_checkable
 
 from hrcplan.core.numbers import Number
-from hrcplan.errors import HrcplanError, LimitError, UnsupportedError
+from hrcplan.errors import LimitError, UnsupportedError
 from hrcplan.pddl.model import TOTAL_TIME, Problem, functions_in
 from hrcplan.plans import Plan
 from hrcplan.task import Task
@@ -46,6 +46,35 @@ class Capabilities:
     licence: str = "Apache-2.0"
 
 
+class LazyTask:
+    """The task of a problem, grounded once for all planners that ask.
+
+    Args:
+        task: The task, if the problem is grounded already.
+    """
+
+    def __init__(self, task: Task | None = None) -> None:
+        self._task = task
+        self._failure: UnsupportedError | LimitError | None = None
+
+    def ground(self, problem: Problem, deadline: float) -> Task:
+        """Return the task; what failed once is not tried again for the next planner.
+
+        Raises:
+            UnsupportedError: if bits cannot hold it.
+            LimitError: if there are too many ground actions, or too little time.
+        """
+        if self._failure is not None:
+            raise self._failure
+        if self._task is None:
+            try:
+                self._task = Task(problem, deadline)
+            except (UnsupportedError, LimitError) as error:
+                self._failure = error
+                raise
+        return self._task
+
+
 @dataclass(frozen=True)
 class Request:
     """One problem for one planner: until when, and whether the first plan is enough."""
@@ -54,13 +83,14 @@ class Request:
     deadline: float = field(default_factory=lambda: time.monotonic() + 60)
     any_plan: bool = False
     memory_bytes: int = 4 << 30
+    lazy_task: LazyTask = field(default_factory=LazyTask, repr=False, compare=False)
 
     @property
     def time_left_s(self) -> float:
         """Seconds until the deadline; never below zero."""
         return max(0.0, self.deadline - time.monotonic())
 
-    @cached_property
+    @property
     def task(self) -> Task:
         """The grounded task, made when it is first needed, in at most half of the time left.
 
@@ -68,23 +98,11 @@ class Request:
             UnsupportedError: if bits cannot hold it.
             LimitError: if there are too many ground actions, or too little time.
         """
-        failure = self.__dict__.get("failure")
-        if isinstance(failure, HrcplanError):
-            raise failure  # what failed once is not tried again for the next planner
-        try:
-            return Task(self.problem, time.monotonic() + self.time_left_s / 2)
-        except (UnsupportedError, LimitError) as error:
-            self.__dict__["failure"] = error
-            raise
+        return self.lazy_task.ground(self.problem, time.monotonic() + self.time_left_s / 2)
 
     def until(self, deadline: float) -> Request:
-        """Return the same request until another time; what was grounded already is kept."""
-        other = replace(self, deadline=deadline)
-        kept: dict[str, object] = {
-            key: value for key, value in self.__dict__.items() if key in ("task", "failure")
-        }
-        other.__dict__.update(kept)
-        return other
+        """Return the same request until another time; both share the grounded task."""
+        return replace(self, deadline=deadline)
 
     @cached_property
     def weighs_time(self) -> bool:

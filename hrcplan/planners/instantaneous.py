@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from functools import reduce
-from operator import or_
+from collections.abc import Iterator
 
+from hrcplan.core.bits import union
 from hrcplan.errors import UnsupportedError
 from hrcplan.task import BitEffect, GroundAction
-from hrcplan.task.conditions import Test
-
-_ALWAYS: Test = (0, 0)
+from hrcplan.task.conditions import ALWAYS, Test
 
 
 def unsure_changes(action: GroundAction) -> Iterator[BitEffect]:
@@ -21,14 +18,14 @@ def unsure_changes(action: GroundAction) -> Iterator[BitEffect]:
     Raises:
         UnsupportedError: where that state does not decide them.
     """
-    sure = [c for c in action.at_start if c.tests == (_ALWAYS,)]
-    unsure = [c for c in action.at_start if c.tests != (_ALWAYS,)]
-    adds, deletes = _union(c.adds for c in sure), _union(c.deletes for c in sure)
-    maybe = _union(c.adds for c in unsure)
-    touched = maybe | _union(c.deletes for c in unsure)
+    sure = [c for c in action.at_start if c.tests == ALWAYS]
+    unsure = [c for c in action.at_start if c.tests != ALWAYS]
+    adds, deletes = union(c.adds for c in sure), union(c.deletes for c in sure)
+    maybe = union(c.adds for c in unsure)
+    touched = maybe | union(c.deletes for c in unsure)
     yield from unsure
     for change in action.at_end:
-        always = change.tests == (_ALWAYS,)
+        always = change.tests == ALWAYS
         # One instant for both: an add of the start would win over a delete of the end.
         if change.deletes & (maybe if always else maybe | adds):
             raise UnsupportedError(f"the end of {action} undoes what its start may have done")
@@ -38,10 +35,6 @@ def unsure_changes(action: GroundAction) -> Iterator[BitEffect]:
         known = tuple(test for test in tests if test is not None)
         if known:
             yield BitEffect(change.adds, change.deletes, known)
-
-
-def _union(bits: Iterable[int]) -> int:
-    return reduce(or_, bits, 0)
 
 
 def _before(test: Test, adds: int, deletes: int) -> Test | None:

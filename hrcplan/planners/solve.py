@@ -18,7 +18,7 @@ from hrcplan.errors import (
 from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, Problem
 from hrcplan.pddl.semantics import evaluate
 from hrcplan.planners import registry
-from hrcplan.planners.contract import Answer, Capabilities, Planner, Request, Status
+from hrcplan.planners.contract import Answer, Capabilities, LazyTask, Planner, Request, Status
 from hrcplan.planners.lanes import schedule
 from hrcplan.plans import EPSILON_S, Plan
 from hrcplan.task import Task
@@ -103,9 +103,7 @@ def solve(
         LimitError: if grounding ran out of bounds and no other planner was left.
     """
     begun = time.monotonic()
-    request = Request(problem, begun + timeout_s, any_plan)
-    if task is not None:
-        request.__dict__["task"] = task
+    request = Request(problem, begun + timeout_s, any_plan, lazy_task=LazyTask(task))
     if planner != AUTO:
         chosen = registry.make(planner) if isinstance(planner, str) else planner
         result = _attempt(chosen, request, lanes, "it was asked for")

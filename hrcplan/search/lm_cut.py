@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from hrcplan.core.bits import positions
 from hrcplan.task import BitEffect
-from hrcplan.task.conditions import Test, Tests
+from hrcplan.task.conditions import Test, Tests, conjunction
 from hrcplan.task.steps import Operator
 
 MAX_LANDMARKS = 256
@@ -62,10 +62,10 @@ class _Relaxation:
 
     def __init__(self, ops: Sequence[Operator], state: int, goal: Tests) -> None:
         self.costs = [op.cost for op in ops]
-        changes = [change for op in ops for change in op.changes]
+        changes = [change for op in ops for change in op.effects]
         tests = [*goal, *(test for op in ops for test in op.tests)]
         tests += [test for change in changes for test in change.tests]
-        facts = [state, *(mask for mask, _ in tests), *(c.adds | c.deletes for c in changes)]
+        facts = [state, *(mask for mask, _ in tests), *(c.touched for c in changes)]
         n_facts = max(facts).bit_length()
         self.goal, self.true, top = 2 * n_facts, 2 * n_facts + 1, 2 * n_facts + 2
         self.start = {2 * i + (not state >> i & 1) for i in range(n_facts)} | {self.true}
@@ -74,7 +74,7 @@ class _Relaxation:
             for test in op.tests:
                 for change in op.at_start:
                     for given in change.tests:
-                        self._add(group, _both(test, given), change)
+                        self._add(group, conjunction(test, given), change)
                 for change in op.at_end:  # what it depends on may have been made at the start
                     self._add(group, test, change)
         for test in goal:
@@ -165,13 +165,6 @@ class _Relaxation:
                         found.add(given)
                         waiting.append(given)
         return found
-
-
-def _both(one: Test, other: Test) -> Test | None:
-    """Return the test that both hold, or None if they contradict each other."""
-    if (one[1] ^ other[1]) & one[0] & other[0]:
-        return None
-    return one[0] | other[0], one[1] | other[1]
 
 
 def _needs(test: Test, true: int) -> tuple[int, ...]:

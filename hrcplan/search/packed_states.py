@@ -13,10 +13,9 @@ import numpy as np
 
 from hrcplan.core.arrays import Bools, Ids, SmallIds, Words
 from hrcplan.core.bits import positions
-from hrcplan.search.relevance import ALWAYS
-from hrcplan.task import BitEffect
 from hrcplan.task.conditions import Tests
 from hrcplan.task.steps import Operator
+from hrcplan.task.transitions import Effects
 
 WORD = 64
 PAIRS = 1 << 20  # rows times steps that are looked at together
@@ -92,14 +91,13 @@ class PackedRules:
     def __init__(self, ops: Sequence[Operator], packing: FactPacking) -> None:
         self.ops = tuple(ops)
         self.packing = packing
-        simple = [i for i, op in enumerate(ops) if _is_simple(op)]
-        self._simple = np.array(simple, dtype=np.int32)
-        self._complex = [i for i in range(len(ops)) if i not in set(simple)]
-        tests = [ops[i].tests[0] for i in simple]
-        self._masks = packing.rows([mask for mask, _ in tests])
-        self._values = packing.rows([value for _, value in tests])
-        self._adds = packing.rows([ops[i].at_start[0].adds for i in simple])
-        self._keeps = ~packing.rows([ops[i].at_start[0].deletes for i in simple]) | self._adds
+        rules = {i: rule for i, op in enumerate(ops) if (rule := op.simple_rule) is not None}
+        self._simple = np.array(list(rules), dtype=np.int32)
+        self._complex = [i for i in range(len(ops)) if i not in rules]
+        self._masks = packing.rows([rule.mask for rule in rules.values()])
+        self._values = packing.rows([rule.value for rule in rules.values()])
+        self._adds = packing.rows([rule.adds for rule in rules.values()])
+        self._keeps = ~packing.rows([rule.touched for rule in rules.values()])
 
     def expand(self, states: Words) -> Iterator[tuple[Ids, SmallIds, Words]]:
         """Yield (row, op, successor) arrays for all changes that can be made to ``states``."""
@@ -140,14 +138,10 @@ class PackedRules:
             found |= ((states & row) == self.packing.row(value)).all(axis=1)
         return found
 
-    def _apply(self, states: Words, changes: Sequence[BitEffect]) -> Words:
+    def _apply(self, states: Words, effects: Effects) -> Words:
         adds, deletes = np.zeros_like(states), np.zeros_like(states)
-        for change in changes:
-            holds = self.meets(states, change.tests)
-            adds[holds] |= self.packing.row(change.adds)
-            deletes[holds] |= self.packing.row(change.deletes)
+        for effect in effects:
+            holds = self.meets(states, effect.tests)
+            adds[holds] |= self.packing.row(effect.adds)
+            deletes[holds] |= self.packing.row(effect.deletes)
         return states & ~deletes | adds
-
-
-def _is_simple(op: Operator) -> bool:
-    return len(op.tests) == 1 and not op.at_end and [c.tests for c in op.at_start] == [ALWAYS]

@@ -190,7 +190,7 @@ def _literals(test: Test) -> list[int]:
 def _rules(ops: Sequence[Operator]) -> Iterator[_Rule]:
     for index, op in enumerate(ops):
         for test in op.tests:
-            for change in op.changes:
+            for change in op.effects:
                 gives = [2 * i for i in positions(change.adds)]
                 gives += [2 * i + 1 for i in positions(change.deletes)]
                 for given in change.tests:

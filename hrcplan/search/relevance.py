@@ -12,10 +12,8 @@ from functools import reduce
 from operator import or_
 
 from hrcplan.task import BitEffect
-from hrcplan.task.conditions import Test, Tests
+from hrcplan.task.conditions import ALWAYS, Test, Tests
 from hrcplan.task.steps import Operator
-
-ALWAYS: tuple[Test, ...] = ((0, 0),)
 
 
 @dataclass(slots=True)
@@ -60,7 +58,7 @@ def relevant(ops: Sequence[Operator], goal: Tests) -> tuple[tuple[Operator, ...]
     while before != (needed.true, needed.false):
         before = (needed.true, needed.false)
         for i, op in enumerate(ops):
-            if i in useful or any(needed.wants(change) for change in op.changes):
+            if i in useful or any(needed.wants(change) for change in op.effects):
                 useful.add(i)
                 _take_op(needed, op)
     return tuple(op for i, op in enumerate(ops) if i in useful), needed
@@ -68,7 +66,7 @@ def relevant(ops: Sequence[Operator], goal: Tests) -> tuple[tuple[Operator, ...]
 
 def _take_op(needed: Literals, op: Operator) -> None:
     needed.take(op.tests)
-    for change in op.changes:
+    for change in op.effects:
         if change.tests == ALWAYS:
             continue
         if needed.wants(change):
@@ -83,7 +81,7 @@ def read_by(ops: Iterable[Operator], goal: Tests) -> int:
     found.take(goal)
     for op in ops:
         found.take(op.tests)
-        for change in op.changes:
+        for change in op.effects:
             found.take(change.tests)
     return found.facts
 
@@ -96,6 +94,6 @@ def fleeting(ops: Sequence[Operator]) -> int:
     """
     found = -1
     for op in ops:
-        sure = (change for change in op.changes if change.tests == ALWAYS)
-        found &= reduce(or_, (change.adds | change.deletes for change in sure), 0)
+        sure = (change for change in op.effects if change.tests == ALWAYS)
+        found &= reduce(or_, (change.touched for change in sure), 0)
     return found & ~read_by(ops, ()) if ops else 0

@@ -11,29 +11,22 @@ from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.model import DURATION, TOTAL_COST, TRUE, Constant, Expr, FluentKey, functions_in
 from hrcplan.pddl.semantics import Undefined, Values, evaluate, ground_key, instances
 from hrcplan.task.changing import Reached, combinations, keys_read, moves, timed, value_fact
-from hrcplan.task.conditions import ALWAYS, Grounder, Test, Tests, all_of, any_of, negation
+from hrcplan.task.conditions import ALWAYS, Grounder, Tests, all_of, any_of, negation
 from hrcplan.task.numbers import grounded
 from hrcplan.task.reachable import SchemaInstance
+from hrcplan.task.transitions import BitEffect, Effects, Transition, net_effect
+
+_UNIT_COST: tuple[Expr, ...] = (Constant(1),)
 
 
 @dataclass(frozen=True, slots=True)
-class BitEffect:
-    """Facts deleted and then added where one of ``tests`` holds in the state before."""
-
-    adds: int
-    deletes: int
-    tests: tuple[Test, ...] = ALWAYS
-
-
-@dataclass(frozen=True, slots=True)
-class GroundAction:
+class GroundAction(Transition):
     """Who does what: conditions and effects as bits, for the sequential and temporal readings.
 
-    ``tests``, ``adds`` and ``deletes`` are the sequential reading (start, then end); ``start``,
-    ``over`` and ``end`` hold the conditions of the temporal one, ``at_start`` and ``at_end`` its
-    changes. Several tests are alternatives. ``conditional`` says that some change depends on the
-    state, and that ``adds`` and ``deletes`` are then not the whole of it. ``costs`` are sums over
-    functions that no action changes; ``values`` are those that the action needs of the others.
+    As a transition it is the sequential reading: start, then end. ``start``, ``over`` and ``end``
+    are the conditions of the temporal reading. ``adds`` and ``deletes`` are the net effect, but not
+    the whole of it where ``conditional``: some effect then depends on the state. ``costs`` are sums
+    over functions that no action changes; ``values`` are those that the action needs of the others.
     """
 
     index: int
@@ -43,16 +36,20 @@ class GroundAction:
     step: tuple[str, ...]
     duration: Number | None
     costs: tuple[Expr, ...]
-    tests: tuple[Test, ...]
     adds: int
     deletes: int
-    start: tuple[Test, ...]
-    over: tuple[Test, ...]
-    end: tuple[Test, ...]
-    at_start: tuple[BitEffect, ...]
-    at_end: tuple[BitEffect, ...]
+    start: Tests
+    over: Tests
+    end: Tests
     conditional: bool
     values: Mapping[FluentKey, Number]
+
+    @property
+    def sequential(self) -> tuple[Effects, Effects]:
+        """The effects at start and end, in sum where none depends on the state."""
+        if self.conditional:
+            return self.at_start, self.at_end
+        return (BitEffect(self.adds, self.deletes),), ()
 
     def __str__(self) -> str:
         return f"({' '.join([self.name, *self.args])})"
@@ -102,7 +99,7 @@ class _Builder:
         tests = all_of([start, _before(all_of([over, end]), at_start)])
         if not tests or not (at_start or at_end):
             return None
-        adds, deletes = _net((*at_start, *at_end))
+        net = net_effect(at_start, at_end)
         agent, step = self._who(instance)
         return GroundAction(
             index=index,
@@ -113,8 +110,8 @@ class _Builder:
             duration=values.get((DURATION,)) if instance.action.durative else 0,
             costs=self._costs(instance, values, later),
             tests=tests,
-            adds=adds,
-            deletes=deletes,
+            adds=net.adds,
+            deletes=net.deletes,
             start=start,
             over=over,
             end=end,
@@ -185,10 +182,14 @@ class _Builder:
     def _costs(self, instance: SchemaInstance, values: Values, later: Values) -> tuple[Expr, ...]:
         """Return what the action adds to total-cost, over ground functions that never change.
 
+        It is 1 if the domain has no total-cost.
+
         Raises:
             UnsupportedError: if a cost needs a duration that is not fixed.
             Undefined: if a cost needs a function without a value, or divides by zero.
         """
+        if TOTAL_COST not in self.grounder.problem.domain.functions:
+            return _UNIT_COST
         first, last = self._constants(values), self._constants(later)
         fixed = [expression for op, expression in instance.action.durations if op == "="]
         if len(fixed) == 1:
@@ -210,23 +211,11 @@ class _Builder:
         return {key: Constant(values[key]) for key in self.reached if key in values}
 
 
-def _net(changes: Sequence[BitEffect]) -> tuple[int, int]:
-    """Return adds and deletes of the unconditional changes, one after the other."""
-    if len(changes) == 1 and changes[0].tests == ALWAYS:
-        return changes[0].adds, changes[0].deletes
-    adds = deletes = 0
-    for change in changes:
-        if change.tests == ALWAYS:
-            adds = adds & ~change.deletes | change.adds
-            deletes = (deletes | change.deletes) & ~change.adds
-    return adds, deletes
-
-
 def _before(tests: Tests, changes: Sequence[BitEffect]) -> Tests:
     """Return what must hold before changes of one instant for ``tests`` to hold after them."""
     touched = 0
     for change in changes:
-        touched |= change.adds | change.deletes
+        touched |= change.touched
     if not any(mask & touched for mask, _ in tests):
         return tests
     return any_of(

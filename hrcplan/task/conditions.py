@@ -128,7 +128,7 @@ def all_of(parts: Iterable[Tests]) -> Tests:
         if found == ALWAYS or part == NEVER:
             found = part
         elif part != ALWAYS:
-            pairs = [_both(one, other) for one in found for other in part]
+            pairs = [conjunction(one, other) for one in found for other in part]
             known = [pair for pair in pairs if pair is not None]
             found = tuple(known) if len(known) < 2 else _bounded(tuple(dict.fromkeys(known)))
         if found == NEVER:
@@ -136,8 +136,8 @@ def all_of(parts: Iterable[Tests]) -> Tests:
     return found
 
 
-def _both(one: Test, other: Test) -> Test | None:
-    """Return the conjunction of two tests, or None if they contradict each other."""
+def conjunction(one: Test, other: Test) -> Test | None:
+    """Return the test that holds where both do, or None if they contradict each other."""
     mask, value = one
     other_mask, other_value = other
     if (value ^ other_value) & mask & other_mask:

@@ -13,16 +13,18 @@ from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Sequence
 
 from hrcplan.core.bits import positions
+from hrcplan.task.transitions import Rule
 
-Rule = tuple[int, int, int, int, int]
-"""Index, mask and value of the condition, facts added, facts deleted."""
+IndexedRule = tuple[int, Rule]
 
 SLICE = 16  # bits: a state is looked at as unsigned 16-bit numbers
 _BYTES = SLICE // 8
 MAX_BITS = 2**29  # bound on what the tables of one task hold: 64 MB
 
 
-def lookup(n_facts: int, n_actions: int, rules: Sequence[Rule]) -> Callable[[int], list[int]]:
+def lookup(
+    n_facts: int, n_actions: int, rules: Sequence[IndexedRule]
+) -> Callable[[int], list[int]]:
     """Return what answers which rules hold in a state and change it: their indices, in order.
 
     Args:
@@ -37,11 +39,11 @@ def lookup(n_facts: int, n_actions: int, rules: Sequence[Rule]) -> Callable[[int
 class Waiting:
     """Rules by one fact that each needs: only those of facts that hold are looked at."""
 
-    def __init__(self, rules: Sequence[Rule]) -> None:
-        needs = [list(positions(value)) for _, _, value, _, _ in rules]
+    def __init__(self, rules: Sequence[IndexedRule]) -> None:
+        needs = [list(positions(value)) for _, (_, value, _, _) in rules]
         users = Counter(position for needed in needs for position in needed)
-        self._free: list[Rule] = []
-        self._at: dict[int, list[Rule]] = defaultdict(list)
+        self._free: list[IndexedRule] = []
+        self._at: dict[int, list[IndexedRule]] = defaultdict(list)
         for rule, needed in zip(rules, needs, strict=True):
             (self._at[min(needed, key=users.__getitem__)] if needed else self._free).append(rule)
         self._watched = sum(1 << position for position in self._at)
@@ -52,8 +54,8 @@ class Waiting:
         found = [
             index
             for rules in candidates
-            for index, mask, value, adds, deletes in rules
-            if state & mask == value and (state & deletes or adds & ~state)
+            for index, (mask, value, touched, adds) in rules
+            if state & mask == value and state & touched != adds
         ]
         found.sort()
         return found
@@ -62,7 +64,7 @@ class Waiting:
 class Lookup:
     """Tables over slices of the state, filled as they are used."""
 
-    def __init__(self, n_facts: int, n_actions: int, rules: Iterable[Rule]) -> None:
+    def __init__(self, n_facts: int, n_actions: int, rules: Iterable[IndexedRule]) -> None:
         self._n_actions = n_actions
         n_slices = -(-n_facts // SLICE)
         self._n_bytes = n_slices * _BYTES
@@ -91,19 +93,21 @@ class Lookup:
         return found
 
 
-def _verdicts(n_facts: int, n_actions: int, rules: Iterable[Rule]) -> tuple[list[int], list[int]]:
+def _verdicts(
+    n_facts: int, n_actions: int, rules: Iterable[IndexedRule]
+) -> tuple[list[int], list[int]]:
     """Return what each fact says about all actions where it is false, and where it is true.
 
     Bit ``i`` keeps action ``i`` from running; bit ``n_actions + i`` says that it changes the fact.
     """
     false, true = [0] * n_facts, [0] * n_facts
-    for index, mask, value, adds, deletes in rules:
+    for index, (mask, value, touched, adds) in rules:
         blocks, changes = 1 << index, 1 << n_actions + index
         for verdicts, facts, says in (
             (false, value, blocks),
             (true, mask & ~value, blocks),
             (false, adds, changes),
-            (true, deletes, changes),
+            (true, touched & ~adds, changes),
         ):
             for position in positions(facts):
                 verdicts[position] |= says

@@ -40,6 +40,7 @@ from hrcplan.pddl.semantics import (
 )
 from hrcplan.task.actions import GroundAction
 from hrcplan.task.changing import Reached, value_fact
+from hrcplan.task.grounding import Grounding
 from hrcplan.task.numbers import divisors, grounded, numeric_effects
 from hrcplan.task.task import Task
 
@@ -48,13 +49,13 @@ Roles = Mapping[FluentKey, tuple[Number, ...]]
 """Values of each function that actions change, in the order of their bits."""
 
 
-class Grounding:
+class Structure:
     """One structure: a task, and what it takes to say whether another problem has it, too."""
 
     def __init__(self, task: Task) -> None:
         self.task = task
         self._fixed = task.problem.facts - task.bits.keys()
-        self._left = _assignments(task)
+        self._left = None if _goal_reads_changes(task) else _assignments(task)
         actions = task.problem.domain.actions
         self._shaping = frozenset(f.name for action in actions for f in _shaping(action))
         self._truths = self._possible(task.problem.values, task.reached)
@@ -65,14 +66,16 @@ class Grounding:
         >>> from hrcplan import ground
         >>> task = ground("transport", "two-boxes")
         >>> moved = {("at", "human", "wp4")} | task.problem.facts - {("at", "human", "wp1")}
-        >>> now = Grounding(task).again(replace(task.problem, facts=moved))
+        >>> now = Structure(task).again(replace(task.problem, facts=moved))
         >>> now.structure is task.structure, ("at", "human", "wp4") in now.facts_of(now.initial)
         (True, True)
         """
         if not self._has_shape(problem):
             return None
         roles = self._roles(problem)
-        return None if roles is None else _with(self.task, problem, roles)
+        if roles is None:
+            return None
+        return Task(problem, grounding=_renumbered_grounding(self.task, roles))
 
     def _has_shape(self, problem: Problem) -> bool:
         """Return whether the same facts and actions are possible, numbers that change aside.
@@ -110,7 +113,7 @@ class Grounding:
         """Return what the comparisons of each interaction say, for each choice of roles."""
         return [
             _is_true(comparison, {**values, **chosen}, mover.binding, self.task.problem)
-            for mover in self.task.movers
+            for mover in self.task.grounding.movers
             for comparison in _comparisons(mover.action)
             for chosen in _choices(comparison, mover.binding, roles)
         ]
@@ -120,7 +123,7 @@ class Groundings:
     """The groundings of one running task: one for each set of agent states that can be bettered."""
 
     def __init__(self) -> None:
-        self._kept: list[Grounding] = []
+        self._kept: list[Structure] = []
 
     def task(self, problem: Problem) -> Task:
         """Return the task of a problem, with the structure of an earlier one if any holds it.
@@ -133,7 +136,7 @@ class Groundings:
             found = kept.again(problem)
             if found is not None:
                 return found
-        new = Grounding(Task(problem))
+        new = Structure(Task(problem))
         # The smallest that holds a problem is the quickest.
         all_kept = [*self._kept[-MAX_KEPT:], new]
         self._kept = sorted(all_kept, key=lambda grounding: len(grounding.task.actions))
@@ -221,6 +224,12 @@ def _assignments(task: Task) -> dict[FluentKey, list[tuple[Expr, Binding]]] | No
     return found
 
 
+def _goal_reads_changes(task: Task) -> bool:
+    """Return whether the goal compares a function that actions change."""
+    read = {function.name for function in formula_functions(task.problem.goal)}
+    return not read.isdisjoint(key[0] for key in task.reached)
+
+
 def _looks_closer(action: Action, moving: set[str]) -> bool:
     """Return whether an action does with changing functions more than count them as a cost."""
     found = {function.name for function in _shaping(action)}
@@ -233,35 +242,25 @@ def _binding(action: Action, args: tuple[str, ...]) -> Binding:
     return {param.name: arg for param, arg in zip(action.params, args, strict=True)}
 
 
-def _with(task: Task, problem: Problem, roles: Roles) -> Task:
-    """Return the task with another initial state, and other numbers in costs and roles."""
-    other = object.__new__(Task)
-    other.__dict__.update(task.__dict__)
-    other.__dict__.pop("costs", None)
-    other.problem = problem
-    if roles != task.reached:
-        _renumber(other, task, roles)
-    given = [value_fact(key, problem.values[key]) for key in roles]
-    other.initial = other.state_of([*problem.facts, *given])
-    return other
-
-
-def _renumber(other: Task, task: Task, roles: Roles) -> None:
+def _renumbered_grounding(task: Task, roles: Roles) -> Grounding:
+    """Return the grounding of a task with other numbers in its roles."""
+    if roles == task.reached:
+        return task.grounding
     new = {
         (key, old): number
         for key, values in task.reached.items()
         for old, number in zip(values, roles[key], strict=True)
     }
     n_plain = len(task.facts) - len(new)
-    facts = [value_fact(key, number) for key, numbers in roles.items() for number in numbers]
-    other.facts = (*task.facts[:n_plain], *facts)
-    other.bits = {fact: i for i, fact in enumerate(other.facts)}
-    other.reached = roles
+    values = (value_fact(key, number) for key, numbers in roles.items() for number in numbers)
+    facts = (*task.facts[:n_plain], *values)
     schemas = {action.name: action for action in task.problem.domain.actions}
-    other.actions = tuple(
+    actions = tuple(
         _repriced(action, schemas[action.name], new) if action.values else action
         for action in task.actions
     )
+    bits = {fact: i for i, fact in enumerate(facts)}
+    return replace(task.grounding, facts=facts, bits=bits, reached=roles, actions=actions)
 
 
 def _repriced(

@@ -10,8 +10,8 @@ from math import lcm
 
 from hrcplan.core.numbers import Number, exact
 from hrcplan.errors import UnsupportedError
-from hrcplan.task import BitEffect, GroundAction, Task
-from hrcplan.task.conditions import Test, meets
+from hrcplan.task import GroundAction, Task
+from hrcplan.task.transitions import Rule, Transition
 
 STEPS = "steps"
 TASK = "task"
@@ -20,9 +20,7 @@ TIE_BITS = 20
 """Bits that count steps below a cost, where zero-cost steps make their number matter."""
 MAX_TIES = (1 << TIE_BITS) - 1
 
-_Rule = tuple[int, int, int, int]
-"""Mask and value of a test, touched facts, added facts."""
-_NEVER: _Rule = (0, 1, 0, 0)
+_NEVER = Rule(mask=0, value=1, touched=0, adds=0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,29 +41,11 @@ class Step:
 
 
 @dataclass(frozen=True, slots=True)
-class Operator:
-    """One way to do a step: its conditions, what it changes, and its bank cost (a positive int)."""
+class Operator(Transition):
+    """One way to do a step, and its bank cost (a positive integer)."""
 
     step: int
-    tests: tuple[Test, ...]
-    at_start: tuple[BitEffect, ...]
-    at_end: tuple[BitEffect, ...]
     cost: int
-
-    @property
-    def changes(self) -> tuple[BitEffect, ...]:
-        """All changes, those at the start first."""
-        return (*self.at_start, *self.at_end)
-
-    def after(self, state: int) -> int:
-        """Return the state after it, in the sequential reading; it must be possible."""
-        for changes in (self.at_start, self.at_end):
-            made = [change for change in changes if meets(state, change.tests)]
-            for change in made:
-                state &= ~change.deletes
-            for change in made:
-                state |= change.adds
-        return state
 
 
 class StepTable:
@@ -103,7 +83,15 @@ class StepTable:
         )
         self._index = {step.words: step.index for step in self._steps}
         self.of_action: tuple[int, ...] = tuple(self._index[self._words(a)] for a in task.actions)
-        self._rules: dict[frozenset[str], list[_Rule | None]] = {}
+        labels: dict[tuple[str, ...], int] = {}
+        self.labels: tuple[int, ...] = tuple(
+            labels.setdefault(step.name, len(labels)) for step in self._steps
+        )
+        self.n_labels = len(labels)
+        self._rules: dict[frozenset[str], list[Rule | None]] = {}
+
+    def __repr__(self) -> str:
+        return f"<StepTable: {len(self)} steps, agents {self.agents}, cost {self.cost}>"
 
     def _words(self, action: GroundAction) -> tuple[str, ...]:
         return action.step if self.agents == "dropped" else (action.name, *action.args)
@@ -134,9 +122,12 @@ class StepTable:
 
         A step that changes nothing leaves the state as it is.
         """
-        for action in self._steps[step].actions:
-            if any(state & mask == value for mask, value in self.task.actions[action].tests):
-                return self.task.successor(state, action)
+        rule = self._by_anyone[step]
+        if rule is not None:
+            return rule.apply(state) if state & rule.mask == rule.value else None
+        for index in self._steps[step].actions:
+            if self.task.actions[index].is_enabled(state):
+                return self.task.successor(state, index)
         return None
 
     def doer(self, state: int, step: int, agents: Set[str]) -> int | None:
@@ -171,14 +162,15 @@ class StepTable:
             if state & mask == value and state & touched != adds:
                 yield step
 
-    def _rule(self, step: Step, agents: Set[str]) -> _Rule | None:
-        """Return when agents can do a step; None if one test and one effect do not say it all."""
+    def _rule(self, step: Step, agents: Set[str]) -> Rule | None:
+        """Return the rule by which agents can do a step; None if one rule does not say it all."""
         actions = [self.task.actions[index] for index in step.actions]
-        own = [action for action in actions if action.agent is None or action.agent in agents]
-        if any(action.conditional for action in own):
-            return None
-        found = {(*test, a.adds | a.deletes, a.adds) for a in own for test in a.tests}
-        return None if len(found) > 1 else found.pop() if found else _NEVER
+        return _one_rule(a for a in actions if a.agent is None or a.agent in agents)
+
+    @cached_property
+    def _by_anyone(self) -> list[Rule | None]:
+        """For each step the rule that says the same as all its actions, if there is one."""
+        return [_one_rule(self.task.actions[i] for i in step.actions) for step in self._steps]
 
     @cached_property
     def _prices(self) -> tuple[list[int], int]:
@@ -237,17 +229,21 @@ class StepTable:
         prices, _ = self._prices
         found: dict[Operator, int] = {}
         for action in self.task.actions:
-            way = Operator(self.of_action[action.index], action.tests, *_changes(action), cost=0)
-            price = prices[action.index]
+            step, price = self.of_action[action.index], prices[action.index]
+            way = Operator(action.tests, *action.sequential, step=step, cost=0)
             found[way] = min(price, found.get(way, price))
         ops = [replace(way, cost=price) for way, price in found.items()]
         return tuple(sorted(ops, key=lambda op: op.step))
 
 
-def _changes(action: GroundAction) -> tuple[tuple[BitEffect, ...], tuple[BitEffect, ...]]:
-    if action.conditional:
-        return action.at_start, action.at_end
-    return (BitEffect(action.adds, action.deletes),), ()
+def _one_rule(actions: Iterable[GroundAction]) -> Rule | None:
+    """Return the rule that says the same as all the actions; None if there is no such rule."""
+    rules: set[Rule] = set()
+    for action in actions:
+        if action.rules is None:
+            return None
+        rules.update(action.rules)
+    return None if len(rules) > 1 else rules.pop() if rules else _NEVER
 
 
 def _can_drop(task: Task) -> bool:
@@ -255,6 +251,6 @@ def _can_drop(task: Task) -> bool:
         return False
     effects: dict[tuple[str, ...], object] = {}
     return all(
-        effects.setdefault(action.step, _changes(action)) == _changes(action)
+        effects.setdefault(action.step, action.sequential) == action.sequential
         for action in task.actions
     )

@@ -2,30 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence, Set
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from math import inf
+from typing import Final
 
 from hrcplan.core.bits import positions
 from hrcplan.core.numbers import Number, exact
-from hrcplan.errors import UnsupportedError
-from hrcplan.pddl.model import (
-    TOTAL_COST,
-    TOTAL_TIME,
-    Fact,
-    FluentKey,
-    Formula,
-    Problem,
-    formula_functions,
-)
-from hrcplan.pddl.semantics import evaluate, ground_key, instances, mentions
-from hrcplan.task.actions import BitEffect, GroundAction, ground_actions
-from hrcplan.task.changing import Reached, combinations, reached_values, value_fact
-from hrcplan.task.conditions import Grounder, Test, Tests, all_of, any_of, meets
-from hrcplan.task.lookup import lookup
-from hrcplan.task.numbers import check_supported, divisors, functions_read, numeric_effects
-from hrcplan.task.reachable import SchemaInstance, reachable
+from hrcplan.core.text import cut
+from hrcplan.pddl.model import Fact, FluentKey, Formula, Problem, formula_functions
+from hrcplan.pddl.semantics import evaluate
+from hrcplan.task.actions import GroundAction
+from hrcplan.task.changing import Reached
+from hrcplan.task.conditions import Test, meets
+from hrcplan.task.grounding import Grounding, ground
+from hrcplan.task.numbers import divisors, functions_read
+from hrcplan.task.transitions import apply
 
 
 class Task:
@@ -34,15 +27,19 @@ class Task:
     ``facts`` are the fluents in bit order; facts that never change are compiled away. ``actions``
     stand in ground-action order: by schema as declared, then by objects as declared. An action
     that would leave the state unchanged is not offered. ``reached`` are the values, in bit order,
-    of the functions that actions change, and ``movers`` the instances that could change them. Tasks
-    with the same ``structure`` differ in costs and in the initial state only, so what was found out
-    about one holds for the others.
+    of the functions that actions change. Tasks with the same ``structure`` differ in costs and in
+    the initial state only, so what was computed for one holds for the others. A task never changes;
+    the ``with_…`` methods return others.
+
+    Args:
+        problem: The problem.
+        deadline: When grounding gives up, as a time of ``time.monotonic()``.
+        grounding: The facts and ground actions, if the problem has those of another task.
 
     Raises:
         UnsupportedError: if an action changes a number that is neither total-cost nor agent state,
             or an agent-state function has more than 16 reachable values.
-        LimitError: if there are too many ground actions, or at the deadline (a time of
-            ``time.monotonic()``).
+        LimitError: if there are too many ground actions, or at the deadline.
 
     >>> from hrcplan import ground
     >>> task = ground("transport", "two-boxes")
@@ -50,46 +47,35 @@ class Task:
     ['(move robot wp0 wp1)', '(move robot wp0 wp2)']
     """
 
-    def __init__(self, problem: Problem, deadline: float = inf) -> None:
-        check_supported(problem.domain)
-        self.problem = problem
-        found, facts = reachable(problem, deadline)
-        fluents = _fluents(problem, found, facts)
-        fixed = problem.facts.difference(fluents)
-        bits = {fact: i for i, fact in enumerate(fluents)}
-        reached = reached_values(Grounder(problem, bits, fixed), found)
-        values = [value_fact(key, value) for key in reached for value in reached[key]]
-        self.facts = (*fluents, *values)
-        self.bits: Mapping[Fact, int] = {fact: i for i, fact in enumerate(self.facts)}
-        grounder = Grounder(problem, self.bits, fixed)
-        self.reached: Reached = reached
-        self.movers = tuple(i for i in found if any(numeric_effects(i.action)))
-        self.actions = ground_actions(grounder, found, reached)
-        self.structure: object = self.actions
-        given = [value_fact(k, problem.values[k]) for k in reached if k in problem.values]
-        self.initial = self.state_of([*problem.facts, *given])
-        self._grounder, self._reached = grounder, reached
-        self.goal: tuple[Test, ...] = _goal(grounder, reached)
-        self._prepare()
+    def __init__(
+        self, problem: Problem, deadline: float = inf, *, grounding: Grounding | None = None
+    ) -> None:
+        grounding = ground(problem, deadline) if grounding is None else grounding
+        self.problem: Final = problem
+        self.grounding: Final = grounding
+        self.facts: Final[tuple[Fact, ...]] = grounding.facts
+        self.bits: Final[Mapping[Fact, int]] = grounding.bits
+        self.reached: Final[Reached] = grounding.reached
+        self.actions: Final[tuple[GroundAction, ...]] = grounding.actions
+        self.structure: Final = grounding.structure
+        self.initial: Final[int] = grounding.initial(problem)
+        self.goal: Final[tuple[Test, ...]] = grounding.goal(problem)
+        self._index: Final = grounding.index
 
-    def _prepare(self) -> None:
-        """Lay out what the inner loops need."""
-        self._adds = [action.adds for action in self.actions]
-        self._deletes = [action.deletes for action in self.actions]
-        simple = [a for a in self.actions if len(a.tests) == 1 and not a.conditional]
-        rules = [(a.index, *a.tests[0], a.adds, a.deletes) for a in simple]
-        self._complex = sorted({a.index for a in self.actions}.difference(a.index for a in simple))
-        self._runnable = lookup(len(self.facts), len(self.actions), rules)
+    def __repr__(self) -> str:
+        problem = self.problem
+        name = f"{problem.domain.name}/{problem.name}"
+        return f"<Task {cut(name, 100)}: {len(self.facts)} facts, {len(self.actions)} actions>"
 
     # The ten verbs, over states as integers and actions as indices.
 
     def applicable(self, state: int) -> list[int]:
         """Return the indices of the actions that can run in ``state`` and change it, in order."""
-        found = self._runnable(state)
-        if self._complex:
-            found += [i for i in self._complex if self.is_applicable(state, i)]
-            found.sort()
-        return found
+        indices = self._index.runnable(state)
+        if self._index.others:
+            indices += [i for i in self._index.others if self.is_applicable(state, i)]
+            indices.sort()
+        return indices
 
     def is_applicable(self, state: int, index: int) -> bool:
         """Return whether one action can run in ``state`` and changes it."""
@@ -97,19 +83,19 @@ class Task:
 
     def successor(self, state: int, index: int) -> int:
         """Return the state after an action, in the sequential reading (its start, then its end)."""
-        action = self.actions[index]
-        if action.conditional:
-            return self.finish(self.start(state, index), index)
-        deletes = self._deletes[index]
-        return (state | deletes) ^ deletes | self._adds[index]
+        net = self._index.net_effects[index]
+        if net is None:
+            return self.actions[index].apply(state)
+        deletes = net.deletes
+        return (state | deletes) ^ deletes | net.adds
 
     def start(self, state: int, index: int) -> int:
         """Return the state just after an action has started."""
-        return _apply(state, self.actions[index].at_start)
+        return apply(self.actions[index].at_start, state)
 
     def finish(self, state: int, index: int) -> int:
         """Return the state just after a running action has ended."""
-        return _apply(state, self.actions[index].at_end)
+        return apply(self.actions[index].at_end, state)
 
     def is_goal(self, state: int) -> bool:
         """Return whether the goal holds in ``state``."""
@@ -123,7 +109,7 @@ class Task:
         >>> task.state_of(task.facts_of(task.initial)) == task.initial
         True
         """
-        return sum({1 << self.bits[fact] for fact in facts if fact in self.bits})
+        return self.grounding.state_of(facts)
 
     def facts_of(self, state: int) -> frozenset[Fact]:
         """Return the fluents that hold in a state."""
@@ -132,13 +118,9 @@ class Task:
     @cached_property
     def costs(self) -> tuple[Number, ...]:
         """What each action adds to total-cost; 1 each if the domain counts no total-cost."""
-        if TOTAL_COST not in self.problem.domain.functions:
-            return (1,) * len(self.actions)
         values = self.problem.values
-        return tuple(
-            exact(sum(evaluate(cost, values, {}) for cost in action.costs))
-            for action in self.actions
-        )
+        sums = (sum(evaluate(cost, values, {}) for cost in a.costs) for a in self.actions)
+        return tuple(exact(total) for total in sums)
 
     def with_values(self, values: Mapping[FluentKey, Number]) -> Task:
         """Return this task with other function values, grounded anew only where that matters.
@@ -150,11 +132,7 @@ class Task:
         changed = [key for key, value in values.items() if old.get(key) != value]
         if any(k not in old or k in self.reached or k[0] in self._structural for k in changed):
             return Task(problem)
-        other = object.__new__(Task)
-        other.__dict__.update(self.__dict__)
-        other.__dict__.pop("costs", None)
-        other.problem = problem
-        return other
+        return Task(problem, grounding=self.grounding)
 
     def with_facts(self, facts: Iterable[Fact]) -> Task:
         """Return this task from another initial state, grounded anew only if that is needed.
@@ -170,19 +148,8 @@ class Task:
         """
         problem = replace(self.problem, facts=frozenset(facts))
         known = self.bits.keys()
-        if problem.facts - known != self.problem.facts - known:
-            return Task(problem)
-        other = object.__new__(Task)
-        other.__dict__.update(self.__dict__)
-        other.problem = problem
-        changing = self._value_facts & self.facts_of(self.initial)
-        other.initial = self.state_of([*problem.facts, *changing])
-        return other
-
-    @cached_property
-    def _value_facts(self) -> frozenset[Fact]:
-        """The facts that stand for values of functions that actions change."""
-        return frozenset(fact for fact in self.facts if fact[0] == "=")
+        same = problem.facts - known == self.problem.facts - known
+        return Task(problem, grounding=self.grounding if same else None)
 
     def with_goal(self, goal: Formula) -> Task:
         """Return this task with another goal, without grounding anything anew.
@@ -190,24 +157,15 @@ class Task:
         Raises:
             UnsupportedError: if bits cannot hold the goal.
         """
-        other = object.__new__(Task)
-        other.__dict__.update(self.__dict__)
-        other.__dict__.pop("_structural", None)
-        other.problem = replace(self.problem, goal=goal)
-        other._grounder = replace(self._grounder, problem=other.problem)
-        other.goal = _goal(other._grounder, self._reached)
-        return other
+        return Task(replace(self.problem, goal=goal), grounding=self.grounding)
 
     def with_actions(self, actions: tuple[GroundAction, ...], costs: tuple[Number, ...]) -> Task:
         """Return a task that only has some of the actions, at other costs and without a metric.
 
         ``actions`` are numbered from 0; what costs depended on no longer counts.
         """
-        other = object.__new__(Task)
-        other.__dict__.update(self.__dict__, actions=actions, costs=costs)
-        other.problem = replace(self.problem, metric=None)
-        other._prepare()
-        return other
+        grounding = self.grounding.with_actions(actions, costs)
+        return Task(replace(self.problem, metric=None), grounding=grounding)
 
     @cached_property
     def _structural(self) -> frozenset[str]:
@@ -229,38 +187,3 @@ class Task:
         """Return the indices of the actions called ``(name *args)``; one per changing value."""
         wanted = (name, *args)
         return [a.index for a in self.actions if (a.name, *a.args) == wanted]
-
-
-def _fluents(problem: Problem, found: Iterable[SchemaInstance], facts: Set[Fact]) -> list[Fact]:
-    """Return the reachable facts that do not hold all the time."""
-    deleted: set[Fact] = set()
-    for instance in found:
-        for effect in instance.action.effects:
-            if effect.kind == "delete":
-                for inner in instances(effect.params, instance.binding, problem):
-                    deleted.add(ground_key(effect.target, inner))
-    return sorted(facts & deleted | facts - problem.facts)
-
-
-def _goal(grounder: Grounder, reached: Reached) -> Tests:
-    """Return the goal as alternatives, for every combination of the changing values it names."""
-    problem = grounder.problem
-    named = {key for is_fact, key in mentions(problem.goal, {}, problem) if not is_fact}
-    if not named.isdisjoint([(TOTAL_COST,), (TOTAL_TIME,)]):
-        raise UnsupportedError("the goal looks at the cost or time of the plan",
-                               hint="enhsp and kairos plan with such numbers")  # fmt: skip
-    found: list[Tests] = []
-    for chosen in combinations(named & reached.keys(), reached):
-        bits = (grounder.bit(value_fact(key, value)) for key, value in chosen.items())
-        goal = grounder.tests(problem.goal, {}, {**problem.values, **chosen})
-        found.append(all_of([goal, *(((bit, bit),) for bit in bits)]))
-    return any_of(found)
-
-
-def _apply(state: int, changes: tuple[BitEffect, ...]) -> int:
-    adds = deletes = 0
-    for change in changes:
-        if meets(state, change.tests):
-            adds |= change.adds
-            deletes |= change.deletes
-    return state & ~deletes | adds

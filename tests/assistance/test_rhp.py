@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from hrcplan.assistance import ASSISTANTS, explain
 from hrcplan.assistance.bigrams import Bigrams
 from hrcplan.assistance.rhp.assistant import RecedingHorizonPlanner, RhpState
-from hrcplan.assistance.rhp.consistency import Subset, labels
+from hrcplan.assistance.rhp.consistency import Subset
 from hrcplan.assistance.rhp.tree import RecedingHorizonTree, TreeRoot
 from hrcplan.bank import Bank, build
 from hrcplan.core.bits import positions
@@ -380,7 +380,7 @@ def test_a_needless_step_is_better_than_to_wait(of_meals):
 
 
 def test_bigrams_count_what_follows_in_sampled_plans(workshop):
-    label, rng = labels(workshop.table), np.random.default_rng(4)
+    label, rng = workshop.table.labels, np.random.default_rng(4)
     seen = np.zeros((len(workshop.names), len(label), len(label)), dtype=int)
     for goal in range(len(workshop.names)):
         for row in workshop.sampler(goal).draw(30, rng).tolist():

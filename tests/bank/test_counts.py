@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 
 from hrcplan.bank import BuildOptions, build
 from hrcplan.bank.construct import optimal_graph
-from hrcplan.bank.walk import is_prefix, is_subsequence, is_subset, plans
+from hrcplan.bank.multisets import is_subset
+from hrcplan.bank.walk import is_prefix, is_subsequence, plans
 
 FACTS = [f"p{i}" for i in range(5)]
 MAX_PLANS = 3_000

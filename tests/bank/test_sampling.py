@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from hrcplan.bank import BuildLimits, BuildOptions, build, build_bank, from_problems
-from hrcplan.bank.walk import Sampler, first_plans, is_subset, plans, step_multisets
+from hrcplan.bank.multisets import is_subset, step_multisets
+from hrcplan.bank.walk import Sampler, first_plans, plans
 from hrcplan.errors import LimitError, UnsupportedError, UsageError
 from hrcplan.pddl.inputs import read
 

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hrcplan.assistance.rhp.consistency import Subset, labels
+from hrcplan.assistance.rhp.consistency import Subset
 from hrcplan.assistance.rhp.sampled import Sampled
 from hrcplan.assistance.rhp.set_posterior import SetPosterior
 from hrcplan.assistance.rhp.subsequence import Subsequence
@@ -36,7 +36,7 @@ def bank(request) -> Bank:
 @pytest.fixture(scope="session")
 def plans(bank):
     """All plans of each goal, as labels."""
-    label = labels(bank.table)
+    label = bank.table.labels
     found = ([tuple(label[s] for s in p) for p in bank.plans(g)] for g in range(len(bank.names)))
     return [sorted(set(listed)) for listed in found]
 
@@ -44,7 +44,7 @@ def plans(bank):
 @pytest.fixture(scope="session")
 def few(bank):
     """The plans that a sample of a few holds, as labels."""
-    label, rng = labels(bank.table), np.random.default_rng(5)
+    label, rng = bank.table.labels, np.random.default_rng(5)
     return [
         [tuple(label[s] for s in row if s >= 0) for row in bank.sampler(g).draw(N_FEW, rng)]
         for g in range(len(bank.names))
@@ -100,7 +100,7 @@ def _histories(draw, bank, most=7):
 @settings(max_examples=60, deadline=None)
 def test_goals_are_those_with_such_a_plan(data, bank, case):
     steps = data.draw(_histories(bank))
-    seen = [labels(bank.table)[step] for step in steps]
+    seen = [bank.table.labels[step] for step in steps]
     assert case[0].goals(steps) == _expected(case, seen)
 
 
@@ -115,7 +115,7 @@ def test_largest_parts_are_the_first_of_all(data, bank, case):
     places = range(len(history))
     parts = [part for size in range(len(history) + 1) for part in combinations(places, size)]
     parts.sort(key=lambda p: (-len(p), -sum(worth[i] for i in p), -sum(1 << i for i in p)))
-    label, expected = labels(bank.table), []
+    label, expected = bank.table.labels, []
     for part in parts:
         sequence = (*(history[i] for i in part), latest)
         if sequence not in expected and _expected(case, [label[s] for s in sequence]):
@@ -128,7 +128,7 @@ def test_everything_is_consistent_with_nothing(case, bank):
 
 
 def test_largest_of_a_step_without_use_is_none(case, bank, plans):
-    label = labels(bank.table)
+    label = bank.table.labels
     used = {step for listed in plans for plan in listed for step in plan}
     idle = [step for step in range(len(bank.table)) if label[step] not in used]
     for step in idle[:3]:
@@ -197,7 +197,7 @@ def test_presence_is_the_ceiling_on_beginnings(workshop):
 
 def test_presence_weighs_every_goal_by_its_definition(bank):
     """By counts where the steps begin a plan, else all sets alike; and errors for the rest."""
-    presence, label = SetPosterior(bank, error=0.25), labels(bank.table)
+    presence, label = SetPosterior(bank, error=0.25), bank.table.labels
     rng = np.random.default_rng(3)
     rows = (rng.random((60, max(label) + 1)) < rng.random((60, 1))).astype(np.uint8)
     n_counted = 0

@@ -11,7 +11,7 @@ from hrcplan.errors import UsageError
 from hrcplan.inference import batch
 from hrcplan.inference.classifier.flat_forest import FlatForest
 from hrcplan.inference.classifier.forest import MAX_KNOWN, ForestBelief
-from hrcplan.inference.classifier.training import columns, prefixes
+from hrcplan.inference.classifier.training import prefixes
 from tests.inference import enumerated_beliefs
 
 MEALS = 10
@@ -94,7 +94,7 @@ def test_extensions_are_observations_one_after_the_other(some, forest, walk):
     fresh = ForestBelief(some, seed=1, n_samples=SAMPLES, n_trees=40)
     assert fresh.extended(state.row, list(after)).tolist() == list(after.values())
     assert fresh.extended(state.row, []).shape == (0, MEALS)
-    assert not state.row[columns(some)[list(after)[-1]]].all()  # the row itself stays
+    assert not state.row[some.table.labels[list(after)[-1]]].all()  # the row itself stays
 
 
 def test_many_rows_are_posteriors_and_only_some_are_remembered(forest):

@@ -5,7 +5,8 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from hrcplan.task.lookup import Lookup, Rule, Waiting, lookup
+from hrcplan.task.lookup import IndexedRule, Lookup, Waiting, lookup
+from hrcplan.task.transitions import Rule
 
 N_FACTS = 37  # more than two slices, and not a whole number of them
 BITS = st.integers(0, 2**N_FACTS - 1) | st.sets(st.integers(0, N_FACTS - 1), max_size=3).map(
@@ -14,27 +15,27 @@ BITS = st.integers(0, 2**N_FACTS - 1) | st.sets(st.integers(0, N_FACTS - 1), max
 
 
 @st.composite
-def tasks(draw: st.DrawFn) -> list[Rule]:
+def tasks(draw: st.DrawFn) -> list[IndexedRule]:
     found = []
     for index in sorted(draw(st.sets(st.integers(0, 60), max_size=20))):
         mask, adds, deletes = draw(BITS), draw(BITS), draw(BITS)
-        found.append((index, mask, mask & draw(BITS), adds, deletes & ~adds))
+        found.append((index, Rule(mask, mask & draw(BITS), adds | deletes, adds)))
     return found
 
 
 @given(tasks(), st.lists(BITS, min_size=1, max_size=5))
-def test_equal_to_a_scan(rules: list[Rule], states: list[int]) -> None:
+def test_equal_to_a_scan(rules: list[IndexedRule], states: list[int]) -> None:
     tables, waiting = Lookup(N_FACTS, 61, rules), Waiting(rules)
     small = Lookup(N_FACTS, 61, rules)
     for table in small._tables:
         table._limit = 1  # forgets all but one value
     # The states that fit a rule, and what is near them, say more than random ones.
-    fitting = [value for _, _, value, _, _ in rules]
+    fitting = [rule.value for _, rule in rules]
     for state in states + fitting + [f | s for f in fitting for s in states]:
         scan = [
             index
-            for index, mask, value, adds, deletes in rules
-            if state & mask == value and state & ~deletes | adds != state
+            for index, rule in rules
+            if state & rule.mask == rule.value and rule.apply(state) != state
         ]
         assert tables.runnable(state) == scan
         assert waiting.runnable(state) == scan

@@ -10,7 +10,7 @@ from hrcplan.core.numbers import Number
 from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import FluentKey, Problem
 from hrcplan.task import Task
-from hrcplan.task.regrounding import Grounding, Groundings
+from hrcplan.task.regrounding import Groundings, Structure
 
 MOTIVATION = ("motivation", "human")
 RAISED = {MOTIVATION: 8, ("capacity", "human", "wp4"): 5}
@@ -43,7 +43,7 @@ def test_other_numbers_keep_the_structure(
 ) -> None:
     first = Task(coached.with_values(RAISED))
     problem = coached.with_values({**RAISED, **values})
-    again = Grounding(first).again(problem)
+    again = Structure(first).again(problem)
     assert again is not None
     assert again.structure is first.structure
     same(again, Task(problem))
@@ -53,14 +53,14 @@ def test_what_interactions_leave_is_a_role_as_well(coached: Problem) -> None:
     low = {key: 2 for key in coached.values if key[0] in ("motivation", "knowledge", "capacity")}
     first = Task(coached.with_values({("residual",): 2, **low, **RAISED}))
     problem = coached.with_values({("residual",): 3, **dict.fromkeys(low, 3), **RAISED})
-    again = Grounding(first).again(problem)
+    again = Structure(first).again(problem)
     assert again is not None
     same(again, Task(problem))
 
 
 def test_a_value_that_is_left_already_is_a_state_of_the_same_structure(coached: Problem) -> None:
     first = Task(coached.with_values({MOTIVATION: 8}))
-    again = Grounding(first).again(coached)
+    again = Structure(first).again(coached)
     assert again is not None
     assert again.facts_of(again.initial) >= {("=", "motivation", "human", "1")}
     assert len(again.actions) > len(Task(coached).actions)  # it may hold more than is needed
@@ -70,11 +70,11 @@ def test_other_facts_keep_the_structure(coached: Problem) -> None:
     first = Task(coached.with_values(RAISED))
     facts = coached.facts - {("at", "human", "wp1")} | {("at", "human", "wp5")}
     problem = replace(coached.with_values({**RAISED, MOTIVATION: 6}), facts=facts)
-    again = Grounding(first).again(problem)
+    again = Structure(first).again(problem)
     assert again is not None
     assert ("at", "human", "wp5") in again.facts_of(again.initial)
     plain = replace(coached, facts=facts)
-    assert Grounding(Task(coached)).again(plain) is not None
+    assert Structure(Task(coached)).again(plain) is not None
 
 
 @pytest.mark.parametrize("change", [
@@ -86,7 +86,7 @@ def test_other_facts_keep_the_structure(coached: Problem) -> None:
     lambda p: replace(p, values={k: v for k, v in p.values.items() if k != MOTIVATION}),
 ])  # fmt: skip
 def test_another_structure_is_not_claimed(coached: Problem, change) -> None:  # type: ignore[no-untyped-def]
-    assert Grounding(Task(coached)).again(change(coached)) is None
+    assert Structure(Task(coached)).again(change(coached)) is None
 
 
 DECREASE = """(define (domain calm) (:requirements :typing :numeric-fluents :durative-actions)

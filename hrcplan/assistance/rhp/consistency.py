@@ -15,7 +15,7 @@ from typing import Protocol
 import numpy as np
 
 from hrcplan.assistance.rhp.maximal_subsets import largest_first
-from hrcplan.bank import Bank, PlanGraph, StepTable, walk
+from hrcplan.bank import Bank, PlanGraph, multisets
 
 MAX_REMEMBERED = 100_000  # answers about goals that are tested one by one
 
@@ -50,7 +50,7 @@ class Subset:
 
     The multisets, *kinds*, of all goals are numbered through; for every n-th occurrence of a step
     there is one integer whose bits are the kinds that have it. Goals of too many kinds are tested
-    one by one (see ``walk.is_subset``); where that gives up, the goal counts as consistent.
+    one by one (see ``multisets.is_subset``); where that gives up, the goal counts as consistent.
 
     >>> from hrcplan.bank import build_bank
     >>> subset = Subset(build_bank("kitchen", only=["pasta-bean", "pasta-tomato"]))
@@ -60,7 +60,7 @@ class Subset:
     """
 
     def __init__(self, bank: Bank) -> None:
-        self.bank, self.label = bank, labels(bank.table)
+        self.bank, self.label = bank, bank.table.labels
         self.graphs = [named(graph, self.label) for graph in bank.graphs]
         self.everything = sum(1 << g for g, graph in enumerate(self.graphs) if graph.n_nodes)
         self._spans: list[tuple[int, int, int]] = []
@@ -72,7 +72,7 @@ class Subset:
         owners: dict[tuple[int, int], list[int]] = {}
         n = 0
         for goal, graph in enumerate(self.graphs):
-            kinds = walk.step_multisets(graph)
+            kinds = multisets.step_multisets(graph)
             if kinds is None:
                 self._large.append(goal)
                 continue
@@ -112,7 +112,7 @@ class Subset:
         if known is None:
             if len(self._remembered) >= MAX_REMEMBERED:
                 self._remembered.clear()
-            known = walk.is_subset(self.graphs[goal], done) is not False
+            known = multisets.is_subset(self.graphs[goal], done) is not False
             self._remembered[goal, done] = known
         return known
 
@@ -146,12 +146,6 @@ class Subset:
             used = self.graphs[goal].used_steps
             if last in used:
                 yield sum(1 << i for i, label in enumerate(done) if label in used), 1 << goal
-
-
-def labels(table: StepTable) -> tuple[int, ...]:
-    """Return for each step a number for what is done, whoever does it."""
-    found: dict[tuple[str, ...], int] = {}
-    return tuple(found.setdefault(table[i].name, len(found)) for i in range(len(table)))
 
 
 def named(graph: PlanGraph, label: Sequence[int]) -> PlanGraph:

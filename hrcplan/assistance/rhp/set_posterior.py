@@ -8,7 +8,6 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from hrcplan.assistance.rhp.consistency import labels
 from hrcplan.bank import Bank
 from hrcplan.core.arrays import Floats
 from hrcplan.inference.belief import weights_to_posterior
@@ -68,7 +67,7 @@ class SetPosterior:
 
     def __init__(self, bank: Bank, error: float = ERROR) -> None:
         self.bank, self.error, self._ceiling = bank, error, PrefixPosterior(bank)
-        self._label = labels(bank.table)
+        self._label = bank.table.labels
         self._called: dict[int, list[int]] = {}
         for step, label in enumerate(self._label):
             self._called.setdefault(label, []).append(step)

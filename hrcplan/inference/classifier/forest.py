@@ -25,7 +25,6 @@ from hrcplan.inference.classifier.training import (
     Classifier,
     Trained,
     Training,
-    columns,
     forest,
     train,
 )  # fmt: skip
@@ -64,8 +63,8 @@ class ForestBelief:
         classifier: Classifier | None = None, n_jobs: int = 1, cache: Path | bool = True,
     ) -> None:  # fmt: skip
         self.bank, self.table = bank, bank.table
-        self._column = columns(bank)
-        self.n_labels = int(self._column.max(initial=-1)) + 1
+        self._column = np.array(bank.table.labels, dtype=np.int64)
+        self.n_labels = bank.table.n_labels
 
         def make() -> Trained:
             model = forest(seed, n_trees, n_jobs) if classifier is None else classifier

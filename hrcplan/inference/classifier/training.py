@@ -65,13 +65,6 @@ class Trained:
     fault: str | None = None
 
 
-def columns(bank: Bank) -> Ids:
-    """Return the column of each step: steps that differ only in who acts share one."""
-    found: dict[tuple[str, ...], int] = {}
-    steps = range(len(bank.table))
-    return np.array([found.setdefault(bank.table[i].name, len(found)) for i in steps], dtype=int)
-
-
 def prefixes(bank: Bank, n: int, rng: np.random.Generator) -> tuple[Rows, Ids]:
     """Return about ``n`` sampled beginnings of plans, shuffled: done labels, and goals.
 
@@ -83,8 +76,8 @@ def prefixes(bank: Bank, n: int, rng: np.random.Generator) -> tuple[Rows, Ids]:
     reachable = [g for g, graph in enumerate(bank.graphs) if graph.n_steps]
     if not reachable:
         raise UsageError("no goal has a plan to learn from", code="no-plan")
-    column, each = columns(bank), -(-n // len(reachable))
-    rows = np.zeros((each * len(reachable), column.max() + 1), dtype=np.uint8)
+    column, each = np.array(bank.table.labels), -(-n // len(reachable))
+    rows = np.zeros((each * len(reachable), bank.table.n_labels), dtype=np.uint8)
     for i, goal in enumerate(reachable):
         plans = bank.sampler(goal).draw(each, rng)
         lengths = (plans >= 0).sum(axis=1)

@@ -19,7 +19,7 @@ from hrcplan.core.arrays import Floats
 from hrcplan.inference.belief import normalized
 from hrcplan.inference.changes import NEVER, ChangeFilter, FilterState, GoalChange
 from hrcplan.inference.exact import IMPOSSIBLE
-from hrcplan.inference.recognition.distances import Distances, GoalDistance, apply
+from hrcplan.inference.recognition.distances import Distances, GoalDistance
 from hrcplan.task.steps import STEPS, TASK
 
 TIMEOUT_S = 25.0
@@ -97,8 +97,8 @@ class CostBelief:
         *bridge, last = done
         before = state.world
         for op in bridge:
-            before = _must(apply(self.ops[op], before))
-        after = _must(apply(self.ops[last], before))
+            before = self.ops[op].apply(before)
+        after = self.ops[last].apply(before)
         n_observed = state.n_observed + 1
         siblings = self._siblings(before, n_observed) if not robot else []
         costs = self.distances.estimates([after, *siblings])
@@ -120,15 +120,15 @@ class CostBelief:
         """Return the ops that a step stands for: itself, after unobserved ones where needed."""
         ops = self._ops_of[step]
         for op in ops:
-            if apply(self.ops[op], world) is not None:
+            if self.ops[op].is_enabled(world):
                 return [op]
         found = self.distances.bridge(world, [test for op in ops for test in self.ops[op].tests])
         if found is None:
             return None
         there = world
         for op in found.ops:
-            there = _must(apply(self.ops[op], there))
-        last = next((op for op in ops if apply(self.ops[op], there) is not None), None)
+            there = self.ops[op].apply(there)
+        last = next((op for op in ops if self.ops[op].is_enabled(there)), None)
         return None if last is None else [*found.ops, last]
 
     def _siblings(self, world: int, n_observed: int) -> list[int]:
@@ -190,8 +190,3 @@ def _cost_kind(goals: Goals) -> str:
     costs = goals.task.costs
     fine = all(isinstance(cost, int) and 0 < cost <= MAX_PRICE for cost in costs)
     return TASK if fine else STEPS
-
-
-def _must(state: int | None) -> int:
-    assert state is not None
-    return state

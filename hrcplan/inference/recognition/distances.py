@@ -6,7 +6,7 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from hrcplan.inference.recognition.optimal import Searcher, Way, is_simple, search
+from hrcplan.inference.recognition.optimal import Searcher, Way, search
 from hrcplan.search.relaxed_plan import Relaxation
 from hrcplan.task.conditions import Test
 from hrcplan.task.steps import Operator
@@ -62,7 +62,7 @@ class Distances:
         began = time.monotonic()
         self.relaxation = Relaxation(ops, goals)
         self.clock.spent_s += time.monotonic() - began
-        self._simple = all(is_simple(op) for op in ops)
+        self._simple = all(op.is_simple for op in ops)
         self._searchers: dict[int, Searcher] = {}
         self._known: dict[tuple[int, int], Way | None] = {}
 
@@ -120,10 +120,9 @@ class Distances:
             rest.remove(op)
         state = after
         for op in rest:
-            found = apply(self.ops[op], state)
-            if found is None:
+            if not self.ops[op].is_enabled(state):
                 return None
-            state = found
+            state = self.ops[op].apply(state)
         if not any(state & mask == value for mask, value in self.goals[goal]):
             return None
         return Way(way.cost - sum(self.ops[op].cost for op in done), tuple(rest))
@@ -157,20 +156,6 @@ class Distances:
         texts = [Searcher(self.ops, test).text(state) for test in tests]
         found = [way for way in search(texts, limit_s, 2 * limit_s) if way is not None]
         return min(found, key=lambda way: way.cost, default=None)
-
-
-def apply(op: Operator, state: int) -> int | None:
-    """Return the state after an op; None if it cannot be done."""
-    if not any(state & mask == value for mask, value in op.tests):
-        return None
-    for changes in (op.at_start, op.at_end):
-        adds = deletes = 0
-        for change in changes:
-            if any(state & mask == value for mask, value in change.tests):
-                adds |= change.adds
-                deletes |= change.deletes
-        state = state & ~deletes | adds
-    return state
 
 
 def _moved(place: GoalDistance, estimate: float | None, way: Way | None) -> GoalDistance:

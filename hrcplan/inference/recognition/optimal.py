@@ -18,7 +18,7 @@ from hrcplan.core.bits import positions
 from hrcplan.planners.fast_downward import find_binary
 from hrcplan.planners.process import ProcessLimits, run
 from hrcplan.search.packed_states import FactPacking
-from hrcplan.search.relevance import ALWAYS, relevant
+from hrcplan.search.relevance import relevant
 from hrcplan.task.conditions import Test
 from hrcplan.task.steps import Operator
 
@@ -85,14 +85,15 @@ class Searcher:
         return [str(len(found)), *found]
 
     def _operator(self, number: int, op: Operator) -> list[str]:
-        mask, value = op.tests[0]
-        change = op.changes[0]
+        rule = op.simple_rule
+        assert rule is not None
+        mask, value, touched_facts, adds = rule
         kept = sum(1 << p for p in self._place)
-        touched = (change.adds | change.deletes) & kept
+        touched = touched_facts & kept
         effects = []
         for p in positions(touched):
             before = _value(value, p) if mask >> p & 1 else -1
-            effects.append(f"0 {self._place[p]} {before} {_value(change.adds, p)}")
+            effects.append(f"0 {self._place[p]} {before} {_value(adds, p)}")
         return ["begin_operator", f"o{number}", *self._facts(mask & ~touched, value),
                 str(len(effects)), *effects, str(op.cost), "end_operator"]  # fmt: skip
 
@@ -104,11 +105,6 @@ class Searcher:
     def key(self, state: int) -> int:
         """Return the part of a state that matters to the goal."""
         return state & self._packing.mask
-
-
-def is_simple(op: Operator) -> bool:
-    """Return whether an op has one condition and unconditional effects, as the search needs it."""
-    return len(op.tests) == 1 and not op.at_end and [c.tests for c in op.at_start] == [ALWAYS]
 
 
 def search(texts: Sequence[str], limit_s: float, total_s: float) -> list[Way | None]:

@@ -1,0 +1,145 @@
+"""What a problem's tasks have in common: facts and ground actions as bit positions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence, Set
+from dataclasses import dataclass, replace
+from math import inf
+
+from hrcplan.core.numbers import Number
+from hrcplan.errors import UnsupportedError
+from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, Constant, Fact, Problem
+from hrcplan.pddl.semantics import ground_key, instances, mentions
+from hrcplan.task.actions import GroundAction, ground_actions
+from hrcplan.task.changing import Reached, combinations, reached_values, value_fact
+from hrcplan.task.conditions import Grounder, Tests, all_of, any_of
+from hrcplan.task.lookup import lookup
+from hrcplan.task.numbers import check_supported, numeric_effects
+from hrcplan.task.reachable import SchemaInstance, reachable
+from hrcplan.task.transitions import BitEffect
+
+
+@dataclass(frozen=True, eq=False)
+class ActionIndex:
+    """Ground actions laid out for inner loops.
+
+    Attributes:
+        runnable: The simple actions that are applicable in a state, as indices in order.
+        others: The actions that are not simple.
+        net_effects: What each action does in sum; None if that depends on the state.
+    """
+
+    runnable: Callable[[int], list[int]]
+    others: tuple[int, ...]
+    net_effects: tuple[BitEffect | None, ...]
+
+    @classmethod
+    def of(cls, actions: Sequence[GroundAction], n_facts: int) -> ActionIndex:
+        """Return the index of actions that are numbered from 0."""
+        rules = [(action.index, action.simple_rule) for action in actions]
+        simple = [(index, rule) for index, rule in rules if rule is not None]
+        others = tuple(index for index, rule in rules if rule is None)
+        effects = (None if a.conditional else BitEffect(a.adds, a.deletes) for a in actions)
+        return cls(lookup(n_facts, len(actions), simple), others, tuple(effects))
+
+
+@dataclass(frozen=True, eq=False)
+class Grounding:
+    """Facts and ground actions of a domain with objects, whatever the state, the goal, the costs.
+
+    Attributes:
+        facts: The fluents in bit order; facts that never change are compiled away.
+        bits: The bit of each fluent.
+        constant: The facts that hold and never change.
+        reached: The values, in bit order, of the functions that actions change.
+        movers: The instances that could change them.
+        actions: The ground actions: by schema as declared, then by objects as declared.
+        index: The actions, laid out for inner loops.
+        structure: Groundings with the same structure differ in the numbers of ``reached`` and in
+            costs only, so what was computed for one holds for the others.
+    """
+
+    facts: tuple[Fact, ...]
+    bits: Mapping[Fact, int]
+    constant: Set[Fact]
+    reached: Reached
+    movers: tuple[SchemaInstance, ...]
+    actions: tuple[GroundAction, ...]
+    index: ActionIndex
+    structure: object
+
+    def with_actions(self, actions: Sequence[GroundAction], costs: Sequence[Number]) -> Grounding:
+        """Return the grounding with other actions, numbered from 0, at constant costs."""
+        priced = tuple(
+            replace(action, costs=(Constant(cost),))
+            for action, cost in zip(actions, costs, strict=True)
+        )
+        index = ActionIndex.of(priced, len(self.facts))
+        return replace(self, actions=priced, index=index, structure=priced)
+
+    def initial(self, problem: Problem) -> int:
+        """Return the initial state of a problem."""
+        reached = (k for k in self.reached if k in problem.values)
+        return self.state_of([*problem.facts, *(value_fact(k, problem.values[k]) for k in reached)])
+
+    def state_of(self, facts: Iterable[Fact]) -> int:
+        """Return the state in which exactly these facts hold; constant facts are ignored."""
+        return sum({1 << self.bits[fact] for fact in facts if fact in self.bits})
+
+    def goal(self, problem: Problem) -> Tests:
+        """Return a problem's goal as alternatives.
+
+        There are alternatives for every combination of the changing values that the goal names.
+
+        Raises:
+            UnsupportedError: if bits cannot hold the goal.
+        """
+        grounder = Grounder(problem, self.bits, self.constant)
+        named = {key for is_fact, key in mentions(problem.goal, {}, problem) if not is_fact}
+        if not named.isdisjoint([(TOTAL_COST,), (TOTAL_TIME,)]):
+            message = "the goal looks at the cost or time of the plan"
+            raise UnsupportedError(message, hint="enhsp and kairos plan with such numbers")
+        alternatives: list[Tests] = []
+        for chosen in combinations(named & self.reached.keys(), self.reached):
+            bits = (grounder.bit(value_fact(key, value)) for key, value in chosen.items())
+            goal = grounder.tests(problem.goal, {}, {**problem.values, **chosen})
+            alternatives.append(all_of([goal, *(((bit, bit),) for bit in bits)]))
+        return any_of(alternatives)
+
+
+def ground(problem: Problem, deadline: float = inf) -> Grounding:
+    """Return the grounding of a problem by relaxed reachability.
+
+    Raises:
+        UnsupportedError: if an action changes a number that is neither total-cost nor agent state,
+            or an agent-state function has more than 16 reachable values.
+        LimitError: if there are too many ground actions, or at the deadline (a time of
+            ``time.monotonic()``).
+    """
+    check_supported(problem.domain)
+    schema_instances, reachable_facts = reachable(problem, deadline)
+    fluents = _fluents(problem, schema_instances, reachable_facts)
+    constant = problem.facts.difference(fluents)
+    plain_bits = {fact: i for i, fact in enumerate(fluents)}
+    reached = reached_values(Grounder(problem, plain_bits, constant), schema_instances)
+    facts = (*fluents, *(value_fact(key, value) for key in reached for value in reached[key]))
+    bits = {fact: i for i, fact in enumerate(facts)}
+    actions = ground_actions(Grounder(problem, bits, constant), schema_instances, reached)
+    return Grounding(
+        facts, bits, constant, reached,
+        movers=tuple(i for i in schema_instances if any(numeric_effects(i.action))),
+        actions=actions, index=ActionIndex.of(actions, len(facts)), structure=actions,
+    )  # fmt: skip
+
+
+def _fluents(
+    problem: Problem, schema_instances: Iterable[SchemaInstance], reachable_facts: Set[Fact]
+) -> list[Fact]:
+    """Return the reachable facts that do not hold all the time."""
+    deleted: set[Fact] = set()
+    for instance in schema_instances:
+        for effect in instance.action.effects:
+            if effect.kind == "delete":
+                for inner in instances(effect.params, instance.binding, problem):
+                    deleted.add(ground_key(effect.target, inner))
+    return sorted(reachable_facts & deleted | reachable_facts - problem.facts)
