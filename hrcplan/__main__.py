@@ -1,6 +1,33 @@
-"""``python -m hrcplan``."""
+"""The way in: ``hrcplan``, or ``python -m hrcplan``."""
 
-from hrcplan.cli import main
+from __future__ import annotations
+
+import os
+import sys
+
+INTERRUPTED = 130
+
+
+def run() -> None:
+    """Run the command line; Ctrl-C while it is being imported is no traceback."""
+    try:
+        from hrcplan.cli import main
+    except KeyboardInterrupt:
+        sys.stderr.write("error: interrupted\n")
+        os._exit(INTERRUPTED)
+    main()
+
+
+def _leave_current_folder() -> None:
+    """Take the current folder, which ``-m`` puts first, from where modules are looked for.
+
+    It may hold anything, such as a ``numpy.py``. If hrcplan itself is there, it stays.
+    """
+    ours = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+    if not sys.flags.safe_path and sys.path[:1] == [os.getcwd()] != [ours]:
+        del sys.path[0]
+
 
 if __name__ == "__main__":
-    main()
+    _leave_current_folder()
+    run()

@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 
-from hrcplan.core.numbers import Number, to_number
+from hrcplan.core.numbers import Number, decimal_of, to_number
 from hrcplan.core.text import quote, type_text
 from hrcplan.errors import PlanFormatError
 from hrcplan.pddl.model import Problem
@@ -106,8 +106,8 @@ def _format(action: PlannedAction) -> str:
 
 def seconds_text(seconds: Number) -> str:
     """Return seconds with three decimals, or more (at most nine) where three lose something."""
-    short = f"{float(seconds):.3f}"
-    return short if Fraction(short) == seconds else f"{float(seconds):.9f}".rstrip("0")
+    whole, _, decimals = decimal_of(Fraction(seconds), 9).partition(".")
+    return f"{whole}.{decimals:0<3}"
 
 
 def parse_plan(text: str, path: str = "<plan>") -> Plan:

@@ -24,11 +24,30 @@ def fault(bank: Bank, goal: int) -> str | None:
         return f"the graph of '{name}' says that it is of '{graph.goal}'"
     if not graph.n_nodes:
         return None
-    shape = _shape(graph, len(bank.table))
+    shape = structure_fault(graph, len(bank.table), len(bank.goals.task.facts))
     return (shape and f"'{name}': {shape}") or _meaning(bank, goal)
 
 
-def _shape(graph: PlanGraph, n_steps: int) -> str | None:
+def structure_fault(graph: PlanGraph, n_steps: int, n_facts: int) -> str | None:
+    """Return why arrays are no graph of plans, or None; what its states mean is not looked at."""
+    arrays = (graph.rows, graph.first, graph.steps, graph.targets, graph.is_goal)
+    if [array.ndim for array in arrays] != [2, 1, 1, 1, 1]:
+        return "its arrays have the wrong shapes"
+    n, positions = graph.n_nodes, graph.packing.positions
+    if sorted(set(positions)) != list(positions) or not set(positions) <= set(range(n_facts)):
+        return "its facts are not those of the task"
+    shapes = [array.shape for array in (graph.rows, graph.first, graph.is_goal)]
+    if shapes != [(n, graph.packing.n_words), (n + 1,), (n,)]:
+        return "its arrays have the wrong shapes"
+    if graph.steps.shape != graph.targets.shape or (graph.is_goal.view(np.uint8) > 1).any():
+        return "its arrays have the wrong shapes"
+    starts = [first for _, first in graph.layers]
+    if starts[:1] != [0][:n] or starts != sorted({*starts}) or any(s >= n for s in starts):
+        return "its layers are not where its nodes are"
+    return _edge_fault(graph, n_steps) if n else None
+
+
+def _edge_fault(graph: PlanGraph, n_steps: int) -> str | None:
     n, m = graph.n_nodes, graph.n_edges
     if graph.first[0] != 0 or graph.first[-1] != m or (np.diff(graph.first) < 0).any():
         return "edges are not where the nodes say"

@@ -59,7 +59,8 @@ class CombinedGraph:
         self._moves = _closed(sources * self.n_steps + steps)
         self.step_of = steps.astype(np.int32)
         self.first = np.searchsorted(sources, np.arange(self.off + 2))
-        shares = np.concatenate([np.zeros(0), *map(_shares, graphs)])
+        both = [_shares(graph) for graph in graphs]
+        shares, logs = (np.concatenate([np.zeros(0), *(p[i] for p in both)]) for i in (0, 1))
         label = np.array(self.label, dtype=np.int64)
         pairs = sources * self.n_labels + (label[steps] if len(steps) else steps)
         if self.one_label_each:
@@ -67,8 +68,8 @@ class CombinedGraph:
         else:
             distinct, which = np.unique(pairs, return_inverse=True)
             self._pairs, owners = _closed(distinct), distinct // self.n_labels
-            shares = np.bincount(which, weights=shares, minlength=len(distinct))
-        self.log_shares = np.append(np.log(shares), -math.inf)
+            logs = _log_sums(shares, logs, which, len(distinct))
+        self.log_shares = np.append(logs, -math.inf)
         self.n_next = np.bincount(owners, minlength=self.off + 1).astype(np.int64)
 
     def edges(self, nodes: Ids, step: int) -> tuple[Bools, Ids]:
@@ -202,14 +203,25 @@ def _closed(keys: Ids) -> Ids:
     return np.append(keys, np.iinfo(np.int64).max)
 
 
-def _shares(graph: PlanGraph) -> Floats:
-    """Return for each edge the share of the plans of its node that go along it."""
+def _shares(graph: PlanGraph) -> tuple[Floats, Floats]:
+    """Return for each edge the share of its node's plans that go along it, and its logarithm."""
     sources = np.repeat(np.arange(graph.n_nodes), np.diff(graph.first))
     try:
         counts = graph.to_go.astype(np.float64)
-    except OverflowError:  # beyond what a float holds
+    except OverflowError:  # beyond what a float holds, and so may be the shares
         logs = np.array([math.log(count) for count in graph.to_go])
-        large: Floats = np.exp(logs[graph.targets] - logs[sources])
-        return large
-    found: Floats = counts[graph.targets] / counts[sources]
+        of_edges: Floats = logs[graph.targets] - logs[sources]
+        return np.exp(of_edges), of_edges
+    shares: Floats = counts[graph.targets] / counts[sources]
+    return shares, np.log(shares)
+
+
+def _log_sums(shares: Floats, logs: Floats, which: Ids, n: int) -> Floats:
+    """Return the logarithm of the sum of what belongs together, also where a sum is no float."""
+    sums = np.bincount(which, weights=shares, minlength=n)
+    if (sums > np.finfo(np.float64).tiny).all():
+        plain: Floats = np.log(sums)
+        return plain
+    found = np.full(n, -math.inf)
+    np.logaddexp.at(found, which, logs)
     return found

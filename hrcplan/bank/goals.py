@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
+from hrcplan.core.files import read_bytes
 from hrcplan.core.numbers import number_text
 from hrcplan.core.text import nearest
 from hrcplan.errors import InputError, UsageError
@@ -33,11 +34,7 @@ class SourceFile:
         Raises:
             InputError: if it is missing or may not be read.
         """
-        try:
-            return cls(str(path), path.read_bytes())
-        except OSError as error:
-            message = f"cannot read '{path}': {error.strerror or error}"
-            raise InputError(message, code="no-file", path=str(path)) from None
+        return cls(str(path), read_bytes(path))
 
     def source(self) -> SourceText:
         """Return its text, to be read as PDDL."""

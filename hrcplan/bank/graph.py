@@ -125,7 +125,8 @@ class PlanGraph:
     @cached_property
     def to_go(self) -> PathCounts:
         """How many ways lead from each node to a goal: int64, or Python integers where large."""
-        rough = self._count_to_go(np.float64)
+        with np.errstate(over="ignore"):
+            rough = self._count_to_go(np.float64)
         large = self.n_nodes and rough.max() >= BIG
         return self._count_to_go(np.object_ if large else np.int64)
 

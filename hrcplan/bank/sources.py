@@ -7,10 +7,13 @@ from pathlib import Path
 
 from hrcplan.bank import ramirez_geffner
 from hrcplan.bank.goals import Goals, SourceFile, from_problems
+from hrcplan.core.text import quote
 from hrcplan.errors import InputError
 from hrcplan.pddl import library
 from hrcplan.pddl.check import domain_in, problem_in
 from hrcplan.pddl.reader import GroupNode, read
+
+KINDS = ("problems", ramirez_geffner.KIND)
 
 
 def read_goals(domain: str, goals: str | None = None) -> Goals:
@@ -39,6 +42,8 @@ def read_goals(domain: str, goals: str | None = None) -> Goals:
 
 def goals_in(files: tuple[SourceFile, ...], kind: str = "problems") -> Goals:
     """Return the goals that files hold: a domain, then problems, or a template and its goals."""
+    if kind not in KINDS:
+        raise InputError(f"goals of an unknown kind: {quote(str(kind))}", code="bad-goals")
     if kind == ramirez_geffner.KIND:
         return ramirez_geffner.goals_of(*files)
     domain = domain_in(files[0].source())

@@ -18,18 +18,18 @@ from typing import Any
 
 import numpy as np
 
-from hrcplan.bank.audit import fault
+from hrcplan.bank.audit import fault, structure_fault
 from hrcplan.bank.bank import Bank, BuildOptions
 from hrcplan.bank.goals import SourceFile
 from hrcplan.bank.graph import PlanGraph
 from hrcplan.bank.sources import goals_in
-from hrcplan.core.array_file import Arrays, Format, array
-from hrcplan.core.files import write_atomically
-from hrcplan.core.numbers import exact
+from hrcplan.core.array_file import HEADER_FAULTS, Arrays, Format, array
+from hrcplan.core.files import read_bytes, write_atomically
+from hrcplan.core.numbers import exact, fraction_of, int_text
 from hrcplan.errors import InputError, UsageError
 from hrcplan.pddl import library
 from hrcplan.search.packed_states import FactPacking
-from hrcplan.task.steps import StepTable
+from hrcplan.task.steps import COSTS, StepTable
 
 MAGIC = b"HRCPBANK"
 VERSION = 1
@@ -97,9 +97,9 @@ def load(path: str | Path) -> Bank:
             PDDL it was made from has changed.
     """
     shown = str(path)
-    header, body = _FORMAT.unpacked(_read(path), shown)
+    header, body = _FORMAT.unpacked(read_bytes(path, limit=None), shown)
     try:
-        folder = Path(path).resolve().parent
+        folder = Path(os.path.realpath(path)).parent
         files = tuple(_source(entry, folder, shown) for entry in header["sources"])
         goals = goals_in(files, header["kind"]).only(header["names"])
         recipe = _recipe(header["recipe"])
@@ -108,10 +108,31 @@ def load(path: str | Path) -> Bank:
             raise InputError(f"'{shown}' does not fit its PDDL", code="bad-bank", path=shown,
                              hint="it was made by another hrcplan: build it again")  # fmt: skip
         graphs = tuple(_graph(entry, body) for entry in header["goals"])
-    except (KeyError, TypeError, ValueError, IndexError, UsageError) as error:
+        build_s = _seconds(header["build_s"])
+    except (*HEADER_FAULTS, UsageError) as error:
         raise InputError(f"'{shown}' has a header that makes no sense: {error!r}", code="bad-bank",
                          path=shown, hint="build it again") from None  # fmt: skip
-    return Bank(goals, table, graphs, recipe, header["build_s"])
+    bank = Bank(goals, table, graphs, recipe, build_s)
+    if fault := _structure_fault(bank):
+        message = f"'{shown}' is no bank of its goals: {fault}"
+        raise InputError(message, code="bad-bank", path=shown, hint="build it again")
+    return bank
+
+
+def _structure_fault(bank: Bank) -> str | None:
+    """Return why the graphs do not fit goals, steps and facts; the states are not looked at."""
+    names = tuple(graph.goal for graph in bank.graphs)
+    if names != bank.names:
+        return f"its graphs are of {', '.join(map(str, names)) or 'no goal'}"
+    n_steps, n_facts = len(bank.table), len(bank.goals.task.facts)
+    faults = ((g.goal, structure_fault(g, n_steps, n_facts)) for g in bank.graphs)
+    return next((f"'{name}': {fault}" for name, fault in faults if fault), None)
+
+
+def _seconds(value: Any) -> float:
+    if type(value) not in (int, float) or not 0 <= value < float("inf"):
+        raise ValueError(f"build_s is {value!r}")
+    return float(value)
 
 
 def verify(path: str | Path) -> str | None:
@@ -123,21 +144,12 @@ def verify(path: str | Path) -> str | None:
     Raises:
         InputError: if there is no such file, or it may not be read.
     """
-    _read(path)
+    read_bytes(path, limit=None)
     try:
         bank = load(path)
     except InputError as error:
         return error.message
     return next((found for goal in range(len(bank.graphs)) if (found := fault(bank, goal))), None)
-
-
-def _read(path: str | Path) -> bytes:
-    shown = str(path)
-    try:
-        return Path(path).read_bytes()
-    except OSError as error:
-        message = f"cannot read '{shown}': {error.strerror or error}"
-        raise InputError(message, code="no-file", path=shown) from None
 
 
 # Sources.
@@ -163,7 +175,7 @@ def _source(entry: Mapping[str, str], folder: Path, shown: str) -> SourceFile:
     """
     origin = (library.root() if entry["place"] == "shipped" else folder) / entry["path"]
     stored = SourceFile(os.path.normpath(origin), entry["text"].encode())
-    if origin.is_file() and SourceFile.read(origin).sha256 != stored.sha256:
+    if os.path.isfile(origin) and SourceFile.read(origin).sha256 != stored.sha256:
         message = f"'{shown}' was made from another version of {stored.path}"
         hint = "build the bank again, or restore the file"
         raise InputError(message, code="bank-outdated", path=shown, hint=hint)
@@ -183,16 +195,18 @@ def _recipe_entry(recipe: BuildOptions) -> dict[str, Any]:
 
 def _recipe(entry: Mapping[str, Any]) -> BuildOptions:
     alternatives = entry["alternatives"]
+    if entry["cost"] not in COSTS or type(entry["sample"]) not in (int, type(None)):
+        raise ValueError(f"the recipe is {entry!r}")
     return BuildOptions(
-        entry["cost"], Fraction(entry["quality"]),
-        None if alternatives is None else Fraction(alternatives), entry["sample"],
+        entry["cost"], _fraction(entry["quality"]),
+        None if alternatives is None else _fraction(alternatives), entry["sample"],
     )  # fmt: skip
 
 
 def _graph_entry(graph: PlanGraph, arrays: Arrays) -> dict[str, Any]:
     return {
         "name": graph.goal,
-        "plans": str(graph.plans),
+        "plans": int_text(graph.plans),
         "complete": graph.complete,
         "positions": list(graph.packing.positions),
         "layers": [[str(cost), first] for cost, first in graph.layers],
@@ -203,7 +217,20 @@ def _graph_entry(graph: PlanGraph, arrays: Arrays) -> dict[str, Any]:
 def _graph(entry: Mapping[str, Any], body: memoryview) -> PlanGraph:
     arrays = {name: array(body, entry["arrays"][name], kind) for name, kind in _ARRAYS.items()}
     return PlanGraph(
-        goal=entry["name"], packing=FactPacking(tuple(entry["positions"])),
-        layers=tuple((exact(cost), first) for cost, first in entry["layers"]),
-        complete=entry["complete"], **arrays,
+        goal=entry["name"], packing=FactPacking(tuple(map(_whole, entry["positions"]))),
+        layers=tuple((exact(_fraction(cost)), _whole(first)) for cost, first in entry["layers"]),
+        complete=bool(entry["complete"]), **arrays,
     )  # fmt: skip
+
+
+def _whole(value: Any) -> int:
+    if type(value) is not int:
+        raise TypeError(f"{value!r} is no whole number")
+    return value
+
+
+def _fraction(text: Any) -> Fraction:
+    value = fraction_of(text)
+    if value is None:
+        raise ValueError(f"{text!r} is no number")
+    return value

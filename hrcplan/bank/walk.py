@@ -74,8 +74,9 @@ class Sampler:
         self.graph = graph
         degrees = np.diff(graph.first)
         sources = np.repeat(np.arange(graph.n_nodes), degrees)
-        counts = graph.to_go.astype(np.float64)
-        total = np.cumsum(counts[graph.targets] / counts[sources])
+        # Of Python integers, which may be too large for a float, the quotient is one.
+        shares = graph.to_go[graph.targets] / graph.to_go[sources]
+        total = np.cumsum(shares.astype(np.float64))
         before = np.concatenate([[0.0], total])[graph.first[:-1]]
         self._last = graph.first[1:] - 1
         # An edge is passed over if the random number is not below its share and those before it.

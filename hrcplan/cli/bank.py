@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import rich_click as click
 
 from hrcplan.cli import output
-from hrcplan.errors import UsageError
+from hrcplan.core.files import check_target
+from hrcplan.core.numbers import fraction_of, int_text
 
 if TYPE_CHECKING:
     from hrcplan.bank import Bank, PlanGraph
@@ -22,9 +23,8 @@ class _Factor(click.ParamType):  # type: ignore[type-arg]
 
     def convert(self, value: Any, param: Any, ctx: Any) -> Fraction:
         """Return the number."""
-        try:
-            factor = Fraction(value)
-        except (ValueError, ZeroDivisionError):
+        factor = value if isinstance(value, Fraction) else fraction_of(value)
+        if factor is None:
             self.fail(f"'{value}' is not a number", param, ctx)
         if factor < 1:
             self.fail("a multiple of the optimal cost is at least 1", param, ctx)
@@ -108,8 +108,7 @@ def build(
     """
     from hrcplan.bank import BuildOptions, build_bank, save
 
-    if target.is_dir() or not target.parent.is_dir():
-        raise UsageError(f"cannot write {target}: no such folder, or it is one", path=str(target))
+    check_target(target)
     recipe = BuildOptions(bank_cost, quality or Fraction(1), alternatives, sample)
     bank = build_bank(
         domain,
@@ -120,6 +119,7 @@ def build(
         timeout_s=float("inf") if timeout is None else timeout,
         report=_say,
     )
+    check_target(target, *(file.path for file in bank.goals.files))
     save(bank, target)
     _print(bank)
     return 0
@@ -246,7 +246,7 @@ def as_json(bank: Bank) -> dict[str, Any]:
                 "name": graph.goal,
                 "steps": graph.n_steps,
                 "optimal_cost": output.number(graph.optimal_cost),
-                "plans": str(graph.plans),
+                "plans": int_text(graph.plans),
                 "nodes": graph.n_nodes,
                 "edges": graph.n_edges,
                 "complete": graph.complete,
@@ -264,7 +264,7 @@ def _table(bank: Bank) -> str:
             g.goal,
             str(g.n_steps),
             str(output.number(g.optimal_cost)),
-            f"{'' if g.complete else '>= '}{g.plans:,}",
+            f"{'' if g.complete else '>= '}{int_text(g.plans, ',')}",
             f"{g.n_nodes:,}",
             f"{g.n_edges:,}",
         ]

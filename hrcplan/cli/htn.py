@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
+
+from hrcplan.core.numbers import int_text, nearest_float
 
 if TYPE_CHECKING:
     from hrcplan.bank import PlanGraph, StepTable
@@ -18,15 +21,15 @@ def as_json(graph: PlanGraph, htn: Htn, table: StepTable) -> dict[str, Any]:
     return {
         "goal": htn.goal,
         "steps": graph.n_steps,
-        "plans": str(htn.plans),
-        "htn_plans": str(htn.orders),
+        "plans": int_text(htn.plans),
+        "htn_plans": int_text(htn.orders),
         "exact": htn.exact,
         "added": htn.added,
         "complete": htn.complete and graph.complete,
         "kinds": [
             {
-                "plans": str(kind.plans),
-                "htn_plans": str(kind.orders),
+                "plans": int_text(kind.plans),
+                "htn_plans": int_text(kind.orders),
                 "exact": kind.exact,
                 "added": kind.added,
                 "tree": _tree(kind.root, table),
@@ -48,7 +51,7 @@ def _tree(node: OrderNode, table: StepTable) -> dict[str, Any]:
 
 def as_text(graph: PlanGraph, htn: Htn, table: StepTable) -> str:
     """Return the view in words: what the tree allows beside what plans there are, and the tree."""
-    plans = f"{'' if graph.complete else '>= '}{htn.plans:,} plans"
+    plans = f"{'' if graph.complete else '>= '}{int_text(htn.plans, ',')} plans"
     lines = [f"{htn.goal}: {graph.n_steps} steps, {plans}"]
     if htn.kinds:
         lines.append(f"chains and cliques allow {_allowed(htn.orders, htn.plans, htn.exact)}")
@@ -67,16 +70,18 @@ def as_text(graph: PlanGraph, htn: Htn, table: StepTable) -> str:
 
 def _allowed(orders: int, plans: int, exact: bool) -> str:
     if not exact:
-        return f"{orders:,} orders, which need not all be plans"
+        return f"{int_text(orders, ',')} orders, which need not all be plans"
     if orders == plans:
         return "all of them"
-    share = orders / plans
-    return f"{orders:,} of them ({f'{share:.2%}' if share >= MANY else f'{share:.0e}'})"
+    share = nearest_float(Fraction(orders, plans))
+    return (
+        f"{int_text(orders, ',')} of them ({f'{share:.2%}' if share >= MANY else f'{share:.0e}'})"
+    )
 
 
 def _title(number: int, kind: Kind, n: int) -> str:
     allowed = _allowed(kind.orders, kind.plans, kind.exact)
-    return f"either {number} of {n}: {kind.plans:,} plans, allowed are {allowed}"
+    return f"either {number} of {n}: {int_text(kind.plans, ',')} plans, allowed are {allowed}"
 
 
 def _constraints(n: int) -> str:

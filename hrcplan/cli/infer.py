@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import rich_click as click
 
 from hrcplan.cli import output
+from hrcplan.core.files import check_target
 from hrcplan.errors import UsageError
 
 if TYPE_CHECKING:
@@ -40,7 +41,7 @@ def command(
     """
     from hrcplan.inference import infer
 
-    _check_target(plot)
+    _check_target(plot, source, *([] if actions is None else [actions]))
     options: dict[str, Any] = {
         "cost": {"timeout_s": timeout},
         "forest": {"seed": seed, "n_jobs": -1},
@@ -64,13 +65,12 @@ def _default(source: str) -> str:
     return GOALS_METHOD if Path(source).is_dir() else BANK_METHOD
 
 
-def _check_target(plot: Path | None) -> None:
+def _check_target(plot: Path | None, *inputs: str) -> None:
     if plot is None:
         return
     if plot.suffix.lower() not in (".png", ".svg"):
         raise UsageError(f"--plot writes .png or .svg, not '{plot.suffix}'", path=str(plot))
-    if plot.is_dir() or not plot.parent.is_dir():
-        raise UsageError(f"cannot write {plot}: no such folder, or it is one", path=str(plot))
+    check_target(plot, *inputs)
 
 
 def as_text(found: Inference) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import importlib
 import signal
 import sys
@@ -16,9 +17,11 @@ import rich_click as click
 from click.exceptions import Abort, ClickException, Exit
 
 from hrcplan import __version__
-from hrcplan.cli import output
+from hrcplan.cli import output, streams
 from hrcplan.core.deprecation import OldNameWarning
-from hrcplan.errors import HrcplanError, LimitError, PddlError, UsageError
+from hrcplan.core.files import reason_of
+from hrcplan.core.text import harmless
+from hrcplan.errors import HrcplanError, InputError, LimitError, PddlError, UsageError
 
 COMMANDS = {
     "plan": "hrcplan.cli.plan",
@@ -56,13 +59,16 @@ class _Commands(click.RichGroup):
 
     def main(self, *args: Any, **kwargs: Any) -> NoReturn:
         """Run a command and exit; errors become messages and exit codes."""
-        run = super().main
+        streams.prepare()
+        call = args[0] if args else kwargs.pop("args", None)
+        words = list(sys.argv[1:] if call is None else call)
+        output.JSON = "--json" in words  # an error before options are read is a document, too
         if threading.current_thread() is threading.main_thread():
             signal.signal(signal.SIGTERM, lambda *_: sys.exit(TERMINATED))
-        kwargs["standalone_mode"] = False
+        run = super().main
         with _old_names_on_stderr():
-            status = _guarded(lambda: run(*args, **kwargs))
-        sys.exit(status)
+            code = _exit_code(lambda: run(words, **{**kwargs, "standalone_mode": False}))
+        sys.exit(code)
 
 
 @contextmanager
@@ -85,45 +91,79 @@ def _old_names_on_stderr() -> Iterator[None]:
         yield
 
 
+def _exit_code(run: Callable[[], Any]) -> int:
+    """Return the exit code of a command, after its errors were printed as far as that can be."""
+    try:
+        code = _guarded(run)
+    except output.PrintError as error:
+        code = _unprinted(error)
+    fault = streams.flush()
+    return code if fault is None or code else _unprinted(output.PrintError(fault))
+
+
+def _unprinted(error: output.PrintError) -> int:
+    """Say that the result could not be printed; nobody wants to know it of a closed pipe."""
+    if not error.is_closed:
+        with contextlib.suppress(output.PrintError):
+            output.complain(f"cannot print the result: {error}")
+    return UsageError.exit_code
+
+
 def _guarded(run: Callable[[], Any]) -> int:
+    """Return the exit code of a command; what it raises is printed first."""
     try:
         result = run()
     except Exit as stop:
         return int(stop.exit_code)
-    except ClickException as error:
-        error.show()
-        return error.exit_code
-    except (KeyboardInterrupt, Abort):
-        output.fail("interrupted", "interrupted")
-        return INTERRUPTED
-    except PddlError as error:
-        output.fail_pddl(error)
-        return error.exit_code
-    except HrcplanError as error:
-        message = f"{error.message}{_notes(error)}"
-        output.fail(error.code, message, error.path, error.line, error.hint)
-        return error.exit_code
-    except MemoryError:
-        output.fail("memory", "out of memory", hint="try a smaller problem")
-        return LimitError.exit_code
-    except BrokenPipeError:
-        sys.stderr.close()
-        return 1
-    except OSError as error:  # files are read and written elsewhere: this is stdout
-        click.echo(f"error: cannot print the result: {error.strerror}", err=True)
-        return UsageError.exit_code
-    except Exception as error:  # noqa: BLE001  a bug of ours: no traceback unless asked for
-        if output.DEBUG:
-            traceback.print_exc()
-        what = f"{type(error).__name__}: {error}{_notes(error)}"
-        output.fail(
-            "internal", f"internal error: {what}", hint="run again with --debug, and tell us"
-        )
-        return INTERNAL_ERROR
+    except (Exception, KeyboardInterrupt) as error:
+        if isinstance(error, output.PrintError):
+            raise
+        code, show = _fault(error)
+        with contextlib.suppress(OSError, output.PrintError):
+            show()
+        return code
     return result if isinstance(result, int) else 0
 
 
-def _notes(error: Exception) -> str:
+def _fault(error: BaseException) -> tuple[int, Callable[[], None]]:
+    """Return the exit code of an error, and what prints it."""
+    match error:
+        case ClickException():
+            return error.exit_code, lambda: _show_usage(error)
+        case KeyboardInterrupt() | Abort():
+            return INTERRUPTED, lambda: output.fail("interrupted", "interrupted")
+        case PddlError():
+            return error.exit_code, lambda: output.fail_pddl(error)
+        case HrcplanError():
+            text = f"{error.message}{_notes(error)}"
+            return error.exit_code, lambda: output.fail(
+                error.code, text, error.path, error.line, error.hint
+            )
+        case MemoryError():
+            hint = "try a smaller problem"
+            return LimitError.exit_code, lambda: output.fail("memory", "out of memory", hint=hint)
+        case OSError():
+            path = None if error.filename is None else harmless(str(error.filename))
+            return InputError.exit_code, lambda: output.fail("no-access", reason_of(error), path)
+    return INTERNAL_ERROR, lambda: _show_internal(error)
+
+
+def _show_usage(error: ClickException) -> None:
+    if output.JSON:
+        output.fail("usage", error.format_message())
+    else:
+        error.show()
+
+
+def _show_internal(error: BaseException) -> None:
+    """Print an error that is a bug of hrcplan."""
+    if output.DEBUG:
+        traceback.print_exception(error)
+    what = f"{type(error).__name__}: {error}{_notes(error)}"
+    output.fail("internal", f"internal error: {what}", hint="run again with --debug, and tell us")
+
+
+def _notes(error: BaseException) -> str:
     """Return what was noted about where an error came up, such as the episode of a study."""
     return "".join(f" ({note})" for note in getattr(error, "__notes__", ()))
 

@@ -9,6 +9,7 @@ from pathlib import Path
 import rich_click as click
 
 from hrcplan.cli import output
+from hrcplan.core.files import check_target
 from hrcplan.errors import UsageError
 from hrcplan.pddl.model import Problem
 
@@ -71,6 +72,7 @@ def command(
     if vary == (goal is not None):
         raise UsageError("either --goal or --vary is needed", hint="--goal '(and …)'")
     base = read(domain, origin)
+    check_target(target, base.path, base.domain.path)
     changed = base.with_values(dict(setting(text, base) for text in settings))
     if vary:
         made = _varied(changed, seed, new_objects)

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import json
+import sys
 from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
 
 import rich_click as click
 
+from hrcplan.core.files import reason_of
 from hrcplan.core.files import write_atomically as write_atomically
-from hrcplan.core.numbers import Number
+from hrcplan.core.numbers import Number, nearest_float
+from hrcplan.core.text import harmless
 from hrcplan.errors import PddlError
 
 FILE_WIDTH = 160  # characters of a table that goes to a file or a program
@@ -19,6 +22,21 @@ JSON = False
 VERBOSE = False
 
 F = TypeVar("F", bound=Callable[..., Any])
+
+
+class PrintError(Exception):
+    """A standard stream takes nothing more: its disk is full, or its reader is gone."""
+
+    def __init__(self, cause: OSError) -> None:
+        super().__init__(reason_of(cause))
+        self.is_closed = isinstance(cause, BrokenPipeError)
+
+
+def _echo(text: str, err: bool = False) -> None:
+    try:
+        click.echo(text, err=err)
+    except OSError as error:
+        raise PrintError(error) from None
 
 
 def common_options(function: F) -> F:
@@ -39,41 +57,60 @@ def common_options(function: F) -> F:
 
 
 def document(value: Mapping[str, Any]) -> None:
-    """Print one JSON document on stdout."""
-    click.echo(json.dumps(value, indent=2, ensure_ascii=False))
+    """Print one JSON document on stdout, in UTF-8 and harmless to a terminal."""
+    limit = sys.get_int_max_str_digits()
+    sys.set_int_max_str_digits(0)  # numbers are bounded where they are computed
+    try:
+        text = json.dumps(value, indent=2, ensure_ascii=False)
+    finally:
+        sys.set_int_max_str_digits(limit)
+    _echo(text if text.isascii() else "".join(map(_json_character, text)))
+
+
+def _json_character(character: str) -> str:
+    is_plain = character.isprintable() or character == "\n"
+    return character if is_plain else json.dumps(character)[1:-1]
 
 
 def result(text: str) -> None:
     """Print a result in words on stdout."""
-    click.echo(text)
+    _echo(harmless(text))
 
 
 def table(made: Any) -> None:
     """Print a table of rich on stdout; in colour only where that is shown."""
     from rich.console import Console
+    from rich.segment import Segment, Segments
 
     console = Console(highlight=False)
     if not console.is_terminal:
         console.width = FILE_WIDTH
+    # What steers the terminal in the output is ours, never from a cell.
+    pieces = [Segment(harmless(s.text), s.style, s.control) for s in console.render(made)]
     with console.capture() as text:
-        console.print(made)
-    click.echo("\n".join(line.rstrip() for line in text.get().splitlines()))
+        console.print(Segments(pieces))
+    _echo("\n".join(line.rstrip() for line in text.get().splitlines()))
 
 
 def say(text: str) -> None:
     """Print progress on stderr if it was asked for."""
     if VERBOSE:
-        click.echo(text, err=True)
+        _echo(harmless(text), err=True)
 
 
 def note(text: str) -> None:
     """Print on stderr what takes long, in dim letters."""
-    click.secho(text, err=True, dim=True)
+    _echo(click.style(harmless(text), dim=True), err=True)
 
 
 def warn(text: str) -> None:
     """Print a warning on stderr."""
-    click.echo(f"warning: {text}", err=True)
+    _echo(f"warning: {harmless(text)}", err=True)
+
+
+def complain(text: str) -> None:
+    """Print an error that is not one of input or use on stderr."""
+    _echo(f"error: {harmless(text)}", err=True)
 
 
 def fail(
@@ -86,9 +123,9 @@ def fail(
         document({"error": fault})
         return
     place = "" if path is None or path in message else f"{path}:{line}: " if line else f"{path}: "
-    click.echo(f"error: {place}{message}", err=True)
+    _echo(f"error: {harmless(place + message)}", err=True)
     if hint:
-        click.echo(f"  hint: {hint}", err=True)
+        _echo(f"  hint: {harmless(hint)}", err=True)
 
 
 def fail_pddl(error: PddlError) -> None:
@@ -97,11 +134,11 @@ def fail_pddl(error: PddlError) -> None:
         fail(error.code, error.message, error.path, error.line, error.hint)
         return
     for diagnostic in error.diagnostics:
-        click.echo(diagnostic, err=True)
+        _echo(harmless(str(diagnostic)), err=True)
 
 
 def number(value: Number | None) -> int | float | None:
     """Return a number as JSON holds it: an int where it is whole."""
     if value is None or isinstance(value, int):
         return value
-    return int(value) if value.denominator == 1 else float(value)
+    return int(value) if value.denominator == 1 else nearest_float(value)

@@ -8,6 +8,7 @@ from typing import Any
 import rich_click as click
 
 from hrcplan.cli import output
+from hrcplan.core.files import check_target
 from hrcplan.errors import UsageError
 
 STATUS_EXIT = {"solved-optimally": 0, "solved": 0, "unsolvable": 1, "unsolved": 4}
@@ -74,6 +75,8 @@ def command(
     _check_targets(gantt, target)
     domain, name, _ = split_names(names, 0)
     problem = problem_of(domain, name, settings)
+    for path in (gantt, target):
+        check_target(path, problem.path, problem.domain.path)
     found = solve(
         problem, planner, timeout_s=timeout, any_plan=any_plan, lanes=lanes or gantt is not None
     )
@@ -96,8 +99,7 @@ def _check_targets(gantt: Path | None, target: Path | None) -> None:
     if gantt is not None and gantt.suffix.lower() not in (".png", ".svg"):
         raise UsageError(f"--gantt writes .png or .svg, not '{gantt.suffix}'", path=str(gantt))
     for path in (gantt, target):
-        if path is not None and (path.is_dir() or not path.parent.is_dir()):
-            raise UsageError(f"cannot write {path}: no such folder, or it is one", path=str(path))
+        check_target(path)
 
 
 def _print(problem: Any, found: Any) -> None:

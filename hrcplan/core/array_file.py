@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 import mmap
 import struct
 from collections.abc import Mapping
@@ -31,6 +32,9 @@ from hrcplan.errors import InputError
 _PREFIX = struct.Struct("<8sIIQQ")
 _HASH = hashlib.sha256().digest_size
 _ALIGN = 8
+HEADER_FAULTS = (KeyError, TypeError, ValueError, IndexError, AttributeError, OverflowError,
+                 RecursionError)  # fmt: skip
+"""What reading a header raises that is JSON but does not say what it should."""
 
 
 class Arrays:
@@ -57,10 +61,20 @@ class Arrays:
 
 
 def array(body: memoryview, entry: Mapping[str, Any], kind: str) -> NDArray[Any]:
-    """Return an array that was taken in, without a copy."""
-    size = int(np.prod(entry["shape"], dtype=np.int64))
-    found = np.frombuffer(body, dtype=kind, count=size, offset=entry["at"])
-    return found.reshape(entry["shape"])
+    """Return an array that was taken in, without a copy.
+
+    Raises:
+        ValueError: if there is no such array.
+    """
+    at, shape = entry["at"], entry["shape"]
+    if any(type(n) is not int or n < 0 for n in (at, *shape)) or at % _ALIGN:
+        raise ValueError(f"no array is at {at!r} with shape {shape!r}")
+    size = math.prod(shape)  # of Python integers: it cannot overflow
+    if at + size * np.dtype(kind).itemsize > len(body):
+        raise ValueError(f"the array at {at} with shape {shape} goes beyond the end")
+    if not size:
+        return np.zeros(shape, dtype=kind)
+    return np.frombuffer(body, dtype=kind, count=size, offset=at).reshape(shape)
 
 
 def mapped(path: Path) -> memoryview:
@@ -131,8 +145,17 @@ class Format:
         if digest.digest() != view[_PREFIX.size : begin]:
             message = "is damaged: its checksum is wrong"
             raise self._refusal(shown, f"{self.noun}-damaged", message)
-        header: dict[str, Any] = json.loads(bytes(view[begin : begin + n_head]))
-        return header, view[begin + n_head :]
+        return self._header(bytes(view[begin : begin + n_head]), shown), view[begin + n_head :]
+
+    def _header(self, text: bytes, shown: str) -> dict[str, Any]:
+        try:
+            header = json.loads(text)
+        except HEADER_FAULTS as error:
+            message = f"has a header that is no JSON: {type(error).__name__}"
+            raise self._refusal(shown, f"{self.noun}-damaged", message) from None
+        if not isinstance(header, dict):
+            raise self._refusal(shown, f"{self.noun}-damaged", "has a header that is no object")
+        return header
 
     def _refusal(self, shown: str, code: str, message: str) -> InputError:
         return InputError(f"'{shown}' {message}", code=code, path=shown, hint=self.hint)

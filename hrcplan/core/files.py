@@ -2,11 +2,45 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import tempfile
 from pathlib import Path
 
-from hrcplan.errors import UsageError
+from hrcplan.core.text import harmless
+from hrcplan.errors import InputError, UsageError
+
+MAX_BYTES = 64 << 20  # of a text that is read: also ends the reading of what never ends
+
+
+def read_bytes(path: str | Path, limit: int | None = MAX_BYTES) -> bytes:
+    """Return the content of a file.
+
+    Raises:
+        InputError: if there is no such file, it is a folder or longer than ``limit`` bytes, or it
+            may not be read; the message names the path and the reason.
+    """
+    shown = harmless(str(path))
+    try:
+        with Path(path).open("rb") as file:
+            data = file.read() if limit is None else file.read(limit + 1)
+    except IsADirectoryError:
+        message, hint = f"{shown} is a folder, not a file", "name one file inside it"
+        raise InputError(message, code="is-folder", path=shown, hint=hint) from None
+    except FileNotFoundError:
+        raise InputError(f"there is no file {shown}", code="no-file", path=shown) from None
+    except (OSError, ValueError) as error:
+        message = f"cannot read {shown}: {reason_of(error)}"
+        raise InputError(message, code="no-access", path=shown) from None
+    if limit is not None and len(data) > limit:
+        message = f"{shown} holds more than {limit >> 20} MiB"
+        raise InputError(message, code="too-large", path=shown)
+    return data
+
+
+def reason_of(error: Exception) -> str:
+    """Return why a file could not be used, without the path."""
+    return getattr(error, "strerror", None) or harmless(str(error))
 
 
 def write_atomically(path: Path, data: str | bytes) -> None:
@@ -17,13 +51,16 @@ def write_atomically(path: Path, data: str | bytes) -> None:
     Raises:
         UsageError: if the folder is missing or may not be written.
     """
-    raw = data.encode() if isinstance(data, str) else data
     try:
-        path = path.resolve()
-        if path.exists() and not path.is_file():
+        raw = data.encode() if isinstance(data, str) else data
+        path = Path(os.path.realpath(path))
+        if path.is_symlink():  # still one: it leads to itself
+            raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
+        if os.path.exists(path) and not os.path.isfile(path):
             path.write_bytes(raw)
             return
-        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+        # The name of the new file is no longer than a file system takes.
+        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name[:40]}.")
         try:
             with os.fdopen(handle, "wb") as file:
                 file.write(raw)
@@ -34,9 +71,32 @@ def write_atomically(path: Path, data: str | bytes) -> None:
         except BaseException:
             Path(name).unlink(missing_ok=True)
             raise
-    except OSError as error:
-        reason = error.strerror or str(error)
-        raise UsageError(f"cannot write {path}: {reason}", path=str(path)) from None
+    except (OSError, ValueError) as error:
+        shown = harmless(str(path))
+        raise UsageError(f"cannot write {shown}: {reason_of(error)}", path=shown) from None
+
+
+def check_target(path: Path | None, *inputs: str | Path) -> None:
+    """Refuse an output that cannot be written, or would replace a file that is read.
+
+    Raises:
+        UsageError: if ``path`` is a folder, its folder is missing, or it is one of ``inputs``.
+    """
+    if path is None:
+        return
+    shown = harmless(str(path))
+    if os.path.isdir(path) or not os.path.isdir(path.parent):
+        raise UsageError(f"cannot write {shown}: no such folder, or it is one", path=shown)
+    if any(_is_same(path, one) for one in inputs):
+        message = f"cannot write {shown}: the command reads it"
+        raise UsageError(message, code="output-is-input", path=shown, hint="name another file")
+
+
+def _is_same(one: str | Path, other: str | Path) -> bool:
+    try:
+        return os.path.samefile(one, other)
+    except (OSError, ValueError):  # one of them is not there
+        return False
 
 
 def cache_folder() -> Path | None:

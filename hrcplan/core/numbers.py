@@ -1,11 +1,19 @@
-"""Exact numbers: integers and fractions, never floats."""
+"""Exact numbers: integers and fractions, never floats, and within bounds.
+
+No number that a file names, or a plan computes, may take all of the machine.
+"""
 
 from __future__ import annotations
 
 import re
+from decimal import Decimal
 from fractions import Fraction
 
 Number = int | Fraction
+
+_TEXT_DECIMALS = 12
+_FRACTION = re.compile(r"[+-]?\d{1,9999}(/\d{1,9999}|(\.\d{1,999})?(e[+-]?\d{1,3})?)", re.ASCII)
+
 
 _NUMBER = re.compile(r"[+-]?([0-9]{1,150}(\.[0-9]{0,30})?|\.[0-9]{1,30})(e[+-]?[0-9]{1,2})?")
 
@@ -34,10 +42,7 @@ def number_text(value: Number) -> str:
     >>> number_text(Fraction(17, 100)), number_text(3)
     ('0.17', '3')
     """
-    if isinstance(value, int) or value.denominator == 1:
-        return str(int(value))
-    whole, decimals = divmod(round(abs(value) * 10**12), 10**12)
-    return f"{'-' if value < 0 else ''}{whole}.{decimals:012}".rstrip("0").rstrip(".")
+    return decimal_of(value)
 
 
 def to_number(word: str) -> Number | None:
@@ -47,3 +52,62 @@ def to_number(word: str) -> Number | None:
     (Fraction(1, 2), 10, 5, None)
     """
     return exact(word) if _NUMBER.fullmatch(word) else None
+
+
+def fraction_of(text: object) -> Fraction | None:
+    """Return the number that a text such as ``1.25``, ``5/4`` or ``1e3`` spells, or None.
+
+    >>> fraction_of("5/4"), fraction_of("1e999999999"), fraction_of("1/0"), fraction_of([])
+    (Fraction(5, 4), None, None, None)
+    """
+    if not isinstance(text, str) or not _FRACTION.fullmatch(text.strip().lower()):
+        return None
+    whole, _, divisor = text.partition("/")
+    try:
+        return Fraction(int_of(whole), int_of(divisor)) if divisor else Fraction(text)
+    except (ValueError, ZeroDivisionError):
+        return None
+
+
+def int_of(text: str) -> int:
+    """Return the whole number that digits spell, also where ``int`` refuses so many.
+
+    Raises:
+        ValueError: if they spell none.
+    """
+    return int(text) if len(text) < 1000 else int(Decimal(text))
+
+
+def int_text(value: int, separator: str = "") -> str:
+    """Return the digits of a whole number, also where ``str`` refuses so many.
+
+    >>> len(int_text(10**5000)), int_text(-12345, ",")
+    (5001, '-12,345')
+    """
+    return format(Decimal(value), f"{separator}f")
+
+
+def nearest_float(value: int | Fraction) -> int | float:
+    """Return the float nearest to a number, or the nearest whole number where there is no float.
+
+    >>> nearest_float(Fraction(1, 4)), nearest_float(Fraction(10**400 * 2 + 1, 2)) == 10**400
+    (0.25, True)
+    """
+    try:
+        return float(value)
+    except OverflowError:
+        return round(value)
+
+
+def decimal_of(value: int | Fraction, places: int = _TEXT_DECIMALS) -> str:
+    """Return a number in decimals without zeros at the end, rounded to ``places``.
+
+    >>> decimal_of(Fraction(1, 3)), decimal_of(Fraction(-5, 2)), decimal_of(7)
+    ('0.333333333333', '-2.5', '7')
+    """
+    if value.denominator == 1:
+        return int_text(value.numerator)
+    scaled = round(abs(value) * 10**places)
+    whole, decimals = divmod(scaled, 10**places)
+    sign = "-" if value < 0 and scaled else ""
+    return f"{sign}{int_text(whole)}.{decimals:0{places}}".rstrip("0").rstrip(".")

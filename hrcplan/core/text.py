@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 MAX_QUOTE = 60  # characters of a file that a message repeats at a time
+_LAYOUT = "\n\t\N{NO-BREAK SPACE}"  # not printable by the word of Python, and harmless
 
 
 def quote(text: str) -> str:
@@ -15,6 +16,20 @@ def quote(text: str) -> str:
     """
     shown = cut(text, MAX_QUOTE)
     return f"'{shown}'" if shown.isprintable() else f"'{ascii(shown)[1:-1]}'"
+
+
+def harmless(text: str) -> str:
+    r"""Return ``text`` with everything that could steer a terminal as its escape.
+
+    That is every character that is not printable: control characters, marks that reverse the
+    direction of writing, and single surrogates. Ends of lines and tabs stay.
+
+    >>> harmless("wp1\x1b[2J\u202e\n")
+    'wp1\\x1b[2J\\u202e\n'
+    """
+    if text.isprintable():
+        return text
+    return "".join(c if c.isprintable() or c in _LAYOUT else ascii(c)[1:-1] for c in text)
 
 
 def plural(n: int, word: str) -> str:

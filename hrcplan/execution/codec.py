@@ -8,7 +8,7 @@ from dataclasses import fields
 from fractions import Fraction
 from typing import Any
 
-from hrcplan.core.numbers import Number, exact
+from hrcplan.core.numbers import Number, exact, nearest_float
 from hrcplan.errors import PlanFormatError
 from hrcplan.execution import events as ev
 from hrcplan.execution.events import Command, Event
@@ -66,7 +66,7 @@ def _encoded(value: Any) -> Any:
 def _number(value: float | Number) -> float | int | str:
     if isinstance(value, float) and not math.isfinite(value):
         return str(value)  # JSON knows no such numbers
-    return value if isinstance(value, (int, float)) else float(value)
+    return value if isinstance(value, (int, float)) else nearest_float(value)
 
 
 def exact_number(number: float | str) -> float | Number:

@@ -12,7 +12,7 @@ from hrcplan.errors import UsageError
 from hrcplan.execution.driver import PlanProvider, RunWatch
 from hrcplan.execution.events import Command, Event
 from hrcplan.execution.humans import STEADY, WorldChange, nature_for
-from hrcplan.execution.journal import Journal, JournalWriter, RunSetup, read_journal
+from hrcplan.execution.journal import Journal, JournalFile, JournalWriter, RunSetup
 from hrcplan.execution.model import ExecutionModel
 from hrcplan.execution.monitor import Monitor
 from hrcplan.execution.outcome import Outcome
@@ -110,14 +110,24 @@ def carry_out(
         InputError: if the journal is damaged or of another run.
         UsageError: if it exists and ``resume`` was not asked for, or cannot be written.
     """
-    known = _known(journal, resume)
+    file, known = _opened(journal, resume)
+    try:
+        return _carried_out(setup, file, known, timeout_s, watch, planner)
+    finally:
+        if file is not None:
+            file.close()
+
+
+def _carried_out(
+    setup: RunSetup, file: JournalFile | None, known: Journal | None, timeout_s: float,
+    watch: RunWatch | None, planner: PlanProvider | None,
+) -> Executed:  # fmt: skip
     if known is not None:
         setup = _same_problem(known, setup)
     writer = None
-    if journal is not None:
-        writer = (
-            JournalWriter.begin(journal, setup) if known is None else JournalWriter.resume(known)
-        )
+    if file is not None:
+        begin, resume = JournalWriter.begin, JournalWriter.resume
+        writer = begin(file, setup) if known is None else resume(file, known)
     model = ExecutionModel(setup.problem)
     answering = planner or Replanner(model, setup.planners, timeout_s)
     engine = Engine(Monitor(model, setup.profile, setup.sensing), answering)
@@ -131,23 +141,29 @@ def carry_out(
     run = engine.run(setup.nature, writer, both)
     row = engine.outcome(run)
     if writer is not None:
-        writer.close(row)
+        writer.finish(row)
     return Executed(row, run, timeline, 0 if known is None else len(known.lines))
 
 
-def _known(path: Path | None, resume: bool) -> Journal | None:
-    """Return the journal to go on with; None to begin anew."""
-    if not resume:
-        return None
+def _opened(path: Path | None, resume: bool) -> tuple[JournalFile | None, Journal | None]:
+    """Return the file to write, and the journal in it to go on with, if there are any."""
     if path is None:
-        raise UsageError("to resume a run its journal is needed", hint="--journal FILE --resume")
-    if not path.exists():
-        return None
-    known = read_journal(path)
-    if known.is_empty:
-        path.unlink()  # killed before the first line was complete
-        return None
-    return known
+        if resume:
+            hint = "--journal FILE --resume"
+            raise UsageError("to resume a run its journal is needed", hint=hint)
+        return None, None
+    file = JournalFile(path)
+    if not resume or not file.n_bytes:
+        return file, None
+    try:
+        known = file.journal()
+        if known.is_empty:  # killed before the first line was complete
+            file.cut(0)
+            return file, None
+    except BaseException:
+        file.close()
+        raise
+    return file, known
 
 
 def _same_problem(known: Journal, setup: RunSetup) -> RunSetup:

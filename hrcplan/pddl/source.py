@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from hrcplan.core.files import read_bytes
 from hrcplan.core.text import cut, nearest
 from hrcplan.errors import Diagnostic, InputError
 
@@ -101,22 +102,7 @@ def read_source(path: str | Path) -> SourceText:
     Raises:
         InputError: if there is no such file, it is a folder, or it may not be read.
     """
-    shown = str(path)
-    try:
-        with Path(path).open("rb") as file:
-            data = file.read(MAX_BYTES + 1)
-    except IsADirectoryError:
-        hint = "name one file inside it"
-        message = f"{shown} is a folder, not a file"
-        raise InputError(message, code="is-folder", path=shown, hint=hint) from None
-    except FileNotFoundError:
-        raise InputError(f"there is no file {shown}", code="no-file", path=shown) from None
-    except (OSError, ValueError) as error:
-        raise InputError(f"cannot read {shown}: {error}", path=shown) from None
-    if len(data) > MAX_BYTES:
-        message = f"{shown} holds more than {MAX_BYTES >> 20} MiB"
-        raise InputError(message, code="too-large", path=shown)
-    return decode(shown, data)
+    return decode(str(path), read_bytes(path, MAX_BYTES))
 
 
 def read_text(path: str | Path) -> str:

@@ -152,7 +152,7 @@ def test_untidy_goal_recognition_folders(grid):
         ("hyps.dat", "\n \n", "lists no goal", None),
         ("template.pddl", "(define (problem p))", "no <HYPOTHESIS>", None),
         ("real_hyp.dat", "(at-robot place_1_1)", "true goal is not among", None),
-        ("domain.pddl", None, "cannot read", None),
+        ("domain.pddl", None, "there is no file", None),
     ],
 )
 def test_faults_of_goal_recognition_folders(grid, file, text, message, line):

@@ -1,5 +1,6 @@
 """Banks in files: what goes in comes out, and every kind of damage is noticed."""
 
+import hashlib
 import json
 import os
 import shutil
@@ -89,7 +90,7 @@ def test_what_is_no_bank_and_a_foreign_version(world):
     (world / "bad.bank").write_text("(define (problem p))")
     with pytest.raises(InputError, match="is no policy bank"):
         load(world / "bad.bank")
-    with pytest.raises(InputError, match="cannot read"):
+    with pytest.raises(InputError, match="is a folder"):
         load(world)
 
 
@@ -169,3 +170,78 @@ def test_no_path_of_this_machine_is_in_the_file(world):
     assert [source["path"] for source in head["sources"]] == [
         "kitchen.pddl", "goals/parfait-nut.pddl", "goals/smoothie-oat.pddl"
     ]  # fmt: skip
+
+
+def repacked(data, change):
+    """Return a bank with another header and the right checksum."""
+    n_head = struct.unpack_from("<Q", data, 16)[0]
+    head, body = data[64 : 64 + n_head], data[64 + n_head :]
+    head = change(json.loads(head)) if callable(change) else change
+    if not isinstance(head, bytes):
+        head = json.dumps(head).encode()
+    prefix = struct.pack("<8sIIQQ", MAGIC, 1, 0, len(head), len(body))
+    return prefix + hashlib.sha256(prefix + head + body).digest() + head + body
+
+
+def changed(path, value):
+    """Return a change of a header: the entry at a path gets another value."""
+
+    def change(head):
+        entry = head
+        for key in path[:-1]:
+            entry = entry[key]
+        entry[path[-1]] = value
+        return head
+
+    return change
+
+
+GRAPH = ("goals", 0)
+WRONG = [
+    *([b"[" * 200_000, b"{", b'"\xff"', b"[]", b"7", b'{"names": ' + b"9" * 10_000 + b"}"]),
+    *(changed(("names",), value) for value in ([], ["nosuch"], 3, [[]], None)),
+    *(changed(("goals",), value) for value in ([], {}, [3], None)),
+    *(changed(("kind",), value) for value in (None, [], "other")),
+    *(changed(("build_s",), value) for value in ("x", float("nan"), float("inf"), -1, [])),
+    *(changed(("recipe", "quality"), v) for v in ("1e999999999", "1/0", 1, None, "x", "0.5")),
+    *(changed(("recipe", "cost"), value) for value in ("other", [], None)),
+    *(changed(("recipe", "sample"), value) for value in ("3", -1, True, 1.5)),
+    *(changed(("sources", 0, "path"), value) for value in (3, None, [])),
+    *(changed(("sources", 0, "text"), value) for value in ("", "(", 3, "\udcff")),
+    *(changed(("sources",), value) for value in ([], {}, 3)),
+    *(changed((*GRAPH, "positions"), v) for v in ([-1], [10**30], [0, 0], "x", [0.5])),
+    *(changed((*GRAPH, "layers"), v) for v in ([], [["0", 1]], [["x", 0]], [[0]], [["0", 10**9]])),
+    *(changed((*GRAPH, "name"), value) for value in ("other", 3, [])),
+    *(
+        changed((*GRAPH, "arrays", name, key), value)
+        for name in ("rows", "first", "steps", "targets", "is_goal")
+        for key, values in (
+            ("shape", ([0], [], [2**70], [-1], [2**31, 2**31], "x", [1.5], [1], [1, 1])),
+            ("at", (-8, 2**70, 1, "0", None)),
+        )
+        for value in values
+    ),
+]
+
+
+def test_a_right_checksum_over_wrong_content_is_no_bank(world):
+    data, path = (world / "two.bank").read_bytes(), world / "bad.bank"
+    for number, change in enumerate(WRONG):
+        path.write_bytes(repacked(data, change))
+        try:
+            load(path)
+        except InputError:
+            continue
+        pytest.fail(f"change {number} makes a bank: {path.read_bytes()[64:3000]!r}")
+
+
+def test_the_same_content_packed_again_is_a_bank(world):
+    data = repacked((world / "two.bank").read_bytes(), lambda head: head)
+    (world / "again.bank").write_bytes(data)
+    assert verify(world / "again.bank") is None
+
+
+def test_a_source_with_an_impossible_path_is_one_that_is_not_there(world):
+    change = changed(("sources", 0, "path"), "x" * 300)
+    (world / "far.bank").write_bytes(repacked((world / "two.bank").read_bytes(), change))
+    assert verify(world / "far.bank") is None

@@ -6,8 +6,17 @@ on disk before a decision is acted on (``writer.py``). A process that is killed 
 incomplete last line, which is removed when the run is resumed (``reader.py``).
 """
 
+from hrcplan.execution.journal.file import JournalFile
 from hrcplan.execution.journal.reader import FORMAT, Journal, read_journal
 from hrcplan.execution.journal.setup import RunSetup, setup_from_json
 from hrcplan.execution.journal.writer import JournalWriter
 
-__all__ = ["FORMAT", "Journal", "JournalWriter", "RunSetup", "read_journal", "setup_from_json"]
+__all__ = [
+    "FORMAT",
+    "Journal",
+    "JournalFile",
+    "JournalWriter",
+    "RunSetup",
+    "read_journal",
+    "setup_from_json",
+]

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from hrcplan.core.files import read_bytes
 from hrcplan.errors import InputError
 from hrcplan.execution.journal.setup import RunSetup, setup_from_json
 
@@ -46,11 +47,11 @@ def read_journal(path: Path) -> Journal:
         InputError: if the file is missing, a line before the last is damaged, or a number is
             missing or out of order.
     """
-    try:
-        raw = path.read_bytes()
-    except OSError as error:
-        message = f"cannot read the journal: {error.strerror}"
-        raise InputError(message, code="no-file", path=str(path)) from None
+    return journal_in(path, read_bytes(path, limit=None))
+
+
+def journal_in(path: Path, raw: bytes) -> Journal:
+    """Return the journal that the content of a file holds; see ``read_journal``."""
     lines: list[dict[str, Any]] = []
     whole = raw[: raw.rfind(b"\n") + 1]
     for number, text in enumerate(whole.splitlines(), start=1):
@@ -64,7 +65,7 @@ def _line(text: bytes, number: int, path: Path) -> dict[str, Any]:
         if isinstance(line, dict) and line["seq"] == number - 1:
             return line
         reason = f"its number is not {number - 1}"
-    except (ValueError, KeyError):
+    except (ValueError, KeyError, RecursionError):
         reason = "it is damaged"
     message = f"line {number} of the journal cannot be used: {reason}"
     raise InputError(message, code="bad-journal", path=str(path), line=number)

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import fcntl
 import json
-import os
-from collections.abc import Mapping, Sequence
-from pathlib import Path
+from collections.abc import Mapping
 from typing import Any
 
 from hrcplan import __version__
@@ -14,6 +11,7 @@ from hrcplan.errors import InputError, UsageError
 from hrcplan.execution import events as ev
 from hrcplan.execution.codec import from_json, to_json
 from hrcplan.execution.events import Command, Event
+from hrcplan.execution.journal.file import JournalFile
 from hrcplan.execution.journal.reader import FORMAT, Journal
 from hrcplan.execution.journal.setup import RunSetup
 from hrcplan.execution.outcome import Outcome
@@ -25,24 +23,11 @@ class JournalWriter:
     Lines are written at once, and on disk before a decision is acted on.
     """
 
-    def __init__(self, path: Path, recorded: Sequence[Mapping[str, Any]], n_bytes: int) -> None:
-        self.path = path
-        self._recorded = recorded
+    def __init__(self, file: JournalFile, journal: Journal | None = None) -> None:
+        self.path = file.path
+        self._file = file
+        self._recorded = () if journal is None else journal.lines
         self._position = 1
-        try:
-            self._file = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)
-            fcntl.flock(self._file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            os.ftruncate(self._file, n_bytes)
-            os.lseek(self._file, n_bytes, os.SEEK_SET)
-        except BlockingIOError:
-            message = "another process is writing this journal"
-            raise UsageError(message, path=str(path)) from None
-        except OSError as error:
-            raise self._refused(error) from None
-
-    def _refused(self, error: OSError) -> UsageError:
-        message = f"cannot write the journal: {error.strerror}"
-        return UsageError(message, path=str(self.path))
 
     @property
     def is_repeating(self) -> bool:
@@ -66,7 +51,7 @@ class JournalWriter:
         """
         self._line({"decided": [to_json(command) for command in commands]})
         if commands and not self.is_repeating:
-            os.fsync(self._file)  # what is acted on is on disk, with all that came before it
+            self._file.sync()  # what is acted on is on disk, with all that came before it
 
     def recorded_plan(self) -> ev.Planned | None:
         """Return the plan that was recorded at this place, if any."""
@@ -75,11 +60,10 @@ class JournalWriter:
             return None
         return from_json(event)  # type: ignore[no-any-return]
 
-    def close(self, outcome: Outcome) -> None:
-        """Write the outcome and close the file."""
+    def finish(self, outcome: Outcome) -> None:
+        """Write the outcome, the last line."""
         self._line({"row": outcome.to_json()})
-        os.fsync(self._file)
-        os.close(self._file)
+        self._file.sync()
 
     def _line(self, content: Mapping[str, Any]) -> Mapping[str, Any]:
         line = json.loads(json.dumps({"seq": self._position, **content}))
@@ -97,28 +81,24 @@ class JournalWriter:
 
     def _append(self, line: Mapping[str, Any]) -> None:
         text = json.dumps(line, ensure_ascii=False, separators=(",", ":")) + "\n"
-        data = text.encode()
-        try:
-            while data:
-                data = data[os.write(self._file, data) :]
-        except OSError as error:  # no room left
-            raise self._refused(error) from None
+        self._file.append(text.encode("utf-8", "backslashreplace"))
 
     @classmethod
-    def begin(cls, path: Path, setup: RunSetup) -> JournalWriter:
+    def begin(cls, file: JournalFile, setup: RunSetup) -> JournalWriter:
         """Return the writer of a new journal whose first line is the setup.
 
         Raises:
-            UsageError: if the file exists and holds anything, or cannot be written.
+            UsageError: if the file holds anything, or cannot be written.
         """
-        if path.exists() and (path.is_dir() or path.stat().st_size):
+        if file.n_bytes:
             hint = "--resume goes on with it; or name another file"
-            raise UsageError("the journal exists already", path=str(path), hint=hint)
-        writer = cls(path, (), 0)
+            raise UsageError("the journal exists already", path=str(file.path), hint=hint)
+        writer = cls(file)
         writer._append({"seq": 0, "journal": FORMAT, "hrcplan": __version__, **setup.to_json()})
         return writer
 
     @classmethod
-    def resume(cls, journal: Journal) -> JournalWriter:
+    def resume(cls, file: JournalFile, journal: Journal) -> JournalWriter:
         """Return the writer that goes over a journal and then on; a torn last line is cut off."""
-        return cls(journal.path, journal.lines, journal.n_bytes)
+        file.cut(journal.n_bytes)
+        return cls(file, journal)

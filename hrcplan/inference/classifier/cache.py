@@ -22,7 +22,7 @@ import numpy as np
 
 from hrcplan.bank import Bank
 from hrcplan.bank.store import digest
-from hrcplan.core.array_file import Arrays, Format, array, mapped
+from hrcplan.core.array_file import HEADER_FAULTS, Arrays, Format, array, mapped
 from hrcplan.core.files import write_atomically
 from hrcplan.errors import InputError, UsageError
 from hrcplan.inference.classifier.flat_forest import FlatForest
@@ -100,7 +100,7 @@ def load(path: Path, key: Key) -> Trained:
         )
         classes = np.array(header["classes"], dtype=np.int64)
         return Trained(model, classes, Training(**header["training"]), is_kept=True)
-    except (KeyError, TypeError, ValueError) as error:
+    except HEADER_FAULTS as error:
         message = f"'{path}' has a header that makes no sense: {error!r}"
         raise InputError(message, code="not-a-forest", path=str(path)) from None
 
