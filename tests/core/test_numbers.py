@@ -6,12 +6,12 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
-from hrcplan.facade import load_problem
 from hypothesis import given
 from hypothesis import strategies as st
 
 from hrcplan.core.numbers import decimal_of, fraction_of, int_of, int_text, nearest_float
 from hrcplan.errors import LimitError
+from hrcplan.pddl.inputs import read
 from hrcplan.plans import Plan, PlannedAction, parse_plan
 from hrcplan.validation import validate
 
@@ -59,7 +59,7 @@ def problem_with(tmp_path: Path, f: str) -> tuple[str, str]:
 
 
 def test_a_number_that_doubles_its_digits_is_a_limit(tmp_path: Path) -> None:
-    problem = load_problem(*problem_with(tmp_path, "9"))
+    problem = read(*problem_with(tmp_path, "9"))
     with pytest.raises(LimitError, match="digits"):
         validate(problem, Plan(tuple(PlannedAction("square", ()) for _ in range(40))))
 
