@@ -75,7 +75,7 @@ def occupied(action: PlannedAction, problem: Problem) -> frozenset[str]:
 
     An agent is changed if a fact that mentions it is added or deleted by the action.
     """
-    schema = next(a for a in problem.domain.actions if a.name == action.name)
+    schema = problem.domain.action(action.name)
     bound = dict(zip((p.name for p in schema.params), action.args, strict=True))
     changed = {
         bound.get(term, term)

@@ -192,7 +192,7 @@ class _Replay:
     def _events(self, step: int, start_s: Number | None) -> list[_Event]:
         """Return start and end of an action that starts at a time, read in the present state."""
         planned, time = self.plan.actions[step], start_s or 0
-        action = next((a for a in self.problem.domain.actions if a.name == planned.name), None)
+        action = self.problem.domain.schemas.get(planned.name)
         nothing = Action(planned.name, (), (), ())
         if action is None:
             fault = f"there is no action '{planned.name}'"

@@ -13,10 +13,9 @@ from functools import cached_property
 
 from hrcplan.core.numbers import Number, exact
 from hrcplan.errors import UsageError
-from hrcplan.pddl.conventions import robots
+from hrcplan.pddl.conventions import agent_state_functions, robots
 from hrcplan.pddl.model import TOTAL_COST, Action, FluentKey, Function, Problem, functions_in
 from hrcplan.pddl.semantics import ground_key
-from hrcplan.task.numbers import agent_state_functions
 
 LEAST, MOST = 0, 10
 _PLACES = 6  # decimals of a sensed value that are kept, so that journals hold it exactly
@@ -62,7 +61,6 @@ class AgentModel:
         self.problem = problem
         self.robots = robots(problem)
         self.functions = agent_state_functions(problem.domain)
-        self._schemas = {action.name: action for action in problem.domain.actions}
         self._touched: dict[tuple[str, ...], tuple[FluentKey, ...]] = {}
 
     @cached_property
@@ -83,7 +81,8 @@ class AgentModel:
         """Return the elements that the cost of a ground action contains."""
         known = self._touched.get((name, *args))
         if known is None:
-            known = tuple(key for key in _cost_keys(self._schemas[name], args) if key in self.low)
+            schema = self.problem.domain.action(name)
+            known = tuple(key for key in _cost_keys(schema, args) if key in self.low)
             self._touched[name, *args] = known
         return known
 

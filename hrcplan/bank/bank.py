@@ -16,6 +16,7 @@ from hrcplan.bank.goals import Goals
 from hrcplan.bank.graph import PlanGraph
 from hrcplan.bank.search import MAX_MIB, BuildLimits
 from hrcplan.bank.sources import read_goals
+from hrcplan.core.text import plural
 from hrcplan.errors import UsageError
 from hrcplan.pddl.conventions import robots
 from hrcplan.plans import Plan, PlannedAction
@@ -56,7 +57,7 @@ class BuildOptions:
             raise UsageError("a sample has at least one plan")
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Bank:
     """Plan graphs of goals, in order; ``graphs[g]`` belongs to goal ``g``.
 
@@ -68,7 +69,11 @@ class Bank:
     graphs: tuple[PlanGraph, ...]
     recipe: BuildOptions = BuildOptions()
     build_s: float = 0.0
-    _rerooted: dict[tuple[int, int], PlanGraph] = field(default_factory=dict, repr=False)
+    _rerooted: dict[tuple[int, int], PlanGraph] = field(default_factory=dict)
+
+    def __repr__(self) -> str:
+        nodes = sum(graph.n_nodes for graph in self.graphs)
+        return f"<Bank {self.goals.title}, {plural(nodes, 'node')}, agents {self.agents}>"
 
     @property
     def names(self) -> tuple[str, ...]:

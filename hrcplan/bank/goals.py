@@ -10,7 +10,7 @@ from pathlib import Path
 
 from hrcplan.core.files import read_bytes
 from hrcplan.core.numbers import number_text
-from hrcplan.core.text import nearest
+from hrcplan.core.text import cut, nearest, plural
 from hrcplan.errors import InputError, UsageError
 from hrcplan.pddl.model import Formula, Problem, fact_text
 from hrcplan.pddl.source import SourceText, decode
@@ -46,7 +46,7 @@ class SourceFile:
         return hashlib.sha256(self.data).hexdigest()
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Goals:
     """Goals in order, all for one task.
 
@@ -64,6 +64,14 @@ class Goals:
 
     def __len__(self) -> int:
         return len(self.names)
+
+    def __repr__(self) -> str:
+        return f"<Goals {self.title}>"
+
+    @property
+    def title(self) -> str:
+        """The domain and how many goals there are, on one short line."""
+        return f"{cut(self.problem.domain.name, 80)}: {plural(len(self), 'goal')}"
 
     @cached_property
     def task(self) -> Task:

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from hrcplan.core.arrays import Bools, Ids, SmallIds, Words
 from hrcplan.core.numbers import Number
+from hrcplan.core.text import cut, plural
 from hrcplan.search.packed_states import FactPacking
 
 BIG = float(1 << 62)  # above it counts are Python integers, below it 64-bit ones: both are exact
@@ -24,7 +25,7 @@ BIG = float(1 << 62)  # above it counts are Python integers, below it 64-bit one
 PathCounts = NDArray[Any]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class PlanGraph:
     """The valid plans of a goal, from one state on.
 
@@ -52,6 +53,10 @@ class PlanGraph:
     targets: SmallIds
     is_goal: Bools
     complete: bool = True
+
+    def __repr__(self) -> str:
+        size = f"{plural(self.n_nodes, 'node')}, {plural(self.n_edges, 'edge')}"
+        return f"<PlanGraph {cut(self.goal, 100)}: {size}>"
 
     # Size.
 

@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from hrcplan.core.numbers import Number
+from hrcplan.pddl.conventions import agent_state_functions
 from hrcplan.pddl.model import (
     DURATION,
     TOTAL_COST,
@@ -33,7 +34,6 @@ from hrcplan.pddl.semantics import (
     unmet,
 )
 from hrcplan.plans import PlannedAction, lane, occupied
-from hrcplan.task.numbers import agent_state_functions
 
 UNIT_S = 1  # how long a step of a domain without durations lasts
 
@@ -64,7 +64,6 @@ class ActionModel:
 
     def __init__(self, problem: Problem) -> None:
         self.problem = problem
-        self._schemas = {action.name: action for action in problem.domain.actions}
         self._steps: dict[tuple[str, ...], BoundAction] = {}
         self._agent_state = agent_state_functions(problem.domain)
         moved = {e.target.name for a in problem.domain.actions for e in a.effects}
@@ -95,7 +94,7 @@ class ActionModel:
         key = (action.name, *action.args)
         step = self._steps.get(key)
         if step is None:
-            schema = self._schemas.get(action.name)
+            schema = self.problem.domain.schemas.get(action.name)
             binding = "" if schema is None else bind(schema, action.args, self.problem)
             if schema is None or isinstance(binding, str):
                 return None

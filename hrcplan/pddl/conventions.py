@@ -45,7 +45,7 @@ def check_domain(
     """Warn about actions without an agent, and about changes that no interaction makes."""
     if AGENT not in domain.types:
         return
-    states = agent_states(domain)
+    states = agent_state_functions(domain)
     for node, action in actions:
         if not (action.params and _is_agent(domain, action.params[0])):
             message = f"the first parameter of {quote(action.name)} is not an agent"
@@ -65,8 +65,8 @@ def check_problem(problem: Problem, at: int, source: SourceText) -> None:
         source.warn(at, "no-robot", message)
 
 
-def agent_states(domain: Domain) -> frozenset[str]:
-    """Return the names of the functions that are agent states."""
+def agent_state_functions(domain: Domain) -> frozenset[str]:
+    """Return the functions that are agent state: first parameter an agent, part of a cost."""
     return frozenset(
         function.name
         for action in domain.actions

@@ -214,6 +214,12 @@ class Action:
     durative: bool = False
     durations: tuple[tuple[str, Expr], ...] = ()
 
+    @property
+    def fixed_duration(self) -> Expr | None:
+        """The duration, if the action sets exactly one with ``=``; else None."""
+        fixed = [expression for op, expression in self.durations if op == "="]
+        return fixed[0] if len(fixed) == 1 else None
+
 
 @dataclass(frozen=True, slots=True)
 class Note:
@@ -279,6 +285,19 @@ class Domain:
 
     def _notes(self, kind: str, name: str) -> Iterator[Note]:
         return (note for note in self.notes if (note.kind, note.name) == (kind, name))
+
+    @cached_property
+    def schemas(self) -> Mapping[str, Action]:
+        """The actions by name."""
+        return {action.name: action for action in reversed(self.actions)}
+
+    def action(self, name: str) -> Action:
+        """Return the action of a name.
+
+        Raises:
+            KeyError: if there is none.
+        """
+        return self.schemas[name]
 
     @cached_property
     def is_temporal(self) -> bool:

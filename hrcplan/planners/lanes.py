@@ -73,13 +73,12 @@ def _offer(
 
 
 def _jobs(problem: Problem, plan: Plan) -> list[_Job]:
-    schemas = {action.name: action for action in problem.domain.actions}
     touches = [touched(problem, action) for action in plan.actions]
     options = _options(problem, plan)
     return [
         _Job(
             action,
-            _duration(problem, schemas[action.name], action),
+            _duration(problem, problem.domain.action(action.name), action),
             tuple(j for j in range(i) if clash(touches[j], touches[i]) is not None),
             options[i],
         )
@@ -105,7 +104,7 @@ def _binding(schema: Action, action: PlannedAction, problem: Problem) -> dict[st
 
 def touched(problem: Problem, action: PlannedAction) -> Access:
     """Return what a whole action reads and writes, but for the total-cost that it adds."""
-    schema = next(a for a in problem.domain.actions if a.name == action.name)
+    schema = problem.domain.action(action.name)
     binding = _binding(schema, action, problem)
     start, end = (access(problem, schema, binding, when) for when in ("start", "end"))
     over = access(problem, schema, binding, "all")

@@ -191,9 +191,9 @@ class _Builder:
         if TOTAL_COST not in self.grounder.problem.domain.functions:
             return _UNIT_COST
         first, last = self._constants(values), self._constants(later)
-        fixed = [expression for op, expression in instance.action.durations if op == "="]
-        if len(fixed) == 1:
-            first[DURATION,] = last[DURATION,] = grounded(fixed[0], instance.binding, first)
+        fixed = instance.action.fixed_duration
+        if fixed is not None:
+            first[DURATION,] = last[DURATION,] = grounded(fixed, instance.binding, first)
         found: list[Expr] = []
         for effect in instance.action.effects:
             if effect.target.name != TOTAL_COST or effect.value is None:

@@ -77,10 +77,10 @@ def timed(instance: SchemaInstance, values: Values) -> Values:
     Raises:
         Undefined: if the duration needs a function without a value.
     """
-    fixed = [expression for op, expression in instance.action.durations if op == "="]
-    if len(fixed) != 1:
+    fixed = instance.action.fixed_duration
+    if fixed is None:
         return values
-    return {**values, (DURATION,): evaluate(fixed[0], values, instance.binding)}
+    return {**values, (DURATION,): evaluate(fixed, values, instance.binding)}
 
 
 def reached_values(grounder: Grounder, found: Sequence[SchemaInstance]) -> Reached:

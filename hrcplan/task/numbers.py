@@ -7,6 +7,7 @@ from fractions import Fraction
 
 from hrcplan.core.numbers import Number, exact
 from hrcplan.errors import UnsupportedError
+from hrcplan.pddl.conventions import agent_state_functions
 from hrcplan.pddl.model import (
     TOTAL_COST,
     TRUE,
@@ -26,25 +27,6 @@ from hrcplan.pddl.semantics import Binding, Values, ground_key
 
 Linear = Mapping[FluentKey, Number]
 """Coefficients by function; the constant stands under the empty key."""
-
-
-def agent_state_functions(domain: Domain) -> frozenset[str]:
-    """Return the functions that are agent state: first parameter an agent, part of a cost."""
-    return frozenset(
-        function.name
-        for action in domain.actions
-        for effect in action.effects
-        if effect.target.name == TOTAL_COST
-        for function in functions_in(effect.value)
-        if _of_agent(domain, function.name)
-    )
-
-
-def _of_agent(domain: Domain, name: str) -> bool:
-    signature = domain.functions.get(name)
-    if signature is None or "agent" not in domain.types or not signature.params:
-        return False
-    return all(domain.is_a(t, ("agent",)) for t in signature.params[0].types)
 
 
 def check_supported(domain: Domain) -> None:

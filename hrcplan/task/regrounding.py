@@ -207,13 +207,13 @@ def _renumbered(
 def _assignments(task: Task) -> dict[FluentKey, list[tuple[Expr, Binding]]] | None:
     """Return what interactions leave each function at; None if actions do more with them."""
     found: dict[FluentKey, list[tuple[Expr, Binding]]] = {}
-    schemas = {action.name: action for action in task.problem.domain.actions}
+    schema = task.problem.domain.action
     moving = {key[0] for key in task.reached}
     used = {action.name for action in task.actions}
-    if any(_looks_closer(schemas[name], moving) for name in used):
+    if any(_looks_closer(schema(name), moving) for name in used):
         return None
     for name, args in dict.fromkeys((a.name, a.args) for a in task.actions):
-        action = schemas[name]
+        action = schema(name)
         for effect in numeric_effects(action):
             assert effect.value is not None
             plain = effect.kind == "assign" and effect.given == TRUE and not effect.params
@@ -254,9 +254,9 @@ def _renumbered_grounding(task: Task, roles: Roles) -> Grounding:
     n_plain = len(task.facts) - len(new)
     values = (value_fact(key, number) for key, numbers in roles.items() for number in numbers)
     facts = (*task.facts[:n_plain], *values)
-    schemas = {action.name: action for action in task.problem.domain.actions}
+    domain = task.problem.domain
     actions = tuple(
-        _repriced(action, schemas[action.name], new) if action.values else action
+        _repriced(action, domain.action(action.name), new) if action.values else action
         for action in task.actions
     )
     bits = {fact: i for i, fact in enumerate(facts)}
@@ -269,9 +269,8 @@ def _repriced(
     values = {key: new[key, old] for key, old in action.values.items()}
     known: dict[FluentKey, Expr] = {key: Constant(value) for key, value in values.items()}
     binding = _binding(schema, action.args)
-    fixed = [expression for op, expression in schema.durations if op == "="]
-    if len(fixed) == 1:
-        known[DURATION,] = grounded(fixed[0], binding, known)
+    if schema.fixed_duration is not None:
+        known[DURATION,] = grounded(schema.fixed_duration, binding, known)
     costs = tuple(
         grounded(effect.value, binding, known)
         for effect in schema.effects

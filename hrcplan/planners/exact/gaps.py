@@ -67,7 +67,7 @@ class Gaps:
     def _touches(self, task: Task, index: int) -> Accesses:
         if index not in self._known:
             action = task.actions[index]
-            schema = next(a for a in task.problem.domain.actions if a.name == action.name)
+            schema = task.problem.domain.action(action.name)
             binding = bind(schema, action.args, task.problem)
             assert not isinstance(binding, str)
             start, over, end = (
