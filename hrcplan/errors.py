@@ -59,6 +59,7 @@ class HrcplanError(Exception):
         code: str | None = None,
         path: str | None = None,
         line: int | None = None,
+        column: int | None = None,
         hint: str | None = None,
     ) -> None:
         super().__init__(message)
@@ -66,6 +67,7 @@ class HrcplanError(Exception):
         self.code = code or self.default_code
         self.path = path
         self.line = line
+        self.column = column
         self.hint = hint
 
 
@@ -103,6 +105,7 @@ class PddlError(InputError):
             code=first.code,
             path=first.path,
             line=first.line,
+            column=first.column,
             hint=first.hint,
         )
         self.diagnostics = tuple(errors)

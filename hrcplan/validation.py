@@ -41,7 +41,8 @@ class Report:
     ``failed_step`` counts actions from 0 in order of start time, ties in file order; it is None
     if the plan is valid or only the goal is missed. ``cost``, ``metric`` (None if the problem
     has none) and ``makespan_s`` are None unless the plan is valid. ``state`` is the state at the
-    end, or where the replay broke off.
+    end, or where the replay broke off. ``gap_s`` is the gap that was too small, above zero, if that
+    was the only fault until then.
     """
 
     valid: bool
@@ -52,6 +53,7 @@ class Report:
     reason: str | None = None
     state: frozenset[Fact] = frozenset()
     step_costs: tuple[Number, ...] = ()
+    gap_s: Number | None = None
 
     def __repr__(self) -> str:
         if not self.valid:
@@ -63,11 +65,12 @@ class Report:
 
 
 class _BrokenError(Exception):
-    """The replay stops here: at which action, and why."""
+    """The replay stops here: at which action, why, and the gap that was too small, if it was."""
 
-    def __init__(self, step: int, reason: str) -> None:
+    def __init__(self, step: int, reason: str, gap_s: Number | None = None) -> None:
         super().__init__(reason)
         self.step = step
+        self.gap_s = gap_s
 
 
 class _Event(NamedTuple):
@@ -90,34 +93,46 @@ PlanLike = Plan | str | os.PathLike[str]
 
 
 @overload
-def validate(domain: Problem | Readable, problem: PlanLike, /) -> Report: ...
+def validate(
+    domain: Problem | Readable, problem: PlanLike, /, *, epsilon_s: Number = ...
+) -> Report: ...
 
 
 @overload
-def validate(domain: Domain | Readable | Problem, problem: Readable, plan: PlanLike) -> Report: ...
+def validate(
+    domain: Domain | Readable | Problem,
+    problem: Readable,
+    plan: PlanLike,
+    *,
+    epsilon_s: Number = ...,
+) -> Report: ...
 
 
 @overload
-def validate(domain: Problem | Readable, *, plan: PlanLike) -> Report: ...
+def validate(domain: Problem | Readable, *, plan: PlanLike, epsilon_s: Number = ...) -> Report: ...
 
 
 def validate(
     domain: Domain | Readable | Problem,
     problem: PlanLike | EllipsisType = ...,
     plan: PlanLike | EllipsisType = ...,
+    *,
+    epsilon_s: Number = EPSILON_S,
 ) -> Report:
     """Return whether a plan is valid, with its cost, makespan and metric.
 
     Called as ``validate(problem, plan)`` or ``validate(domain, problem, plan)``. A sequential plan
-    of a temporal domain is read as one action after the other. Interfering happenings closer than
-    ``EPSILON_S`` are invalid, as in VAL with ``-t 0.001`` (Fox and Long, PDDL2.1, JAIR 2003,
-    section 8); others may coincide.
+    of a temporal domain is read as one action after the other. Interfering happenings that are
+    closer than ``epsilon_s`` are invalid (Fox and Long, PDDL2.1, JAIR 2003, section 8); others may
+    coincide. VAL accepts gaps down to a tenth of its tolerance ``-t``. ``total-time`` of a
+    classical plan is its number of actions, also if it is laid out in lanes.
 
     Args:
         domain: The problem that the plan is for: a `Problem`, or whatever `hrcplan.read` takes.
         problem: The problem, if ``domain`` is only its domain; else the plan.
         plan: A `Plan`, its text in IPC format, or a file's path. Unknown actions and objects make
-            it invalid; they are no error.
+            it invalid; they are no error. A planner's log counts as its last plan.
+        epsilon_s: Smallest gap between interfering happenings, in seconds; above zero.
 
     Raises:
         InputError: if a file is missing or has faults, or the text is no plan.
@@ -134,16 +149,17 @@ def validate(
     if isinstance(problem, Plan):
         raise TypeError("the plan is the last argument of validate(), after the problem")
     asked = as_problem(domain, None if isinstance(problem, EllipsisType) else problem)
-    return _replay(asked, as_plan(plan))
+    return _replay(asked, as_plan(plan, asked), epsilon_s)
 
 
-def _replay(problem: Problem, plan: Plan) -> Report:
-    replay = _Replay(problem, plan)
+def _replay(problem: Problem, plan: Plan, epsilon_s: Number) -> Report:
+    replay = _Replay(problem, plan, epsilon_s)
     try:
         replay.run()
         missing = unmet(problem.goal, replay.state, {}, problem)
     except _BrokenError as broken:
-        return replay.report(reason=str(broken), failed_step=broken.step)
+        report = replay.report(reason=str(broken), failed_step=broken.step)
+        return replace(report, gap_s=broken.gap_s)
     if missing is not None:
         return replay.report(reason=f"the goal {missing} does not hold at the end")
     return replay.report()
@@ -152,9 +168,10 @@ def _replay(problem: Problem, plan: Plan) -> Report:
 class _Replay:
     """A plan on its way through the happenings: the state, and what is running."""
 
-    def __init__(self, problem: Problem, plan: Plan) -> None:
+    def __init__(self, problem: Problem, plan: Plan, epsilon_s: Number) -> None:
         self.problem = problem
         self.plan = plan
+        self.epsilon_s = epsilon_s
         values = dict(problem.values)
         if TOTAL_COST in problem.domain.functions:
             values.setdefault(COST, 0)
@@ -176,12 +193,12 @@ class _Replay:
         makespan = self.end_s if temporal else self.plan.makespan_s
         counted = None if temporal else len(costs)
         cost = self.state.values.get(COST, counted)
-        metric = _metric(self.problem, self.state, makespan)
+        metric = _metric(self.problem, self.state, makespan if temporal else counted)
         return Report(True, cost, makespan, metric, state=facts, step_costs=costs)
 
     def run(self) -> None:
         """Play all actions: each when the one before has ended, or by their times."""
-        gap = EPSILON_S if self.problem.domain.is_temporal else 1
+        gap = self.epsilon_s if self.problem.domain.is_temporal else 1
         if self.plan.is_schedule:
             steps = range(len(self.plan.actions))
             self._play([e for i in steps for e in self._events(i, self.plan.actions[i].start_s)])
@@ -231,14 +248,15 @@ class _Replay:
             _demand(self.problem, event, "all", self.state)
 
     def _check_interference(self, event: _Event) -> None:
-        """Stop if the event interferes with one that is closer than ``EPSILON_S``."""
+        """Stop if the event interferes with one that is closer than ``epsilon_s``."""
         mine = access(self.problem, event.action, event.binding, event.when)
-        self._near = [(e, a) for e, a in self._near if event.time - e.time < EPSILON_S]
+        self._near = [(e, a) for e, a in self._near if event.time - e.time < self.epsilon_s]
         for other, theirs in self._near:
             about = clash(mine, theirs) if other.step != event.step else None
             if about is not None:
                 step = max(event.step, other.step)
-                raise _BrokenError(step, _too_close(event, other, about))
+                reason = _too_close(event, other, about, self.epsilon_s)
+                raise _BrokenError(step, reason, (event.time - other.time) or None)
         self._near.append((event, mine))
 
     def _changed(self, event: _Event, after: LiftedState) -> LiftedState:
@@ -294,10 +312,10 @@ def _duration(
     return f"{planned} needs a duration in brackets"
 
 
-def _too_close(event: _Event, other: _Event, about: Fact) -> str:
+def _too_close(event: _Event, other: _Event, about: Fact, epsilon_s: Number) -> str:
     return (
         f"{_shown(event)} and {_shown(other)} interfere about {fact_text(about)} at "
-        f"{seconds_text(event.time)} s; they need {number_text(EPSILON_S)} s between them"
+        f"{seconds_text(event.time)} s; they need {number_text(epsilon_s)} s between them"
     )
 
 

@@ -63,7 +63,9 @@ def test_equal_times_keep_the_order_of_the_file() -> None:
         ("(move a b)\nmove a b\n", 2),
         ("(move a b\n", 1),
         ("()\n", 1),
-        ("(a) (b)\n", 1),
+        ("(a) b\n", 1),
+        ("1. go a b\n", 1),
+        ("(a)\n0.5:\n", 2),
         ("; fine\n(a)\n((a))\n", 3),
         ("0.5: (a) [1]\n(b)\n", 2),
         ("(a)\n0: (b)\n", 2),
@@ -80,6 +82,36 @@ def test_the_first_wrong_line_is_named(text: str, line: int) -> None:
     with pytest.raises(PlanFormatError) as caught:
         parse_plan(text, "some.plan")
     assert (caught.value.path, caught.value.line) == ("some.plan", line)
+
+
+def test_the_column_of_a_fault_is_that_of_the_text_that_is_no_action() -> None:
+    with pytest.raises(PlanFormatError) as caught:
+        parse_plan("(go a b)\n  go b c\n")
+    assert (caught.value.line, caught.value.column) == (2, 3)
+
+
+GO = (PlannedAction("go", ("a", "b")), PlannedAction("go", ("b", "c")))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "(go a b) (go b c)",
+        "(go\n a\n b)\n(go b c)",
+        "1. (GO A B)\n2. (GO B C)\n",
+        "1) go(a, b)\n2) go(b, c)",
+        "1 (go a b)\n2 (go b c)",
+        "- (go a b)\n- (go b c)",
+        "go(a,b), go(b,c)",
+    ],
+)
+def test_lists_and_function_style_are_plans(text: str) -> None:
+    assert parse_plan(text).actions == GO
+
+
+def test_a_duration_may_stand_as_lpg_writes_it() -> None:
+    first, second = parse_plan("0.0: (A) [D:5.00; C:0.10] ; first\n6: (B) [5.0000])").actions
+    assert (first.duration_s, second.duration_s) == (5, 5)
 
 
 def test_a_long_line_is_not_quoted_in_full() -> None:

@@ -20,6 +20,7 @@ from hrcplan.pddl.library import root
 from hrcplan.pddl.model import Problem
 from hrcplan.plans import Plan, PlannedAction, format_plan, parse_plan
 from hrcplan.validation import Report, validate
+from tests.worlds import problem_from
 
 HERE = Path(__file__).parent
 GOOD = {
@@ -292,3 +293,23 @@ def test_actions_given_as_values_need_no_text() -> None:
     assert validate(problem, Plan((PlannedAction("move", ("robot", "wp0", "wp1")),))).reason == (
         "the goal (box-at green wp2) does not hold at the end"
     )
+
+
+def test_a_smaller_gap_is_valid_where_it_is_asked_for() -> None:
+    text = (Path(__file__).parent / "invalid_plans" / "half-a-gap.plan").read_text()
+    problem = read(*text.splitlines()[0].split(": ", 1)[1].split("/"))
+    plan = parse_plan(text)
+    assert validate(problem, plan).gap_s == Fraction(5, 10000)
+    assert validate(problem, plan, epsilon_s=Fraction(5, 10000)).valid
+
+
+STEPS = """(define (domain steps) (:requirements :strips) (:predicates (at ?p) (next ?p ?q))
+  (:action go :parameters (?p ?q) :precondition (and (at ?p) (next ?p ?q))
+    :effect (and (at ?q) (not (at ?p)))))"""
+STEPS_ABC = """(define (problem p) (:domain steps) (:objects a b c)
+  (:init (at a) (next a b) (next b c)) (:goal (at c)) (:metric minimize (total-time)))"""
+
+
+@pytest.mark.parametrize("text", ["(go a b) (go b c)", "0: (go a b)\n1: (go b c)"])
+def test_the_total_time_of_a_classical_plan_is_its_number_of_actions(text: str) -> None:
+    assert validate(problem_from(STEPS, STEPS_ABC), parse_plan(text)).metric == 2

@@ -6,6 +6,7 @@ import numpy as np
 
 from hrcplan.bank import Bank, Goals, from_problems
 from hrcplan.pddl.check import domain_in, problem_in
+from hrcplan.pddl.model import Problem
 from hrcplan.pddl.source import SourceText
 
 # Things are cut and then packed; tape serves either box. Agents' facts never change.
@@ -65,6 +66,11 @@ def world(domain: str, problem: str, goals: dict[str, str]) -> Goals:
     model = domain_in(SourceText("domain", domain))
     texts = (problem.format(name=name, goal=goal) for name, goal in goals.items())
     return from_problems([problem_in(model, SourceText("problem", text)) for text in texts])
+
+
+def problem_from(domain: str, problem: str) -> Problem:
+    """Return a problem from the texts of a domain and of a problem."""
+    return problem_in(domain_in(SourceText("domain", domain)), SourceText("problem", problem))
 
 
 Walk = Callable[[Bank, int, int], tuple[int, ...]]

@@ -25,7 +25,7 @@ from hrcplan.cli import output
     default="auto",
     show_default=True,
     metavar="NAME",
-    help="It has to prove that its plans are optimal.",
+    help="The diagram is exact if it proves that its plans are optimal.",
 )
 @click.option(
     "--timeout",
@@ -52,8 +52,9 @@ def command(
 ) -> int:
     """Say who does what for every value of ELEMENT, such as 'motivation human'.
 
-    The values at which the best allocation flips are computed exactly, with proven plans, and so is
-    how far the value may move from where it is before another allocation is better.
+    The values at which the best allocation flips are computed exactly where plans are proven to be
+    optimal, and so is how far the value may move before another allocation is better. Where a proof
+    is out of reach the diagram is approximate, and says so.
     """
     from hrcplan.cli.arguments import function, problem_of, split_names
     from hrcplan.core.numbers import exact
@@ -82,6 +83,7 @@ def as_json(found: Any) -> dict[str, Any]:
         "value": number(found.value),
         "flips": [number(flip) for flip in found.flips],
         "radius": number(found.radius()),
+        "proven": found.is_proven,
         "stays_best": None if stays is None else [number(limit) for limit in stays],
         "pieces": [
             {
@@ -112,7 +114,8 @@ def as_text(found: Any, title: str) -> str:
     widths = [max(len(row[i]) for row in [head, *rows]) for i in range(len(head))]
     lines = ["  ".join(cell.ljust(w) for cell, w in zip(row, widths, strict=True)).rstrip()
              for row in (head, ["─" * w for w in widths], *rows)]  # fmt: skip
-    return "\n".join([f"{title}: who does how much", "", *(f"  {x}" for x in lines), "",
+    mark = "" if found.is_proven else " (approximate: not all plans are proven to be the best)"
+    return "\n".join([f"{title}: who does how much{mark}", "", *(f"  {x}" for x in lines), "",
                       _in_words(found)])  # fmt: skip
 
 

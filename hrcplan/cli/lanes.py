@@ -8,7 +8,7 @@ from hrcplan.cli.output import number
 from hrcplan.core.numbers import Number, number_text
 from hrcplan.pddl.model import Problem
 from hrcplan.planners.contract import Status
-from hrcplan.planners.solve import Result
+from hrcplan.planners.result import Result
 from hrcplan.plans import Plan, PlannedAction, lane, occupied, seconds_text
 
 VERDICT = {
@@ -28,6 +28,9 @@ def as_json(problem: Problem, found: Result) -> dict[str, Any]:
         "cost": number(report.cost) if report else None,
         "makespan_s": number(report.makespan_s) if report else None,
         "metric": number(report.metric) if report else None,
+        "sense": _sense(problem),
+        "bound": number(found.bound),
+        "gap": found.gap,
         "valid": report.valid if report else None,
         "steps": _steps(problem, found),
         "wall_s": round(found.wall_s, 6),
@@ -38,6 +41,13 @@ def as_json(problem: Problem, found: Result) -> dict[str, Any]:
         ],
         "shortest": found.shortest,
     }
+
+
+def _sense(problem: Problem) -> str | None:
+    """Return what is to be done with the problem's metric; None if it has none."""
+    if problem.metric is None:
+        return None
+    return "maximize" if problem.maximize else "minimize"
 
 
 def _steps(problem: Problem, found: Result) -> list[dict[str, Any]]:
@@ -68,8 +78,10 @@ def as_text(problem: Problem, found: Result) -> str:
 
 
 def _tried(found: Result) -> str:
-    others = [a for a in found.attempts if a.planner != found.planner]
-    return "".join(f"\n  {a.planner}: {a.outcome}" for a in others)
+    others = [a for a in found.attempts if a.planner != found.planner or found.plan is None]
+    lines = [f"\n  {a.planner}: {a.outcome}" for a in others if not a.outcome.startswith("solved")]
+    mismatch = [] if found.mismatch is None else [f"\n  {found.mismatch}"]
+    return "".join(dict.fromkeys([*lines, *mismatch]))
 
 
 def _figures(problem: Problem, found: Result) -> str:
@@ -78,15 +90,27 @@ def _figures(problem: Problem, found: Result) -> str:
     assert found.plan is not None
     lines: list[str] = []
     if report.metric is not None:
-        lines.append(f"metric    {_short(report.metric)}   minimize {problem.metric}")
+        lines.append(f"metric    {_short(report.metric)}   {_sense(problem)} {problem.metric}")
     if report.cost is not None:
         lines.append(f"cost      {_short(report.cost)}")
     if report.makespan_s is not None:
         unit = " s" if problem.domain.is_temporal else " steps"
         proof = {None: "", True: "   (shortest for this partial order)", False: ""}[found.shortest]
         lines.append(f"makespan  {_short(report.makespan_s)}{unit}{proof}")
+    if (bound := _bound(problem, found)) is not None:
+        lines.append(bound)
     lines.append(f"valid     yes, replayed: {len(found.plan.actions)} actions, goal reached")
     return "\n".join(lines)
+
+
+def _bound(problem: Problem, found: Result) -> str | None:
+    """Return what is proven about a plan that is not proven to be the best."""
+    if found.bound is None or found.status is Status.OPTIMAL:
+        return None
+    if found.gap is None:
+        return f"bound     {_short(found.bound)}"
+    side = "below" if problem.metric is not None and problem.maximize else "above"
+    return f"bound     {_short(found.bound)}   (at most {100 * found.gap:.2g} % {side} the optimum)"
 
 
 def _short(value: Number) -> str:
@@ -98,21 +122,28 @@ def _table(problem: Problem, plan: Plan) -> list[str]:
     lanes = [a for a in problem.agents if any(lane(p.args, problem) == a for p in plan.actions)]
     if any(lane(p.args, problem) is None for p in plan.actions) or not lanes:
         lanes.append("")
-    rows: dict[str, dict[str, str]] = {}
+    rows: list[tuple[str, dict[str, str]]] = []
     for position, action in enumerate(plan.actions):
         when = str(position + 1) if action.start_s is None else _clock(action.start_s, problem)
-        agent = lane(action.args, problem) or ""
-        row = rows.setdefault(when, {})
-        row[agent] = _cell(action, agent)
-        for other in occupied(action, problem) - {agent}:
-            row[other] = f"({action.name} by {agent})"
+        cells = _cells(action, problem)
+        # Actions of one instant share a row as long as each finds its cells empty.
+        row = next((c for at, c in rows if at == when and c.keys().isdisjoint(cells)), None)
+        if row is None:
+            rows.append((when, cells))
+        else:
+            row.update(cells)
     head = "step" if not plan.is_schedule else "time (s)" if problem.domain.is_temporal else "time"
-    table = [[head, *lanes]] + [
-        [when, *(row.get(a, "") for a in lanes)] for when, row in rows.items()
-    ]
+    table = [[head, *lanes]] + [[when, *(row.get(a, "") for a in lanes)] for when, row in rows]
     widths = [max(len(line[i]) for line in table) for i in range(len(lanes) + 1)]
     rule = ["─" * width for width in widths]
     return [_line(line, widths) for line in (table[0], rule, *table[1:])]
+
+
+def _cells(action: PlannedAction, problem: Problem) -> dict[str, str]:
+    """Return the cells of an action in the table: its lane's, and those of agents it occupies."""
+    agent = lane(action.args, problem) or ""
+    others = occupied(action, problem) - {agent}
+    return {agent: _cell(action, agent), **dict.fromkeys(others, f"({action.name} by {agent})")}
 
 
 def _clock(start: Number, problem: Problem) -> str:

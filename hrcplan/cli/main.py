@@ -137,7 +137,7 @@ def _fault(error: BaseException) -> tuple[int, Callable[[], None]]:
         case HrcplanError():
             text = f"{error.message}{_notes(error)}"
             return error.exit_code, lambda: output.fail(
-                error.code, text, error.path, error.line, error.hint
+                error.code, text, error.path, error.line, error.hint, error.column
             )
         case MemoryError():
             hint = "try a smaller problem"

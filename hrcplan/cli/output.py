@@ -115,23 +115,37 @@ def complain(text: str) -> None:
 
 def fail(
     code: str, message: str, path: str | None = None, line: int | None = None,
-    hint: str | None = None,
+    hint: str | None = None, column: int | None = None,
 ) -> None:  # fmt: skip
     """Print an error: JSON on stdout if asked for, else words on stderr."""
     if JSON:
-        fault = {"code": code, "message": message, "path": path, "line": line, "hint": hint}
+        fault = {
+            "code": code,
+            "message": message,
+            "path": path,
+            "line": line,
+            "column": column,
+            "hint": hint,
+        }
         document({"error": fault})
         return
-    place = "" if path is None or path in message else f"{path}:{line}: " if line else f"{path}: "
+    place = _place(path, line, column, message)
     _echo(f"error: {harmless(place + message)}", err=True)
     if hint:
         _echo(f"  hint: {harmless(hint)}", err=True)
 
 
+def _place(path: str | None, line: int | None, column: int | None, message: str) -> str:
+    """Return ``path:line:column: ``, as far as known; nothing if the message names the path."""
+    if path is None or (line is None and path in message):
+        return ""
+    return ":".join([path, *(str(n) for n in (line, column) if n)]) + ": "
+
+
 def fail_pddl(error: PddlError) -> None:
     """Print every fault of PDDL files."""
     if JSON:
-        fail(error.code, error.message, error.path, error.line, error.hint)
+        fail(error.code, error.message, error.path, error.line, error.hint, error.column)
         return
     for diagnostic in error.diagnostics:
         _echo(harmless(str(diagnostic)), err=True)

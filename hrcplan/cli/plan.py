@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
@@ -11,6 +12,10 @@ from hrcplan.cli import output
 from hrcplan.core.files import check_target
 from hrcplan.errors import UsageError
 
+if TYPE_CHECKING:
+    from hrcplan.planners.result import Result
+
+QUIET_S = 1.0
 STATUS_EXIT = {"solved-optimally": 0, "solved": 0, "unsolvable": 1, "unsolved": 4}
 
 
@@ -38,6 +43,14 @@ STATUS_EXIT = {"solved-optimally": 0, "solved": 0, "unsolvable": 1, "unsolved": 
     metavar="'F OBJ…=N'",
     help="Change a value of the initial state, as in 'motivation human=8'.",
 )
+@click.option(
+    "--memory",
+    type=click.IntRange(min=64),
+    default=4096,
+    show_default=True,
+    metavar="MIB",
+    help="Memory for all planners together.",
+)
 @click.option("--any", "any_plan", is_flag=True, help="The first valid plan is enough.")
 @click.option("--lanes", is_flag=True, help="Lay a sequential plan out in lanes.")
 @click.option(
@@ -60,6 +73,7 @@ def command(
     planner: str,
     timeout: float,
     settings: tuple[str, ...],
+    memory: int,
     any_plan: bool,
     lanes: bool,
     gantt: Path | None,
@@ -78,8 +92,9 @@ def command(
     for path in (gantt, target):
         check_target(path, problem.path, problem.domain.path)
     found = solve(
-        problem, planner, timeout_s=timeout, any_plan=any_plan, lanes=lanes or gantt is not None
-    )
+        problem, planner, timeout_s=timeout, any_plan=any_plan, lanes=lanes or gantt is not None,
+        memory_bytes=memory << 20, on_better=_Progress(),
+    )  # fmt: skip
     for attempt in found.attempts:
         output.say(f"{attempt.planner}: {attempt.outcome} ({attempt.wall_s:.2f} s)")
     if found.plan is not None and target is not None:
@@ -92,6 +107,23 @@ def command(
         output.write_atomically(gantt, draw(problem, found.plan, gantt.suffix[1:].lower()))
     _print(problem, found)
     return STATUS_EXIT[found.status.value]
+
+
+class _Progress:
+    """Says on stderr which plan is the best so far, where the search takes more than a moment."""
+
+    def __init__(self) -> None:
+        self._begun = time.monotonic()
+
+    def __call__(self, result: Result) -> None:
+        """Tell of a plan that is better than those before it."""
+        from hrcplan.core.numbers import number_text
+
+        passed = time.monotonic() - self._begun
+        if passed < QUIET_S or result.objective is None:
+            return
+        value = number_text(result.objective)
+        output.note(f"after {passed:.0f} s: {value} ({result.planner})")
 
 
 def _check_targets(gantt: Path | None, target: Path | None) -> None:

@@ -7,26 +7,39 @@ from typing import TYPE_CHECKING
 import rich_click as click
 
 from hrcplan.cli import output
+from hrcplan.core.text import quote
+from hrcplan.errors import UsageError
 
 if TYPE_CHECKING:
+    from hrcplan.core.numbers import Number
     from hrcplan.pddl.model import Problem
     from hrcplan.validation import Report
 
 
 @click.command("validate")
 @click.argument("names", nargs=-1, required=True, metavar="DOMAIN PROBLEM PLAN")
+@click.option(
+    "--epsilon",
+    default="0.001",
+    show_default=True,
+    metavar="S",
+    help="Smallest gap, in seconds, between two happenings that interfere.",
+)
 @output.common_options
-def command(names: tuple[str, ...]) -> int:
-    """Replay PLAN (IPC format, with or without times) for DOMAIN PROBLEM."""
+def command(names: tuple[str, ...], epsilon: str) -> int:
+    """Replay PLAN (IPC format, or the output of a planner) for DOMAIN PROBLEM."""
     from hrcplan.cli.arguments import problem_of, split_names
     from hrcplan.pddl.source import read_text
-    from hrcplan.plans import parse_plan
+    from hrcplan.plans import read_plan
     from hrcplan.validation import validate
 
     domain, name, (path,) = split_names(names, 1)
     problem = problem_of(domain, name, ())
-    plan = parse_plan(read_text(path), path)
-    report = validate(problem, plan)
+    gap = _seconds(epsilon)
+    plan, n_plans = read_plan(read_text(path), problem, path)
+    if n_plans > 1:
+        output.note(f"{path} holds {n_plans} plans; this is about the last one")
+    report = validate(problem, plan, epsilon_s=gap)
     if output.JSON:
         output.document({
             "valid": report.valid,
@@ -35,14 +48,41 @@ def command(names: tuple[str, ...]) -> int:
             "metric": output.number(report.metric),
             "failed_step": report.failed_step,
             "reason": report.reason,
+            "hint": _hint(report),
         })  # fmt: skip
     elif report.valid:
         output.result(f"valid: {len(plan.actions)} actions{_figures(report)}")
     else:
         step = "" if report.failed_step is None else f"step {report.failed_step + 1}: "
         output.result(f"invalid: {step}{report.reason}")
+        if (hint := _hint(report)) is not None:
+            output.result(f"  hint: {hint}")
         output.result(f"state there: {_fluents(report, problem)}")
     return 0 if report.valid else 1
+
+
+def _hint(report: Report) -> str | None:
+    """Return which option accepts a gap that is too small."""
+    if report.gap_s is None:
+        return None
+    from hrcplan.core.numbers import number_text
+
+    gap = number_text(report.gap_s)
+    return f"the gap is {gap} s; --epsilon {gap} accepts it"
+
+
+def _seconds(text: str) -> Number:
+    """Return a gap in seconds.
+
+    Raises:
+        UsageError: if it is no number above zero.
+    """
+    from hrcplan.core.numbers import to_number
+
+    value = to_number(text)
+    if value is None or value <= 0:
+        raise UsageError(f"--epsilon takes seconds above zero, not {quote(text)}")
+    return value
 
 
 def _fluents(report: Report, problem: Problem) -> str:

@@ -15,14 +15,16 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from math import gcd, lcm
 
-from hrcplan.core.numbers import Number, exact
-from hrcplan.errors import PlannerError, UsageError
+from hrcplan.core.numbers import Number, exact, number_text
+from hrcplan.errors import HrcplanError, LimitError, PlannerError, UnsupportedError, UsageError
 from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, FluentKey, Problem, fact_text
 from hrcplan.pddl.semantics import evaluate
 from hrcplan.planners import registry
 from hrcplan.planners.contract import Planner, Status
+from hrcplan.planners.result import Result
 from hrcplan.planners.solve import AUTO, DEFAULT_TIMEOUT_S, solve
 from hrcplan.plans import EPSILON_S, Plan, lane
+from hrcplan.task import Task
 from hrcplan.task.regrounding import Groundings
 from hrcplan.validation import objective, validate
 
@@ -55,11 +57,15 @@ class Piece:
 
 @dataclass(frozen=True, slots=True)
 class Diagram:
-    """The best allocation for every value of one function in a range; ``value`` is that of now."""
+    """The best allocation for every value of one function in a range; ``value`` is that of now.
+
+    It is approximate unless ``is_proven``: better plans may exist than those that were found.
+    """
 
     key: FluentKey
     value: Number
     pieces: tuple[Piece, ...]
+    is_proven: bool = True
 
     @property
     def flips(self) -> tuple[Number, ...]:
@@ -108,7 +114,8 @@ def diagram(
 
     Raises:
         UsageError: if the problem gives the function no value, or the range is empty.
-        PlannerError: if a plan is not proven to be optimal.
+        HrcplanError: if there is no plan at some value.
+        LimitError: if none was found there within the limits.
         UnsupportedError: if no planner holds the task.
 
     >>> from hrcplan.pddl.inputs import read
@@ -122,7 +129,7 @@ def diagram(
         raise UsageError(f"from {least} to {most} there is nothing to look at", code="bad-range")
     best = _Best(problem, key, planner, timeout_s)
     pieces = _pieces(best, (least, best(least)), (most, best(most)))
-    return Diagram(key, problem.values[key], tuple(pieces))
+    return Diagram(key, problem.values[key], tuple(pieces), best.is_proven)
 
 
 def line_of(problem: Problem, plan: Plan, key: FluentKey) -> Line:
@@ -171,7 +178,11 @@ def _gaps(plan: Plan) -> Number:
 
 
 class _Best:
-    """Proven plans of one problem, by the value of a function."""
+    """The best plans of one problem, by the value of a function.
+
+    ``is_proven`` says that all of them are proven to be the best; else a plan that was found for
+    another value may be the best one known.
+    """
 
     def __init__(
         self, problem: Problem, key: FluentKey, planner: str | Planner, timeout_s: float
@@ -179,17 +190,38 @@ class _Best:
         self.problem, self.key = problem, key
         self._planner, self._timeout_s = planner, timeout_s
         self._groundings = Groundings()
+        self._lines: list[Line] = []
+        self.is_proven = True
+
+    def _task(self, problem: Problem) -> Task | None:
+        """Return the problem grounded; None where bits cannot hold it."""
+        try:
+            return self._groundings.task(problem)
+        except (UnsupportedError, LimitError):
+            return None
 
     def __call__(self, value: Number) -> Line:
+        """Return the line of the best plan at a value.
+
+        Raises:
+            HrcplanError: if there is no plan (exit code 1), or none was found within the limits.
+        """
         problem = self.problem.with_values({self.key: value})
-        task = self._groundings.task(problem)
-        found = solve(problem, self._planner, timeout_s=self._timeout_s, task=task)
-        if found.plan is None or found.status is not Status.OPTIMAL:
-            at = f"{fact_text(self.key)} = {value}"
-            raise PlannerError(f"no proven plan at {at}: {found.status.value}", code="not-proven")
-        if isinstance(self._planner, str):
+        found = solve(problem, self._planner, timeout_s=self._timeout_s, task=self._task(problem))
+        if found.plan is None:
+            raise _no_plan(found, f"{fact_text(self.key)} = {number_text(value)}")
+        if found.status is not Status.OPTIMAL:
+            self.is_proven = False
+        elif isinstance(self._planner, str):
             self._planner = registry.make(found.planner)  # it keeps what it found out
-        return line_of(problem, found.plan, self.key)
+        self._lines.append(line_of(problem, found.plan, self.key))
+        return min(self._lines, key=lambda line: (line.at(value), line is not self._lines[-1]))
+
+
+def _no_plan(found: Result, where: str) -> HrcplanError:
+    if found.status is Status.UNSOLVABLE:
+        return HrcplanError(f"there is no plan at {where}", code="unsolvable")
+    return LimitError(f"no plan at {where} within the limits", hint="try a longer --timeout")
 
 
 def _pieces(best: _Best, first: tuple[Number, Line], last: tuple[Number, Line]) -> Sequence[Piece]:
@@ -202,7 +234,7 @@ def _pieces(best: _Best, first: tuple[Number, Line], last: tuple[Number, Line]) 
             continue
         cross = exact(Fraction(right.intercept - left.intercept) / (left.slope - right.slope))
         middle = best(cross)
-        if middle.at(cross) == left.at(cross):
+        if middle.at(cross) >= left.at(cross):
             _extend(found, start, cross, left, best.problem)
             _extend(found, cross, end, right, best.problem)
         else:

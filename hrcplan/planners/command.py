@@ -1,7 +1,7 @@
 """Any program as a planner: ``cmd:popf {domain} {problem}``.
 
-Its standard output, and the plan file if the command names ``{plan}``, are searched for plans in
-IPC or POPF format. Anytime planners print several; the best valid one counts.
+Its standard output, and the plan file if the command names ``{plan}``, are searched for plans
+(``plans/logs.py``). Anytime planners print several; the best valid one counts.
 """
 
 from __future__ import annotations
@@ -11,23 +11,18 @@ import shlex
 import shutil
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from tempfile import TemporaryDirectory
+from tempfile import NamedTemporaryFile, TemporaryDirectory
 
 from hrcplan.core.numbers import Number
-from hrcplan.errors import MissingPlannerError, PlanFormatError, PlannerError, UsageError
+from hrcplan.errors import MissingPlannerError, PlannerError, UsageError
 from hrcplan.pddl.model import Problem
 from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
 from hrcplan.planners.process import FinishedProcess, ProcessEnd, ProcessLimits, run
-from hrcplan.plans import Plan, PlannedAction, parse_plan
+from hrcplan.plans import Plan, find_plans
 from hrcplan.validation import objective, validate
 
-# Also as LPG prints it: "0.0003: (MOVE …) [D:50.00; C:0.10]", "0.0003: (MOVE …) [50.0000])".
-_LINE = re.compile(
-    r"\s*(?P<start>[^\s:()]+\s*:)?\s*(?P<action>\([^()]+\))"
-    r"\s*(\[\s*(d:)?\s*(?P<duration>[^\s;\]]+)[^\]]*\]\)?)?\s*(;.*)?",
-    re.IGNORECASE,
-)
+_NO_PLAN = re.compile(r"(?i)goal can be simplified to FALSE|problem proven unsolvable")
 _CRASHED = (1, 2, 126, 127)  # other exit codes are a planner's way to say why it has no plan
 
 
@@ -98,13 +93,29 @@ class CommandPlanner:
             plans = [Plan()]
         if plans:
             return Answer(Status.SOLVED, best_of(problem, plans))
-        lines = [ln for ln in (finished.stdout + finished.stderr).splitlines() if ln.strip()]
-        last = " / ".join(lines[-3:])[-300:]
+        output = finished.stdout + finished.stderr
         if finished.ended is not ProcessEnd.EXITED:
             return Answer(Status.UNSOLVED, note=f"stopped: {finished.ended.value}")
+        if _NO_PLAN.search(output):
+            return Answer(Status.UNSOLVABLE)
+        lines = [line.strip() for line in output.splitlines() if line.strip()]
+        last = " / ".join(lines[-3:])[-300:]
         if finished.code is None or finished.code < 0 or finished.code in _CRASHED:
             raise PlannerError(f"{name} ended with exit code {finished.code}: {last}")
-        return Answer(Status.UNSOLVED, note=f"no plan, exit code {finished.code}: {last}")
+        if finished.code != 0:
+            return Answer(Status.UNSOLVED, note=f"no plan, exit code {finished.code}: {last}")
+        message = f"{name} ended without an error, but no plan could be read in its output"
+        hint = f"the output is in {_saved(output)}" if lines else "it printed nothing"
+        raise PlannerError(message, code="plan-not-read", hint=hint)
+
+
+def _saved(output: str) -> str:
+    """Return the path of a new file with the output of a planner."""
+    with NamedTemporaryFile(
+        "w", prefix="hrcplan-output-", suffix=".log", delete=False, errors="replace"
+    ) as file:
+        file.write(output)
+    return file.name
 
 
 def best_of(problem: Problem, plans: Iterable[Plan]) -> Plan:
@@ -121,28 +132,3 @@ def best_of(problem: Problem, plans: Iterable[Plan]) -> Plan:
         if best is None or value <= best[0]:
             best = value, last
     return last if best is None else best[1]
-
-
-def find_plans(text: str, problem: Problem) -> Iterator[Plan]:
-    """Yield every plan in a planner's output: actions of the domain on lines without a gap."""
-    names = {action.name for action in problem.domain.actions}
-    lines: list[str] = []
-    for line in (*text.lower().splitlines(), ""):
-        match = _LINE.fullmatch(line)
-        words = match["action"].strip("( )").split() if match else []
-        if match is not None and words and words[0] in names:
-            duration = f" [{match['duration']}]" if match["duration"] else ""
-            lines.append(f"{match['start'] or ''}{match['action']}{duration}")
-        elif lines:
-            yield from _plan(lines, problem)
-            lines = []
-
-
-def _plan(lines: list[str], problem: Problem) -> Iterator[Plan]:
-    try:
-        plan = parse_plan("\n".join(lines))
-    except PlanFormatError:
-        return  # something else that looks like it
-    if not problem.domain.is_temporal:  # some print the position of a step as its time
-        plan = Plan(tuple(PlannedAction(a.name, a.args) for a in plan.actions))
-    yield plan

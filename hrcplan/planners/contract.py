@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import enum
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Protocol, runtime_checkable
@@ -13,6 +14,8 @@ from hrcplan.errors import LimitError, UnsupportedError
 from hrcplan.pddl.model import TOTAL_TIME, Problem, functions_in
 from hrcplan.plans import Plan
 from hrcplan.task import Task
+
+MEMORY_BYTES = 4 << 30
 
 
 class Status(enum.Enum):
@@ -31,7 +34,8 @@ class Capabilities:
     ``temporal``: plans with durations and concurrency. ``numeric``: numbers that actions change.
     ``metric``: which metrics its plans are good for: ``none``, ``cost``, ``cost+time``.
     ``proves``: it can prove optimality for that metric. ``limits``: it keeps the time limit by
-    itself (hrcplan enforces it anyway). ``needs``: what to install, in words.
+    itself (hrcplan enforces it anyway). ``own``: it is a search of hrcplan's own, with exact
+    numbers, so "unsolvable" is believed from it alone. ``needs``: what to install, in words.
     """
 
     name: str
@@ -42,6 +46,7 @@ class Capabilities:
     metric: str = "cost"
     proves: bool = False
     limits: bool = False
+    own: bool = False
     needs: str = "nothing"
     licence: str = "Apache-2.0"
 
@@ -56,6 +61,16 @@ class LazyTask:
     def __init__(self, task: Task | None = None) -> None:
         self._task = task
         self._failure: UnsupportedError | LimitError | None = None
+
+    def begin(self, problem: Problem, deadline: float) -> None:
+        """Ground a problem if that can be done in time; else who needs it does it later."""
+        if self._task is None:
+            try:
+                self._task = Task(problem, deadline)
+            except UnsupportedError as error:
+                self._failure = error
+            except LimitError:
+                return
 
     def ground(self, problem: Problem, deadline: float) -> Task:
         """Return the task; what failed once is not tried again for the next planner.
@@ -77,13 +92,18 @@ class LazyTask:
 
 @dataclass(frozen=True)
 class Request:
-    """One problem for one planner: until when, and whether the first plan is enough."""
+    """One problem for one planner: until when, and whether the first plan is enough.
+
+    ``on_plan`` is told of plans that a planner will improve on, so that they are not lost if it is
+    stopped.
+    """
 
     problem: Problem
     deadline: float = field(default_factory=lambda: time.monotonic() + 60)
     any_plan: bool = False
-    memory_bytes: int = 4 << 30
+    memory_bytes: int = MEMORY_BYTES
     lazy_task: LazyTask = field(default_factory=LazyTask, repr=False, compare=False)
+    on_plan: Callable[[Plan], None] = field(default=lambda plan: None, repr=False, compare=False)
 
     @property
     def time_left_s(self) -> float:
@@ -106,8 +126,13 @@ class Request:
 
     @cached_property
     def weighs_time(self) -> bool:
-        """Whether the metric looks at total-time."""
-        return any(f.name == TOTAL_TIME for f in functions_in(self.problem.metric))
+        """Whether the metric looks at the makespan of a temporal plan.
+
+        In a classical metric, ``total-time`` is the number of actions.
+        """
+        return self.problem.domain.is_temporal and any(
+            f.name == TOTAL_TIME for f in functions_in(self.problem.metric)
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,13 +141,15 @@ class Answer:
 
     ``objective`` is the planner's own figure for the plan, in units of the problem's metric (number
     of steps, or makespan of a temporal plan, where there is none); the cost guard compares it with
-    hrcplan's. None if the planner reports none.
+    hrcplan's. None if the planner reports none. ``bound`` is what no plan can be better than, in
+    the same units, by a proof with exact numbers.
     """
 
     status: Status
     plan: Plan | None = None
     objective: Number | None = None
     note: str = ""
+    bound: Number | None = None
 
     def __post_init__(self) -> None:
         """Hold status and plan together.

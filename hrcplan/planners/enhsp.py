@@ -10,6 +10,7 @@ from __future__ import annotations
 import contextlib
 import re
 import shutil
+import time
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from importlib.util import find_spec
@@ -19,12 +20,25 @@ from tempfile import TemporaryDirectory
 from hrcplan.core.numbers import Number, to_number
 from hrcplan.errors import LimitError, MissingPlannerError, PlannerError, UnsupportedError
 from hrcplan.pddl.dialect import with_binary_sums, with_effects
-from hrcplan.pddl.model import TOTAL_COST, TRUE, Effect, Function, Problem, functions_in
-from hrcplan.pddl.write import decimal_text, domain_text, problem_text
+from hrcplan.pddl.model import (
+    TOTAL_COST,
+    TRUE,
+    Action,
+    Effect,
+    Fact,
+    Function,
+    Problem,
+    functions_in,
+)
+from hrcplan.pddl.semantics import ground_key, instances
+from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
-from hrcplan.planners.lowering import Lowered, lower
+from hrcplan.planners.lowering import NO_SEQUENCE, Lowered, lower
+from hrcplan.planners.number_range import decides_exactly, never_lowers_cost, prices_exactly
 from hrcplan.planners.process import FinishedProcess, ProcessEnd, ProcessLimits, run
 from hrcplan.plans import parse_plan
+from hrcplan.task.reachable import SchemaInstance, reachable
+from hrcplan.validation import objective, validate
 
 _JAR = "ENHSP/enhsp.jar"
 _JAVA = "java-runtime/bin/java"
@@ -32,6 +46,7 @@ _JAVA = "java-runtime/bin/java"
 _PROOF = ("-s", "WAStar", "-h", "hrmax")
 _FIRST = ("-s", "gbfs", "-h", "hadd")
 _RESERVE_S = 5.0  # kept for a plan without proof, but never more than half of the time
+_FLOAT_BITS = 24
 _JVM_BYTES = 200 << 20  # what a Java runtime needs besides its heap
 
 
@@ -115,9 +130,10 @@ def _input(request: Request) -> _Input:
     problem = request.problem
     domain = problem.domain
     plain_metric = problem.metric == Function(TOTAL_COST) and not problem.maximize
-    written = all(Fraction(decimal_text(v)) == v for v in problem.values.values())
     numeric = bool(domain.changed_functions - {TOTAL_COST})
-    if domain.is_temporal or numeric or not plain_metric or not written:
+    exact = decides_exactly(problem, _FLOAT_BITS) and never_lowers_cost(problem)
+    clash = _may_undo_itself(request)
+    if domain.is_temporal or numeric or not plain_metric or not exact or clash:
         with contextlib.suppress(*(() if domain.is_temporal else (UnsupportedError, LimitError))):
             lowered = lower(request.task)
             texts = lowered.domain_text, lowered.problem_text
@@ -127,9 +143,39 @@ def _input(request: Request) -> _Input:
         kept = with_effects(domain, lambda effect: effect.target.name != TOTAL_COST)
         problem = replace(problem, domain=kept, metric=None, maximize=False)
     simple = all(_is_simple(problem, e) for a in problem.domain.actions for e in a.effects)
+    simple = simple and exact and not clash
     binary = with_binary_sums(problem)
     texts = domain_text(binary.domain), problem_text(binary)
     return _Input(*texts, None, plain_metric and not moving, simple)
+
+
+def _may_undo_itself(request: Request) -> bool:
+    """Return whether an action may add and delete the same fact: ENHSP then deletes it."""
+    domain = request.problem.domain
+    if not any(_names(a, "add") & _names(a, "delete") for a in domain.actions):
+        return False
+    try:
+        found, _ = reachable(request.problem, time.monotonic() + request.time_left_s / 4)
+    except LimitError:
+        return True
+    return any(
+        not _targets(i, "add", request.problem).isdisjoint(_targets(i, "delete", request.problem))
+        for i in found
+    )
+
+
+def _names(action: Action, kind: str) -> set[str]:
+    return {effect.target.name for effect in action.effects if effect.kind == kind}
+
+
+def _targets(instance: SchemaInstance, kind: str, problem: Problem) -> set[Fact]:
+    """Return the facts that an instance adds or deletes, as far as its conditions let it."""
+    return {
+        ground_key(effect.target, binding)
+        for effect in instance.action.effects
+        if effect.kind == kind
+        for binding in instances(effect.params, instance.binding, problem)
+    }
 
 
 def _reads_change(problem: Problem, effect: Effect) -> bool:
@@ -182,6 +228,8 @@ def _answer(
         raise PlannerError(f"enhsp failed (exit code {finished.code}): {fault or output[-200:]}")
     if re.search(r"(?i)unsolvable", output) is None:
         return Answer(Status.UNSOLVED, note="it ended without a plan and without a reason")
+    if request.problem.domain.is_temporal:
+        return Answer(Status.UNSOLVED, note=NO_SEQUENCE)
     if not given.whole:
         return Answer(Status.UNSOLVED, note="it says unsolvable, but cannot be sure of this task")
     return Answer(Status.UNSOLVABLE)
@@ -191,6 +239,11 @@ def _solved(request: Request, given: _Input, proof: bool, output: str, text: str
     plan = parse_plan(text) if given.lowered is None else given.lowered.plan(text)
     exact = given.costs if given.lowered is None else given.lowered.exact_for_metric
     proven = proof and given.whole and exact and not request.problem.domain.is_temporal
+    value = objective(request.problem, validate(request.problem, plan))
+    if given.lowered is None:
+        proven = proven and prices_exactly(request.problem, _FLOAT_BITS, value or 0)
+    else:
+        proven = proven and value is not None and given.lowered.fits(_FLOAT_BITS, value)
     return Answer(
         Status.OPTIMAL if proven else Status.SOLVED, plan, _objective(request, given, output)
     )

@@ -13,7 +13,7 @@ from tempfile import TemporaryDirectory
 
 from hrcplan.errors import MissingPlannerError, PlannerError, UnsupportedError
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
-from hrcplan.planners.lowering import Lowered, lower
+from hrcplan.planners.lowering import NO_SEQUENCE, Lowered, lower
 from hrcplan.planners.process import FinishedProcess, ProcessEnd, ProcessLimits, run
 
 # One supervised program instead of two: translate, then search.
@@ -112,6 +112,8 @@ def _answer(
     if code in (0, 1, 2, 3) and text is not None:
         return _solved(request, lowered, text)
     if code in (10, 11):
+        if request.problem.domain.is_temporal:
+            return Answer(Status.UNSOLVED, note=NO_SEQUENCE)
         return Answer(Status.UNSOLVABLE)
     if code in (12, 13):
         return Answer(Status.UNSOLVED, note="the search was incomplete and found no plan")

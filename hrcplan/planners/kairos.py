@@ -13,12 +13,13 @@ from fractions import Fraction
 from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
-from hrcplan.core.numbers import Number, exact
+from hrcplan.core.numbers import Number
 from hrcplan.errors import LimitError, MissingPlannerError, PlannerError, UnsupportedError
 from hrcplan.pddl.model import TOTAL_COST, Function
 from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
 from hrcplan.planners.lowering import Lowered, lower
+from hrcplan.planners.number_range import decides_exactly, never_lowers_cost, prices_exactly
 from hrcplan.plans import Plan, parse_plan
 from hrcplan.validation import Report, objective, validate
 
@@ -33,6 +34,8 @@ PATIENCE = 0.1
 
 _TICK_S = 0.1
 _DECIMALS = 10**6
+_FLOAT_BITS = 53
+_GAVE_UP = "no_plan"  # its code for a search that ends without a plan and without a proof
 
 
 class Kairos:
@@ -79,6 +82,8 @@ class _Portfolio:
         self.best: tuple[Number, Plan, Number | None] | None = None
         self.invalid: Report | None = None
         self.proven = False
+        self.failures: list[UnsupportedError | PlannerError] = []
+        self.notes: list[str] = []
 
     def solve(self, presets: tuple[str, ...] | None) -> Answer:
         problem = self._parse()
@@ -91,7 +96,7 @@ class _Portfolio:
                 break
             result = self._search(problem, preset, slice_s)
             if result.status.name == "UNSOLVABLE":
-                return Answer(Status.UNSOLVABLE)
+                return self._unsolvable()
             self._check(result)
             if self.proven or (self.best and self.request.any_plan):
                 break
@@ -144,18 +149,25 @@ class _Portfolio:
             ours = -ours
         if self.best is None or ours < self.best[0]:
             self.best = ours, plan, self._objective(found.cost)
+            self.request.on_plan(plan)
 
     def _check(self, result: kairos.SolveResult) -> None:
-        """Take the last plan and the proof, if there is one, or raise what went wrong."""
+        """Take the last plan and the proof, if there is one, or note what went wrong.
+
+        A search that fails does not take away what another one has, or may find.
+        """
         status = result.status.name
         if result.plan is not None:
             self._take(result.plan)
         elif status in ("UNSUPPORTED", "INVALID_INPUT", "INTERNAL_ERROR"):
             words = "; ".join(str(d) for d in result.diagnostics) or status.lower()
+            if _GAVE_UP in words:
+                self.notes.append("a search ended without a plan and without a proof")
+                return
             kind = UnsupportedError if status == "UNSUPPORTED" else PlannerError
-            raise kind(f"kairos: {words}")
+            self.failures.append(kind(f"kairos: {words}"))
         if result.stop_reason.name == "PROVEN_OPTIMAL":
-            self.proven = self.best is not None and self._proves()
+            self.proven = self._proves()
 
     def _proves(self) -> bool:
         """Return whether kairos' proof is one for our metric.
@@ -164,10 +176,14 @@ class _Portfolio:
         actions, and ours is the cost, if there is one.
         """
         problem = self.request.problem
-        if problem.domain.is_temporal:
+        if problem.domain.is_temporal or self.best is None:
             return False
         if self.lowered is not None:
-            return self.lowered.exact_for_metric
+            small = self.lowered.fits(_FLOAT_BITS, self.best[0])
+            return self.lowered.exact_for_metric and small
+        exact = prices_exactly(problem, _FLOAT_BITS, self.best[0])
+        if not (exact and decides_exactly(problem, _FLOAT_BITS) and never_lowers_cost(problem)):
+            return False
         if problem.metric is None:
             return TOTAL_COST not in problem.domain.functions
         return problem.metric == Function(TOTAL_COST) and not problem.maximize
@@ -180,9 +196,7 @@ class _Portfolio:
         value = Fraction(cost).limit_denominator(_DECIMALS)
         if self.lowered is not None:
             return self.lowered.objective(value)
-        if self.request.weighs_time and not problem.domain.is_temporal:
-            return None  # it counts actions as time, we count none
-        return exact(value)
+        return int(value) if value.denominator == 1 else value
 
     def _answer(self) -> Answer:
         if self.best is not None:
@@ -191,7 +205,19 @@ class _Portfolio:
         if self.invalid is not None:
             message = f"kairos gave only invalid plans: {self.invalid.reason}"
             raise PlannerError(message, code="invalid-plan")
-        return Answer(Status.UNSOLVED, note="no search found a plan in time")
+        if self.failures and not self.notes:
+            raise self.failures[0]
+        note = "; ".join(dict.fromkeys(self.notes)) or "no search found a plan in time"
+        return Answer(Status.UNSOLVED, note=note)
+
+    def _unsolvable(self) -> Answer:
+        """Return kairos' claim, if it has no plan, and counts nothing that it may have rounded."""
+        if self.best is not None:
+            return self._answer()
+        if self.lowered is None and not decides_exactly(self.request.problem, _FLOAT_BITS):
+            note = "it says unsolvable, but counts in floating point"
+            return Answer(Status.UNSOLVED, note=note)
+        return Answer(Status.UNSOLVABLE)
 
 
 def _lowered(request: Request) -> Lowered | None:

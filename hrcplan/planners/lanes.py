@@ -7,13 +7,14 @@ whoever does it, the step may move to the other lane.
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from hrcplan.core.numbers import Number
 from hrcplan.pddl.interference import Access, access, clash
 from hrcplan.pddl.model import Action, Problem
-from hrcplan.pddl.semantics import bind, evaluate
+from hrcplan.pddl.semantics import Binding, Undefined, bind, evaluate
 from hrcplan.plans import EPSILON_S, Plan, PlannedAction, occupied
 from hrcplan.task import Task
 
@@ -86,14 +87,40 @@ def _jobs(problem: Problem, plan: Plan) -> list[_Job]:
     ]
 
 
+def with_durations(problem: Problem, plan: Plan) -> Plan:
+    """Return a plan in which every durative action of a free duration has its shortest one.
+
+    Planners without time leave durations open.
+    """
+    schemas = {action.name: action for action in problem.domain.actions}
+    return Plan(tuple(_with_duration(problem, schemas.get(a.name), a) for a in plan.actions))
+
+
+def _with_duration(problem: Problem, schema: Action | None, action: PlannedAction) -> PlannedAction:
+    if schema is None or not schema.durative or action.duration_s is not None:
+        return action
+    binding = bind(schema, action.args, problem)
+    if isinstance(binding, str) or any(op == "=" for op, _ in schema.durations):
+        return action  # validation says what is wrong, or evaluates the duration there
+    with contextlib.suppress(Undefined):
+        return replace(action, duration_s=_shortest(problem, schema, binding))
+    return action
+
+
+def _shortest(problem: Problem, schema: Action, binding: Binding) -> Number:
+    """Return the shortest duration that is allowed in the initial state."""
+    values = [(op, evaluate(expr, problem.values, binding)) for op, expr in schema.durations]
+    least = [value for op, value in values if op in ("=", ">=")]
+    most = [value for op, value in values if op == "<="]
+    return max(least) if least else min(most, default=0)
+
+
 def _duration(problem: Problem, schema: Action, action: PlannedAction) -> Number:
     if not schema.durative:
         return 1
     if action.duration_s is not None:
         return action.duration_s
-    binding = _binding(schema, action, problem)
-    fixed = [expression for op, expression in schema.durations if op in ("=", ">=")]
-    return evaluate(fixed[0], problem.values, binding)
+    return _shortest(problem, schema, _binding(schema, action, problem))
 
 
 def _binding(schema: Action, action: PlannedAction, problem: Problem) -> dict[str, str]:

@@ -28,6 +28,9 @@ MAX_COST = 2**30
 """Sum of all action costs up to which planners with 32-bit integers are safe: no relaxed plan, and
 so no admissible heuristic value, is above it."""
 
+NO_SEQUENCE = "no sequence of actions reaches the goal, one after the other"
+"""What a lowered temporal task without a plan means: concurrency may be needed."""
+
 _FUNCTIONS = "  (:functions (total-cost) - number)\n"
 _START = "    (= (total-cost) 0)\n"
 _METRIC = "  (:metric minimize (total-cost))\n"
@@ -43,7 +46,7 @@ class Lowered:
         problem_text: The problem, with ``(:metric minimize (total-cost))``.
         actions: Lowered names to ground actions, in ground-action order.
         costs: The integer cost of each action, in that order.
-        scale: Integer cost per unit of the problem's metric.
+        scale: Integer cost per unit of the problem's metric; negative where it is to be maximized.
         offset: What the metric adds to every plan, whatever its actions.
         exact_for_metric: Whether the lowered cost is the problem's metric; False where the metric
             of a temporal problem looks at time, or where a temporal problem has no metric.
@@ -87,6 +90,14 @@ class Lowered:
         problem = self.problem_text.replace(_METRIC, "").replace(_START, "")
         return re.sub(r" \(increase \(total-cost\) \d+\)", "", domain), problem
 
+    def fits(self, bits: int, metric: Number) -> bool:
+        """Return whether floats of so many bits hold all costs on the way to a plan exactly.
+
+        A* expands no state that costs more than the plan, and looks one action further.
+        """
+        cost = abs(Fraction(metric - self.offset)) * abs(self.scale)
+        return cost + max(self.costs, default=0) < 1 << bits
+
     @property
     def fits_32_bits(self) -> bool:
         """Whether a planner that adds in 32-bit integers cannot overflow on relaxed plans."""
@@ -97,11 +108,13 @@ def lower(task: Task) -> Lowered:
     """Return a task as grounded classical PDDL, in its sequential reading.
 
     Functions that no action changes are folded into the costs; rational costs are scaled to
-    integers exactly; zero costs stay zero. A metric's part in ``total-time`` is left out.
+    integers exactly; zero costs stay zero. ``total-time`` counts the actions of a classical task;
+    a temporal metric's part in it is left out.
 
     Raises:
-        UnsupportedError: if the metric is to be maximized, is not a sum, or makes an action's cost
-            negative; or if an end effect depends on what another start effect decides.
+        UnsupportedError: if the metric is not a sum, or makes an action's cost negative (one that
+            is to be maximized: positive); or if an end effect depends on what another start effect
+            decides.
 
     >>> from hrcplan import ground
     >>> lowered = lower(ground("transport", "two-boxes"))
@@ -113,6 +126,7 @@ def lower(task: Task) -> Lowered:
     metric = _metric(task)
     scale = lcm(*(Fraction(price).denominator for price in metric.prices))
     costs = tuple(int(price * scale) for price in metric.prices)
+    scale = -scale if task.problem.maximize else scale
     names = _Names(task.problem.domain.name, task.problem.name)
     facts = [names.take(_fact_words(fact)) for fact in task.facts]
     actions = {names.take((a.name, *a.args)): a for a in task.actions}
@@ -145,8 +159,6 @@ def _metric(task: Task) -> _Metric:
     started = problem.values.get((TOTAL_COST,), 0)
     if problem.metric is None:
         return _Metric(_weighted(task, 1), started, not temporal)
-    if problem.maximize:
-        raise UnsupportedError("the metric is to be maximized; classical planners minimize a cost")
     parts = linear(problem.metric, {})
     if parts is None:
         raise UnsupportedError(f"the metric {problem.metric} is not a weighted sum")
@@ -160,18 +172,24 @@ def _metric(task: Task) -> _Metric:
         if key and key not in problem.values:
             raise UnsupportedError(f"the metric looks at ({' '.join(key)}), which has no value")
         offset += factor * (problem.values[key] if key else 1)
-    timed = temporal and bool(parts.get((TOTAL_TIME,), 0))
-    if timed and not weight:
+    step = parts.get((TOTAL_TIME,), 0)
+    if temporal and step and not weight:
         return _Metric([a.duration or 0 for a in task.actions], offset, False)
-    return _Metric(_weighted(task, weight), offset, not timed)
+    return _Metric(
+        _weighted(task, weight, 0 if temporal else step), offset, not (temporal and step)
+    )
 
 
-def _weighted(task: Task, weight: Number) -> Sequence[Number]:
-    prices = [weight * cost for cost in task.costs]
+def _weighted(task: Task, weight: Number, step: Number = 0) -> Sequence[Number]:
+    """Return what each action adds to the metric, with the sign that is to be minimized."""
+    sign = -1 if task.problem.maximize else 1
+    prices = [sign * (weight * cost + step) for cost in task.costs]
     for action, price in zip(task.actions, prices, strict=True):
         if price < 0:
-            message = f"{action} costs {decimal_text(price)}; negative costs cannot be lowered"
-            raise UnsupportedError(message, hint="enhsp and kairos take the task as it is")
+            cannot = f"{action} costs {decimal_text(price)}; negative costs cannot be lowered"
+            if task.problem.maximize:
+                cannot = f"{action} adds {decimal_text(-price)} to the metric, which is maximized"
+            raise UnsupportedError(cannot, hint="uniform-cost takes such tasks if they are small")
     return prices
 
 

@@ -12,6 +12,7 @@ BUILT_IN = {
     "exact": "hrcplan.planners.exact:ExactPlanner",
     "kairos": "hrcplan.planners.kairos:Kairos",
     "enhsp": "hrcplan.planners.enhsp:Enhsp",
+    "uniform-cost": "hrcplan.planners.uniform_cost:UniformCost",
 }
 PLANNERS: Registry[[], Planner] = Registry(
     "planner",

@@ -5,7 +5,8 @@ from fractions import Fraction
 import pytest
 
 from hrcplan.core.numbers import Number
-from hrcplan.errors import PlannerError, UsageError
+from hrcplan.errors import HrcplanError, LimitError, UsageError
+from hrcplan.pddl.generate import with_goal
 from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import FluentKey, Problem
 from hrcplan.planners.allocation import Diagram, Line, diagram, line_of
@@ -100,5 +101,18 @@ def test_what_makes_no_sense_is_refused(two_boxes: Problem) -> None:
         diagram(two_boxes, ("motivation", "nobody"))
     with pytest.raises(UsageError):
         diagram(two_boxes, MOTIVATION, 5, 5)
-    with pytest.raises(PlannerError, match="no proven plan"):
-        diagram(two_boxes, MOTIVATION, planner="kairos", timeout_s=2)
+
+
+def test_without_proofs_it_is_approximate(two_boxes: Problem) -> None:
+    found = diagram(two_boxes, MOTIVATION, planner="kairos", timeout_s=2)
+    assert not found.is_proven
+    assert_concave(found)
+    assert diagram(two_boxes, MOTIVATION).is_proven
+
+
+def test_no_plan_is_told_from_no_time(two_boxes: Problem) -> None:
+    with pytest.raises(HrcplanError) as caught:
+        diagram(with_goal(two_boxes, "(and (free human) (holding human green))", "no"), MOTIVATION)
+    assert caught.value.exit_code == 1
+    with pytest.raises(LimitError):
+        diagram(two_boxes, MOTIVATION, timeout_s=1e-9)

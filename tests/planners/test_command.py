@@ -11,9 +11,10 @@ from hrcplan.errors import MissingPlannerError, PlannerError, UsageError
 from hrcplan.pddl.generate import with_goal
 from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import Problem
-from hrcplan.planners.command import CommandPlanner, best_of, find_plans
+from hrcplan.planners.command import CommandPlanner, best_of
 from hrcplan.planners.contract import Answer, Request, Status
 from hrcplan.planners.enhsp import _JAR, _inside, find_java
+from hrcplan.plans import find_plans
 from hrcplan.validation import validate
 
 KAIROS = str(Path(sys.executable).with_name("kairos"))

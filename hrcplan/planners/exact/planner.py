@@ -78,6 +78,7 @@ class ExactPlanner:
             metric="cost+time",
             proves=True,
             limits=True,
+            own=True,
         )
         self._kept: list[_Kept] = []
 

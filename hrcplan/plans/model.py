@@ -1,28 +1,19 @@
-"""Plans and their text: sequential ``(move human wp1 wp2)``, or with times and durations.
+"""Plans: ground actions in order, or with times and durations.
 
 A plan with times is a *schedule*; every action belongs to the *lane* of its agent.
 """
 
 from __future__ import annotations
 
-import os
-import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 
-from hrcplan.core.numbers import Number, decimal_of, to_number
-from hrcplan.core.text import quote, type_text
-from hrcplan.errors import PlanFormatError
+from hrcplan.core.numbers import Number, decimal_of
 from hrcplan.pddl.model import Problem
-from hrcplan.pddl.source import read_text
 
 EPSILON_S = Fraction(1, 1000)
 """Smallest gap, in seconds, between two happenings that interfere."""
-
-_LINE = re.compile(
-    r"(?:(?P<start>[^\s:()]+)\s*:)?\s*\(\s*(?P<words>[^()]*?)\s*\)\s*(?:\[\s*(?P<duration>[^\s\]]+)\s*\])?"
-)
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,62 +99,3 @@ def seconds_text(seconds: Number) -> str:
     """Return seconds with three decimals, or more (at most nine) where three lose something."""
     whole, _, decimals = decimal_of(Fraction(seconds), 9).partition(".")
     return f"{whole}.{decimals:0<3}"
-
-
-def parse_plan(text: str, path: str = "<plan>") -> Plan:
-    """Return the plan that a text in IPC format describes; comments start with ``;``.
-
-    Raises:
-        PlanFormatError: naming the first line that is no action, or that mixes formats.
-    """
-    actions: list[PlannedAction] = []
-    for number, line in enumerate(text.lower().splitlines(), start=1):
-        body = line.split(";", 1)[0].strip()
-        if not body:
-            continue
-        action = _parse_line(body)
-        if action is None:
-            message = f"{quote(body)} is not an action of a plan"
-            hint = "lines look like (move human wp1 wp2) or 0.000: (move human wp1 wp2) [50.000]"
-            raise PlanFormatError(message, path=path, line=number, hint=hint)
-        if actions and (action.start_s is None) != (actions[0].start_s is None):
-            message = "some actions have a start time and some have none"
-            raise PlanFormatError(message, path=path, line=number)
-        actions.append(action)
-    return Plan(tuple(sorted(actions, key=lambda a: a.start_s or 0)))
-
-
-def as_plan(plan: Plan | str | os.PathLike[str]) -> Plan:
-    """Return a `Plan` as it is, and the plan of a text in IPC format or of a file.
-
-    A string is text if it holds a parenthesis or a line break, or is blank; else it is a path.
-
-    Raises:
-        PlanFormatError: if the text is no plan.
-        InputError: if the file is missing or unreadable.
-        TypeError: if it is something else.
-
-    >>> as_plan("(move human wp1 wp2)").actions[0].args
-    ('human', 'wp1', 'wp2')
-    """
-    if isinstance(plan, Plan):
-        return plan
-    if isinstance(plan, str) and (not plan.strip() or any(c in plan for c in "(\n")):
-        return parse_plan(plan)
-    if isinstance(plan, (str, os.PathLike)):
-        path = os.fspath(plan)
-        return parse_plan(read_text(path), path)
-    raise TypeError(f"a plan is a Plan, its text, or a file's path, not {type_text(plan)}")
-
-
-def _parse_line(body: str) -> PlannedAction | None:
-    match = _LINE.fullmatch(body)
-    words = match["words"].split() if match else []
-    if match is None or not words:
-        return None
-    start = None if match["start"] is None else to_number(match["start"])
-    duration = None if match["duration"] is None else to_number(match["duration"])
-    unreadable = (match["start"] and start is None) or (match["duration"] and duration is None)
-    if unreadable or (start or 0) < 0 or (duration or 0) < 0 or (start is None and duration):
-        return None
-    return PlannedAction(words[0], tuple(words[1:]), start, duration)

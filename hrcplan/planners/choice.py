@@ -1,0 +1,118 @@
+"""Which planners can hold a task, and in which order they are asked."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from hrcplan.errors import LimitError, MissingPlannerError, UnsupportedError, UsageError
+from hrcplan.pddl.model import TOTAL_COST
+from hrcplan.planners import registry
+from hrcplan.planners.contract import Capabilities, Planner, Request
+
+_SEQUENCES = ("fast-downward", "enhsp")
+"""Planners that read a temporal task as a sequence of actions, and that search in two ways: for a
+proof, and for plans without one."""
+
+# Built-in jobs, the most promising first; True stands for the search without a proof.
+_ANY = (("kairos", True), ("fast-downward", True), ("enhsp", True), ("exact", True))
+_BEST = (
+    ("exact", False),
+    ("fast-downward", False),
+    ("kairos", False),
+    ("fast-downward", True),
+    ("uniform-cost", False),
+    ("enhsp", True),
+    ("enhsp", False),
+)
+
+
+@dataclass(frozen=True)
+class Job:
+    """One planner to be asked: for its first plan, or for the best one; and why it is asked."""
+
+    planner: Planner
+    any_plan: bool
+    why: str
+
+    @property
+    def name(self) -> str:
+        """The planner's name."""
+        return self.planner.card.name
+
+
+def jobs(request: Request) -> list[Job]:
+    """Return what to ask for a request, the most promising jobs first.
+
+    Raises:
+        UnsupportedError: if no planner here can hold the task.
+    """
+    planners = [planner for name in registry.names() for planner in _loaded(name)]
+    able = [p for p in planners if unable(p.card, request) is None and p.missing() is None]
+    if not able:
+        raise UnsupportedError("no planner here can hold this task")
+    found = [Job(p, any_plan, _merit(p.card, request, any_plan))
+             for p in able for any_plan in _modes(p.card, request)]  # fmt: skip
+    return sorted(found, key=lambda job: _rank(job, request))
+
+
+def _modes(card: Capabilities, request: Request) -> tuple[bool, ...]:
+    """Return in which ways to ask a planner: for any plan (True), for the best one (False)."""
+    if request.any_plan:
+        return (True,)
+    return (False, True) if card.name in _SEQUENCES else (False,)
+
+
+def _loaded(name: str) -> Iterator[Planner]:
+    """Yield the planner of a name, unless its package is broken: ``auto`` goes on without it."""
+    try:
+        yield registry.make(name)
+    except (MissingPlannerError, UsageError):
+        return
+
+
+def unable(card: Capabilities, request: Request) -> str | None:
+    """Return why a planner cannot hold a request, by its card; None if it may."""
+    domain = request.problem.domain
+    if domain.is_temporal and not card.temporal and card.name not in _SEQUENCES:
+        return "it plans without time"
+    if not domain.is_temporal and not card.classical:
+        return "it plans with time only"
+    if not card.numeric and _is_numeric(request):
+        return "it holds no numbers that actions change"
+    return None
+
+
+def _is_numeric(request: Request) -> bool:
+    if request.problem.domain.changed_functions <= {TOTAL_COST}:
+        return False
+    try:
+        return request.task is None
+    except (UnsupportedError, LimitError):
+        return True
+
+
+def _rank(job: Job, request: Request) -> tuple[bool, float]:
+    """Return a sort key for jobs: built-in ones by the table, others by what they can prove."""
+    card, order = job.planner.card, _ANY if request.any_plan else _BEST
+    sequences = request.problem.domain.is_temporal and not card.temporal
+    late = card.own and card.numeric and _is_numeric(request)  # it has no heuristic
+    key = (card.name, job.any_plan)
+    if key in order:
+        return (sequences or late, order.index(key))
+    return (sequences or late, 0.5 if proves(card, request) else len(order))
+
+
+def proves(card: Capabilities, request: Request) -> bool:
+    """Return whether a planner can prove optimality for the metric of a request."""
+    if request.problem.domain.is_temporal and not card.temporal:
+        return False
+    return card.proves and (card.metric == "cost+time" or not request.weighs_time)
+
+
+def _merit(card: Capabilities, request: Request, any_plan: bool) -> str:
+    if any_plan:
+        return "any plan is enough" if request.any_plan else "it finds plans quickly"
+    if proves(card, request):
+        return f"it proves optimality for {card.metric}"
+    return "it can hold this task but proves nothing"

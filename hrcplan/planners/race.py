@@ -1,0 +1,173 @@
+"""Planners side by side: each job in a worker of its own, within the limits of one request."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import selectors
+import signal
+import threading
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+
+from hrcplan.errors import HrcplanError, LimitError, PlannerError
+from hrcplan.planners.choice import Job
+from hrcplan.planners.contract import Answer, Request, Status
+from hrcplan.planners.portfolio import Portfolio
+from hrcplan.planners.result import Result, ask, checked
+from hrcplan.planners.workers import Send, Worker, end
+from hrcplan.plans import Plan
+
+OnBetter = Callable[[Result], None]
+"""Is told of every plan that is better than those before it."""
+
+OVERTIME_S = 0.4
+"""What a planner that ends at the deadline may take to report."""
+LATER = (1 / 30, 1 / 6, 1 / 3)
+"""When one more job than there are cores may start, as parts of the whole time."""
+_TICK_S = 0.1
+
+
+def can_race() -> bool:
+    """Return whether planners can run side by side here: copies need a process of one thread."""
+    return threading.active_count() == 1 and threading.current_thread() is threading.main_thread()
+
+
+def cores() -> int:
+    """Return how many processors this process may use."""
+    return len(os.sched_getaffinity(0))
+
+
+@dataclass(frozen=True, slots=True)
+class _Improvement:
+    """A plan of a planner that goes on."""
+
+    result: Result
+
+
+@dataclass
+class _Lane:
+    """A job at work."""
+
+    job: Job
+    worker: Worker
+    has_answered: bool = False
+    begun: float = field(default_factory=time.monotonic)
+
+
+def race(request: Request, waiting: Sequence[Job], lanes: bool, on_better: OnBetter) -> Portfolio:
+    """Return what jobs say that run side by side until the result is settled or time is up.
+
+    As many as there are cores (two at least) run at the same time, those that stand first begin.
+    They share the memory of the request.
+    """
+    return _Race(request, waiting, lanes, on_better).run()
+
+
+class _Race:
+    """The jobs at work, the jobs that wait, and what they have said."""
+
+    def __init__(
+        self, request: Request, waiting: Sequence[Job], lanes: bool, on_better: OnBetter
+    ) -> None:
+        self.request = request
+        self.portfolio = Portfolio(request)
+        self._waiting = list(waiting)
+        self._slots = max(2, cores())
+        self._lanes: list[_Lane] = []
+        self._ready = selectors.PollSelector()
+        self._in_lanes = lanes
+        self._on_better = on_better
+        self._begun = time.monotonic()
+        most = min(len(waiting), self._slots + len(LATER))
+        self._memory = request.memory_bytes // max(1, most)
+
+    def run(self) -> Portfolio:
+        """Return the portfolio once it is settled, all jobs have ended, or time is up."""
+        stop_at = self.request.deadline + OVERTIME_S
+        try:
+            while (self._lanes or self._waiting) and not self.portfolio.is_settled:
+                self._start()
+                if time.monotonic() >= stop_at:
+                    break
+                self._step(min(_TICK_S, max(0.0, stop_at - time.monotonic())))
+        finally:
+            end([lane.worker for lane in self._lanes])
+            self._ready.close()
+        return self.portfolio
+
+    def _start(self) -> None:
+        """Begin jobs as long as there is room and time for them."""
+        passed = time.monotonic() - self._begun
+        whole = self.request.deadline - self._begun
+        room = self._slots + sum(passed > part * whole for part in LATER)
+        while self._waiting and len(self._lanes) < room and self.request.time_left_s > 0:
+            job = self._waiting.pop(0)
+            request = replace(
+                self.request,
+                memory_bytes=self._memory,
+                any_plan=job.any_plan or self.request.any_plan,
+            )
+            lane = _Lane(job, Worker(_work(job, request, self._in_lanes)))
+            self._lanes.append(lane)
+            self._ready.register(lane.worker.fd, selectors.EVENT_READ, lane)
+        if self.request.time_left_s <= 0:
+            self._waiting.clear()
+
+    def _step(self, wait_s: float) -> None:
+        """Wait for what the jobs say, and take it."""
+        for key, _ in self._ready.select(wait_s):
+            lane = key.data
+            for message in lane.worker.receive():
+                self._take(lane, message)
+            if lane.worker.is_over:
+                self._remove(lane)
+        for lane in [lane for lane in self._lanes if lane.worker.exceeds(self._memory)]:
+            lane.worker.signal(signal.SIGKILL)
+            self._take(lane, LimitError(f"stopped: more than {self._memory >> 20} MiB of memory"))
+
+    def _take(self, lane: _Lane, message: object) -> None:
+        before = self.portfolio.best
+        match message:
+            case _Improvement(result):
+                self.portfolio.take_plan(result)
+            case Result() as result:
+                lane.has_answered = True
+                self.portfolio.take(result)
+            case HrcplanError() as error if not lane.has_answered:
+                lane.has_answered = True
+                wall_s = time.monotonic() - lane.begun
+                self.portfolio.take_failure(lane.job.name, error, wall_s)
+        best = self.portfolio.best
+        goes_on = len(self._lanes) > 1 or isinstance(message, _Improvement)
+        if best is not None and best is not before and goes_on and not self.portfolio.is_settled:
+            self._on_better(best)
+
+    def _remove(self, lane: _Lane) -> None:
+        self._take(lane, PlannerError(f"{lane.job.name} ended without an answer"))
+        self._ready.unregister(lane.worker.fd)
+        self._lanes.remove(lane)
+        lane.worker.close()
+
+
+def _work(job: Job, request: Request, lanes: bool) -> Callable[[Send], None]:
+    """Return what a worker does: ask a planner, and send its plans and its answer, checked."""
+
+    def work(send: Send) -> None:
+        def on_plan(plan: Plan) -> None:
+            answer = Answer(Status.SOLVED, plan)
+            with contextlib.suppress(PlannerError):
+                card, problem = job.planner.card, request.problem
+                send(_Improvement(checked(card, problem, answer, lanes, job.why)))
+
+        try:
+            send(ask(job.planner, replace(request, on_plan=on_plan), lanes, job.why))
+        except HrcplanError as error:
+            send(error)
+        except MemoryError:
+            send(LimitError("stopped: out of memory"))
+        except Exception as error:  # noqa: BLE001  an installed planner may raise anything
+            send(PlannerError(f"{job.name} failed: {type(error).__name__}: {error}"))
+
+    return work

@@ -1,0 +1,208 @@
+"""The one checked result type: a planner's answer after a replay of its plan."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+from hrcplan.core.numbers import Number, exact, number_text
+from hrcplan.errors import CostGuardError, MissingPlannerError, PlannerError
+from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, Problem
+from hrcplan.pddl.semantics import Undefined, evaluate
+from hrcplan.planners.contract import Answer, Capabilities, Planner, Request, Status
+from hrcplan.planners.lanes import schedule, with_durations
+from hrcplan.plans import EPSILON_S, Plan
+from hrcplan.validation import Report, objective, validate
+
+_TOLERANCE = 1e-6  # relative; planners print metrics with a few decimals
+_ROUNDING = 2e-3
+
+
+@dataclass(frozen=True, slots=True)
+class Attempt:
+    """One planner's turn: what came of it, in a few words."""
+
+    planner: str
+    outcome: str
+    wall_s: float
+
+
+@dataclass(frozen=True, slots=True)
+class Result:
+    """A checked answer: the plan was replayed, its cost is hrcplan's own.
+
+    Attributes:
+        status: What is certain: a claim of a planner that nothing confirms is not in here.
+        planner: Who found the plan, or made the claim.
+        plan: The plan; None if there is none.
+        report: Its replay.
+        wall_s: Seconds that the call took.
+        why: Why that planner was asked.
+        attempts: What came of every planner that was asked, in the order in which they ended.
+        shortest: Of a sequential plan laid into lanes: whether its makespan is proven minimal for
+            its partial order (steps that interfere stay in the plan's order).
+        objective: What planners minimize here: the metric, else makespan or cost.
+        gaps: How much of the objective may be due to the gaps between actions.
+        bound: What no plan can be better than, in units of the objective; None if not known.
+        claim: What the planner itself said.
+        mismatch: How the planner's figure differs from the plan's; None if it does not.
+    """
+
+    status: Status
+    planner: str
+    plan: Plan | None
+    report: Report | None
+    wall_s: float
+    why: str
+    attempts: tuple[Attempt, ...] = ()
+    shortest: bool | None = None
+    objective: Number | None = None
+    gaps: Number = 0
+    bound: Number | None = None
+    claim: Status | None = None
+    mismatch: str | None = None
+
+    @property
+    def gap(self) -> float | None:
+        """How far the objective is from ``bound``, relative to it; None where that means nothing.
+
+        0 if the plan is proven optimal: gaps between its actions are not counted.
+        """
+        if self.objective is None or self.bound is None or self.bound <= 0:
+            return None
+        if self.status is Status.OPTIMAL:
+            return 0.0
+        apart = abs(Fraction(self.objective - self.bound)) - self.gaps
+        return round(max(0.0, float(apart / Fraction(self.bound))), 9)
+
+
+def ask(planner: Planner, request: Request, lanes: bool, why: str) -> Result:
+    """Return the checked answer of one planner.
+
+    Raises:
+        UnsupportedError: if it cannot hold the task.
+        MissingPlannerError: if it is not installed.
+        PlannerError: if it crashes, or its plan is invalid.
+        LimitError: if the task could not be made ready within the limits.
+    """
+    missing = planner.missing()
+    if missing is not None:
+        raise MissingPlannerError(f"planner '{planner.card.name}' cannot run here: {missing}")
+    begun = time.monotonic()
+    answer = planner.solve(request)
+    found = checked(planner.card, request.problem, answer, lanes, why)
+    wall_s = time.monotonic() - begun
+    notes = [note for note in (answer.note, found.mismatch) if note]
+    attempts = tuple(Attempt(planner.card.name, note, wall_s) for note in notes)
+    return replace(found, wall_s=wall_s, attempts=attempts)
+
+
+def is_better(problem: Problem, one: Number | None, other: Number | None) -> bool:
+    """Return whether an objective is better than another one; any is better than None."""
+    if one is None or other is None:
+        return one is not None
+    return one > other if problem.metric is not None and problem.maximize else one < other
+
+
+def checked(card: Capabilities, problem: Problem, answer: Answer, lanes: bool, why: str) -> Result:
+    """Return an answer as a result: its plan laid into lanes if need be, and replayed.
+
+    A proof counts only if the planner's figure is that of the plan. "Unsolvable" is no more than a
+    claim, unless a search of hrcplan's own says so.
+
+    Raises:
+        PlannerError: if the plan is invalid.
+    """
+    found = Result(
+        answer.status, card.name, None, None, 0, why, bound=answer.bound, claim=answer.status
+    )
+    if answer.plan is None:
+        sure = answer.status is not Status.UNSOLVABLE or card.own
+        return found if sure else replace(found, status=Status.UNSOLVED)
+    plan = with_durations(problem, answer.plan)
+    report = validate(problem, plan)
+    _demand_valid(card, report)
+    mismatch = _mismatch(card, answer.objective, objective(problem, report))
+    shortest = None
+    if not plan.is_schedule and (lanes or problem.domain.is_temporal):
+        plan, shortest = schedule(problem, plan)
+        report = validate(problem, plan)
+        _demand_valid(card, report)
+    value = objective(problem, report)
+    proven = answer.status is Status.OPTIMAL and mismatch is None
+    bound = (value if answer.bound is None else answer.bound) if proven else answer.bound
+    return replace(
+        found, plan=plan, report=report, shortest=shortest, objective=value, bound=bound,
+        status=Status.OPTIMAL if proven else Status.SOLVED,
+        gaps=_gaps(problem, plan), mismatch=mismatch,
+    )  # fmt: skip
+
+
+def _demand_valid(card: Capabilities, report: Report) -> None:
+    if not report.valid:
+        message = f"planner '{card.name}' gave an invalid plan: {report.reason}"
+        raise PlannerError(message, code="invalid-plan")
+
+
+def _mismatch(card: Capabilities, theirs: Number | None, ours: Number | None) -> str | None:
+    if theirs is None or ours is None or not _differ(theirs, ours):
+        return None
+    return (
+        f"planner '{card.name}' reports {number_text(theirs)} for a plan that costs "
+        f"{number_text(ours)}"
+    )
+
+
+def _differ(theirs: Number, ours: Number) -> bool:
+    apart, size = abs(Fraction(theirs - ours)), abs(Fraction(ours))
+    return apart > Fraction(_ROUNDING) + Fraction(_TOLERANCE) * size
+
+
+def _gaps(problem: Problem, plan: Plan) -> Number:
+    """Return what gaps of ``EPSILON_S`` can add to the objective of a schedule."""
+    if not problem.domain.is_temporal:
+        return 0
+    gaps = EPSILON_S * len(plan.actions)
+    if problem.metric is None:
+        return gaps
+    values = {**problem.values, (TOTAL_COST,): 0}
+    try:
+        late, early = (
+            evaluate(problem.metric, {**values, (TOTAL_TIME,): time}, {}) for time in (gaps, 0)
+        )
+    except Undefined:
+        return 0
+    return exact(max(late - early, early - late))
+
+
+def compare(results: Sequence[Result]) -> None:
+    """Hold results of several planners for one problem against each other.
+
+    Raises:
+        CostGuardError: if a planner's figure is not that of its plan, a plan is better than a
+            proven one, two proven ones differ, or a task that is claimed unsolvable has a validated
+            plan. The message names both planners.
+    """
+    for result in results:
+        if result.mismatch is not None:
+            raise CostGuardError(result.mismatch)
+    for result in (r for r in results if r.plan is not None):
+        for other in results:
+            if other.claim is Status.UNSOLVABLE:
+                message = f"'{other.planner}' says unsolvable, '{result.planner}' has a valid plan"
+                raise CostGuardError(message)
+            if other.status is Status.OPTIMAL:
+                _compare_values(result, other)
+
+
+def _compare_values(result: Result, proven: Result) -> None:
+    mine, theirs = result.objective, proven.objective
+    if mine is None or theirs is None:
+        return
+    if mine < theirs - proven.gaps and _differ(mine, theirs):
+        raise CostGuardError(
+            f"'{proven.planner}' claims {number_text(theirs)} is optimal, but "
+            f"'{result.planner}' has a plan for {number_text(mine)}"
+        )

@@ -1,0 +1,123 @@
+"""Work in a copy of this process: it can be ended at any time, and ends with this process.
+
+A fork shares what was grounded already, and starts within milliseconds. What the copy finds comes
+back through a pipe.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import gc
+import os
+import pickle
+import signal
+import time
+from collections.abc import Callable, Sequence
+from typing import NoReturn
+
+from hrcplan.planners.guard import PR_SET_PDEATHSIG, proportional, resident
+
+Send = Callable[[object], None]
+Work = Callable[[Send], None]
+"""What a copy does: it sends what it finds with the function that it is given."""
+
+GRACE_S = 0.5
+"""Between the request to end, in which a planner's processes are cleared up, and a kill."""
+_LENGTH = 8
+
+
+class Worker:
+    """A copy of this process that does some work; ``fd`` can be waited for.
+
+    Use it from a process with one thread: locks that other threads hold stay locked in the copy.
+    """
+
+    def __init__(self, work: Work) -> None:
+        self.fd, write = os.pipe()
+        parent = os.getpid()
+        self.pid = os.fork()
+        if self.pid == 0:
+            _become(work, write, parent)
+        os.close(write)
+        self._pending = bytearray()
+        self.is_over = False
+
+    def receive(self) -> list[object]:
+        """Return what has arrived; at the end of the work ``is_over`` is set."""
+        piece = os.read(self.fd, 1 << 20)
+        self._pending += piece
+        self.is_over = not piece
+        found: list[object] = []
+        while len(self._pending) >= _LENGTH:
+            end = _LENGTH + int.from_bytes(self._pending[:_LENGTH], "little")
+            if len(self._pending) < end:
+                break
+            found.append(pickle.loads(bytes(self._pending[_LENGTH:end])))
+            del self._pending[:end]
+        return found
+
+    def exceeds(self, memory_bytes: int) -> bool:
+        """Return whether it uses more memory than this; what it shares counts in part."""
+        return resident(self.pid) > memory_bytes and proportional(self.pid) > memory_bytes
+
+    def signal(self, number: int) -> None:
+        """Send a signal, unless it has ended."""
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(self.pid, number)
+
+    def close(self) -> None:
+        """Forget a worker that has ended."""
+        os.close(self.fd)
+        with contextlib.suppress(ChildProcessError):
+            os.waitpid(self.pid, 0)
+
+
+def end(workers: Sequence[Worker]) -> None:
+    """End workers and all that they have started: asked first, killed after ``GRACE_S``."""
+    for worker in workers:
+        worker.signal(signal.SIGTERM)
+    deadline = time.monotonic() + GRACE_S
+    waiting = list(workers)
+    while waiting and time.monotonic() < deadline:
+        waiting = [worker for worker in waiting if os.waitid(
+            os.P_PID, worker.pid, os.WEXITED | os.WNOHANG | os.WNOWAIT) is None]  # fmt: skip
+        time.sleep(0.005 if waiting else 0)
+    for worker in waiting:
+        worker.signal(signal.SIGKILL)
+    for worker in workers:
+        worker.close()
+
+
+class _Ended(BaseException):
+    """The worker was asked to end; not an Exception, so that nothing on the way handles it."""
+
+
+def _become(work: Work, write: int, parent: int) -> NoReturn:
+    """Do the work in this forked copy, and end."""
+    try:
+        gc.freeze()  # what is shared stays shared
+        os.setpgid(0, 0)  # Ctrl-C in a terminal is for the parent alone
+        quiet = os.open(os.devnull, os.O_RDWR)
+        for stream in (0, 1, 2):  # what libraries print while they are ended is of no use
+            os.dup2(quiet, stream)
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        signal.signal(signal.SIGTERM, _raise)
+        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM, 0, 0, 0)
+        if os.getppid() == parent:
+            work(lambda message: _send(write, message))
+    except BaseException:  # noqa: BLE001  the parent sees that the work has ended
+        pass
+    finally:
+        os._exit(0)
+
+
+def _raise(number: int, frame: object) -> NoReturn:
+    raise _Ended
+
+
+def _send(write: int, message: object) -> None:
+    payload = pickle.dumps(message)
+    left = memoryview(len(payload).to_bytes(_LENGTH, "little") + payload)
+    while left:
+        left = left[os.write(write, left) :]
