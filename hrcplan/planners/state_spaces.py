@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Hashable, Iterator
 from fractions import Fraction
 from typing import Protocol
 
 from hrcplan.core.numbers import Number, exact
-from hrcplan.errors import LimitError
 from hrcplan.pddl.model import (
     TOTAL_COST,
     TOTAL_TIME,
@@ -87,7 +85,6 @@ class LiftedSpace:
 
     def __init__(self, problem: Problem, deadline: float) -> None:
         self._problem = problem
-        self._deadline = deadline
         self._instances = reachable(problem, deadline)[0]
         self._counts_cost = _looks_at_cost(problem)
         self.has_negative_costs = not never_lowers_cost(problem)
@@ -108,8 +105,6 @@ class LiftedSpace:
 
     def successors(self, state: Hashable) -> Iterator[tuple[PlannedAction, Number, Hashable]]:
         """Yield the actions that can run in a state, what each costs, and the state after it."""
-        if time.monotonic() > self._deadline:
-            raise LimitError("out of time")
         before, problem = self._lifted(state), self._problem
         for action, args, binding in self._instances:
             try:

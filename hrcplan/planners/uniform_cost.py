@@ -24,7 +24,6 @@ from hrcplan.plans import Plan, PlannedAction
 from hrcplan.task.numbers import linear
 
 MAX_STATES = 400_000
-_CHECK = 0xFF  # states between two looks at the clock
 
 
 class UniformCost:
@@ -142,15 +141,13 @@ class _Search:
         self.reached[start] = _Reached(0, None, None)
         queue: list[tuple[Number, int, Hashable]] = [(0, 0, start)]
         ticket = itertools.count(1)  # of states that are equally far, the first one comes first
-        n_expanded = 0
         while queue:
             spent, _, state = heappop(queue)
             if self.reached[state].spent != spent:
                 continue
             if self._is_enough(spent, state):
                 return None
-            n_expanded += 1
-            if n_expanded & _CHECK == 0 and self._is_out_of_bounds():
+            if self._is_out_of_bounds():
                 return spent
             if self.request.any_plan and self.best is not None:
                 return spent

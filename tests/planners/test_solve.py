@@ -20,6 +20,7 @@ from hrcplan.planners import registry
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
 from hrcplan.planners.solve import compare, solve
 from hrcplan.plans import parse_plan
+from tests.worlds import problem_from
 
 GOOD = """\
 0.000: (move human wp1 wp4) [50]
@@ -203,3 +204,17 @@ def test_without_a_metric_a_temporal_plan_is_as_good_as_it_is_short(two_boxes: P
     found = solve(replace(two_boxes, metric=None), Scripted(solved(GOOD)))
     assert found.report is not None
     assert found.objective == found.report.makespan_s
+
+
+FREE = """(define (domain warm) (:requirements :strips :durative-actions)
+  (:predicates (cold) (warm)) (:durative-action heat :parameters ()
+    :duration (and (>= ?duration 2) (<= ?duration 5))
+    :condition (at start (cold)) :effect (at end (warm))))"""
+FREE_PROBLEM = "(define (problem p) (:domain warm) (:init (cold)) (:goal (warm)))"
+
+
+def test_a_planner_without_time_gets_the_shortest_duration_that_is_free() -> None:
+    problem = problem_from(FREE, FREE_PROBLEM)
+    found = solve(problem, Scripted(Answer(Status.SOLVED, parse_plan("(heat)"))))
+    assert found.plan is not None
+    assert [action.duration_s for action in found.plan.actions] == [2]

@@ -1,0 +1,217 @@
+"""What is believed of several planners, and that the best plan that was seen is returned."""
+
+from __future__ import annotations
+
+import os
+import signal
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import pytest
+
+from hrcplan.errors import LimitError, PlannerError, UnsupportedError
+from hrcplan.pddl.inputs import read
+from hrcplan.pddl.model import Problem
+from hrcplan.planners import registry
+from hrcplan.planners.contract import Answer, Capabilities, Request, Status
+from hrcplan.planners.solve import Result, solve
+from hrcplan.plans import Plan, parse_plan
+from tests.worlds import problem_from
+
+WALK = """(define (domain walk) (:requirements :strips :numeric-fluents)
+  (:predicates (at ?p) (link ?p ?q)) (:functions (views))
+  (:action go :parameters (?p ?q) :precondition (and (at ?p) (link ?p ?q))
+    :effect (and (at ?q) (not (at ?p)) (increase (views) 1))))"""
+ABC = """(define (problem p) (:domain walk) (:objects a b c)
+  (:init (at a) (link a b) (link b c) (link a c) (= (views) 0)) (:goal (at c)) METRIC)"""
+SHORT, LONG = "(go a c)", "(go a b) (go b c)"
+
+
+@dataclass
+class Actor:
+    """A planner that does what it was told to."""
+
+    name: str
+    act: Callable[[Request], Answer]
+    card: Capabilities = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.card = Capabilities(self.name, "acts", numeric=True, proves=True)
+
+    def missing(self) -> str | None:
+        return None
+
+    def solve(self, request: Request) -> Answer:
+        return self.act(request)
+
+
+def walk(metric: str = "") -> Problem:
+    return problem_from(WALK, ABC.replace("METRIC", metric))
+
+
+def says(status: Status, plan: str | None = None, **more: Any) -> Callable[[Request], Answer]:
+    found = None if plan is None else parse_plan(plan)
+    return lambda request: Answer(status, found, **more)
+
+
+@pytest.fixture
+def cast(monkeypatch: pytest.MonkeyPatch) -> Callable[..., None]:
+    def put(**acts: Callable[[Request], Answer]) -> None:
+        actors = {name: Actor(name, act) for name, act in acts.items()}
+        monkeypatch.setattr(registry, "names", lambda: tuple(actors))
+        monkeypatch.setattr(registry, "make", actors.__getitem__)
+
+    return put
+
+
+def test_one_claim_of_unsolvable_is_not_believed(cast: Callable[..., None]) -> None:
+    cast(one=says(Status.UNSOLVABLE), two=says(Status.UNSOLVED))
+    found = solve(walk(), timeout_s=10)
+    assert found.status is Status.UNSOLVED
+    assert "one said unsolvable" in found.why
+
+
+def test_two_claims_of_unsolvable_are_believed(cast: Callable[..., None]) -> None:
+    cast(one=says(Status.UNSOLVABLE), two=says(Status.UNSOLVABLE))
+    assert solve(walk(), timeout_s=10).status is Status.UNSOLVABLE
+
+
+def test_a_plan_refutes_a_claim_of_unsolvable(cast: Callable[..., None]) -> None:
+    cast(one=says(Status.UNSOLVABLE), two=says(Status.SOLVED, LONG))
+    found = solve(walk(), timeout_s=10)
+    assert (found.status, found.planner) == (Status.SOLVED, "two")
+
+
+def test_a_claim_of_a_planner_that_was_named_is_checked(cast: Callable[..., None]) -> None:
+    cast(one=says(Status.UNSOLVABLE), two=says(Status.SOLVED, LONG))
+    found = solve(walk(), "one", timeout_s=10)
+    assert found.status is Status.UNSOLVED
+    assert any("'two' has a valid plan" in attempt.outcome for attempt in found.attempts)
+
+
+@pytest.mark.parametrize("order", ["better-first", "better-last"])
+def test_the_best_plan_is_returned(order: str, cast: Callable[..., None]) -> None:
+    good, bad = says(Status.SOLVED, SHORT), says(Status.SOLVED, LONG)
+    first, second = (good, bad) if order == "better-first" else (bad, good)
+    cast(one=first, two=second)
+    found = solve(walk(), timeout_s=10)
+    assert (found.objective, found.status) == (1, Status.SOLVED)
+
+
+def test_a_better_plan_refutes_a_proof(cast: Callable[..., None]) -> None:
+    def wrong(request: Request) -> Answer:
+        time.sleep(0.3)
+        return Answer(Status.OPTIMAL, parse_plan(LONG))
+
+    cast(one=wrong, two=says(Status.SOLVED, SHORT))
+    found = solve(walk(), timeout_s=10)
+    assert (found.objective, found.status) == (1, Status.SOLVED)
+
+
+def test_a_bound_and_a_plan_of_two_planners_are_a_proof(cast: Callable[..., None]) -> None:
+    cast(one=says(Status.UNSOLVED, bound=1), two=says(Status.SOLVED, SHORT))
+    found = solve(walk(), timeout_s=10)
+    assert (found.status, found.bound, found.gap) == (Status.OPTIMAL, 1, 0)
+
+
+def test_the_gap_is_relative_to_the_bound(cast: Callable[..., None]) -> None:
+    cast(one=says(Status.UNSOLVED, bound=1), two=says(Status.SOLVED, LONG))
+    found = solve(walk(), timeout_s=10)
+    assert (found.status, found.bound, found.gap) == (Status.SOLVED, 1, 1)
+
+
+def test_of_plans_to_maximize_the_larger_is_better(cast: Callable[..., None]) -> None:
+    cast(one=says(Status.SOLVED, SHORT), two=says(Status.SOLVED, LONG))
+    found = solve(walk("(:metric maximize (views))"), timeout_s=10)
+    assert found.objective == 2
+
+
+def test_plans_on_the_way_are_kept_when_time_is_up(cast: Callable[..., None]) -> None:
+    def slow(request: Request) -> Answer:
+        request.on_plan(parse_plan(LONG))
+        time.sleep(60)
+        raise AssertionError
+
+    cast(one=slow)
+    told: list[Result] = []
+    begun = time.monotonic()
+    found = solve(walk(), timeout_s=0.5, on_better=told.append)
+    assert time.monotonic() - begun < 3
+    assert (found.objective, found.planner) == (2, "one")
+    assert [result.objective for result in told] == [2]
+
+
+def test_an_invalid_plan_on_the_way_counts_for_nothing(cast: Callable[..., None]) -> None:
+    def act(request: Request) -> Answer:
+        request.on_plan(parse_plan("(go b c)"))
+        return Answer(Status.SOLVED, parse_plan(LONG))
+
+    cast(one=act)
+    assert solve(walk(), timeout_s=10).objective == 2
+
+
+def test_a_crash_of_one_leaves_the_others(cast: Callable[..., None]) -> None:
+    def crash(request: Request) -> Answer:
+        os.kill(os.getpid(), signal.SIGKILL)
+        time.sleep(60)
+        raise AssertionError
+
+    cast(one=crash, two=says(Status.SOLVED, SHORT))
+    found = solve(walk(), timeout_s=20)
+    assert found.plan == Plan(parse_plan(SHORT).actions)
+    cast(one=crash)
+    with pytest.raises(PlannerError, match="without an answer"):
+        solve(walk(), timeout_s=20)
+
+
+def test_a_limit_is_told_from_a_refusal(cast: Callable[..., None]) -> None:
+    def declines(request: Request) -> Answer:
+        raise UnsupportedError("it declines")
+
+    def runs_out(request: Request) -> Answer:
+        raise LimitError("too large")
+
+    cast(one=declines, two=says(Status.UNSOLVED, note="no plan in time"))
+    assert solve(walk(), timeout_s=10).status is Status.UNSOLVED
+    cast(one=declines, two=runs_out)
+    with pytest.raises(LimitError):
+        solve(walk(), timeout_s=10)
+    cast(one=declines)
+    with pytest.raises(UnsupportedError):
+        solve(walk(), timeout_s=10)
+
+
+def test_no_planner_outlives_the_call(cast: Callable[..., None]) -> None:
+    seen = os.pipe()
+
+    def stays(request: Request) -> Answer:
+        os.write(seen[1], f"{os.getpid()} ".encode())
+        time.sleep(60)
+        raise AssertionError
+
+    cast(one=stays, two=stays)
+    solve(walk(), timeout_s=0.4)
+    for pid in os.read(seen[0], 100).split():
+        with pytest.raises(ProcessLookupError):
+            os.kill(int(pid), 0)
+
+
+def test_memory_is_for_all_planners_together(cast: Callable[..., None]) -> None:
+    def eats(request: Request) -> Answer:
+        held = bytearray(os.urandom(1 << 20)) * 600
+        time.sleep(60)
+        return Answer(Status.UNSOLVED, note=str(len(held)))
+
+    cast(one=eats, two=says(Status.SOLVED, SHORT))
+    begun = time.monotonic()
+    found = solve(replace(walk()), timeout_s=30, memory_bytes=600 << 20)
+    assert found.objective == 1
+    assert time.monotonic() - begun < 25
+    assert any("memory" in attempt.outcome for attempt in found.attempts)
+
+
+def test_shipped_problems_are_still_proven_by_exact() -> None:
+    found = solve(read("transport", "two-boxes"))
+    assert (found.planner, found.status, found.gap) == ("exact", Status.OPTIMAL, 0)
