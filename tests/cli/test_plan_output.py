@@ -1,4 +1,4 @@
-"""What ``plan`` and ``validate`` print: all actions, the sense of the metric, and places of faults."""
+"""What ``plan`` and ``validate`` print: all actions, the sense of the metric, places of faults."""
 
 from __future__ import annotations
 
