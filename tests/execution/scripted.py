@@ -7,9 +7,8 @@ from hrcplan.execution.model import ExecutionModel
 from hrcplan.execution.monitor import Monitor
 from hrcplan.execution.run import Run
 from hrcplan.pddl.inputs import read
-from hrcplan.planners.solve import objective
 from hrcplan.plans import Plan, parse_plan
-from hrcplan.validation import validate
+from hrcplan.validation import objective, validate
 
 PLAN = """
 0.000: (move robot wp0 wp3) [50]
