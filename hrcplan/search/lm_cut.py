@@ -8,11 +8,10 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from hrcplan.core.bits import positions
-from hrcplan.task import BitEffect
-from hrcplan.task.conditions import Test, Tests, conjunction
+from hrcplan.search.delete_relaxation import RelaxedRule, literals, relaxed_rules
+from hrcplan.task.conditions import Tests
 from hrcplan.task.steps import Operator
 
 MAX_LANDMARKS = 256
@@ -26,15 +25,6 @@ class Landmark:
 
     ops: frozenset[int]
     cost: int
-
-
-@dataclass(slots=True)
-class _Relaxed:
-    """What one op can make true: literals before, literals after; ``group`` is its op."""
-
-    group: int
-    needs: tuple[int, ...]
-    gives: tuple[int, ...]
 
 
 def landmarks(ops: Sequence[Operator], state: int, goal: Tests) -> tuple[Landmark, ...] | None:
@@ -58,50 +48,34 @@ def landmarks(ops: Sequence[Operator], state: int, goal: Tests) -> tuple[Landmar
 
 
 class _Relaxation:
-    """The task without deletes: ``2 i`` says that fact i is true, ``2 i + 1`` that it is false."""
+    """The relaxed task, whose costs are used up by the landmarks that are cut out of it."""
 
     def __init__(self, ops: Sequence[Operator], state: int, goal: Tests) -> None:
-        self.costs = [op.cost for op in ops]
-        changes = [change for op in ops for change in op.effects]
-        tests = [*goal, *(test for op in ops for test in op.tests)]
-        tests += [test for change in changes for test in change.tests]
-        facts = [state, *(mask for mask, _ in tests), *(c.touched for c in changes)]
-        n_facts = max(facts).bit_length()
-        self.goal, self.true, top = 2 * n_facts, 2 * n_facts + 1, 2 * n_facts + 2
-        self.start = {2 * i + (not state >> i & 1) for i in range(n_facts)} | {self.true}
-        self.relaxed: list[_Relaxed] = []
-        for group, op in enumerate(ops):
-            for test in op.tests:
-                for change in op.at_start:
-                    for given in change.tests:
-                        self._add(group, conjunction(test, given), change)
-                for change in op.at_end:  # what it depends on may have been made at the start
-                    self._add(group, test, change)
-        for test in goal:
-            self.relaxed.append(_Relaxed(len(ops), _needs(test, self.true), (self.goal,)))
-        self.costs.append(0)
-        self.users: list[list[int]] = [[] for _ in range(top)]
-        for i, relaxed in enumerate(self.relaxed):
-            for literal in relaxed.needs:
+        self.costs = [*(op.cost for op in ops), 0]
+        rules = list(relaxed_rules(ops, admissible=True))
+        goals = [literals(test) for test in goal]
+        named = [x for rule in rules for x in (*rule.needs, *rule.gives)]
+        n_literals = max([2 * state.bit_length(), *(x + 2 & ~1 for x in (*named, *sum(goals, ())))])
+        self.goal, self.true = n_literals, n_literals + 1
+        rules += [RelaxedRule(len(ops), needs, (self.goal,)) for needs in goals]
+        # What needs nothing needs the literal that is always true, so that it has a supporter.
+        self.rules = [replace(rule, needs=rule.needs or (self.true,)) for rule in rules]
+        self.users: list[list[int]] = [[] for _ in range(n_literals + 2)]
+        self.makers: list[list[int]] = [[] for _ in range(n_literals + 2)]
+        for i, rule in enumerate(self.rules):
+            for literal in rule.needs:
                 self.users[literal].append(i)
-        self.makers: list[list[int]] = [[] for _ in range(top)]
-        for i, relaxed in enumerate(self.relaxed):
-            for literal in relaxed.gives:
+            for literal in rule.gives:
                 self.makers[literal].append(i)
-        self.start = {literal for literal in self.start if self.users[literal]}
+        start = {2 * i + (not state >> i & 1) for i in range(n_literals // 2)} | {self.true}
+        self.start = {literal for literal in start if self.users[literal]}
         self.supporter: list[int] = []
-
-    def _add(self, group: int, test: Test | None, change: BitEffect) -> None:
-        if test is not None:
-            true = (2 * i for i in positions(change.adds))
-            false = (2 * i + 1 for i in positions(change.deletes))
-            self.relaxed.append(_Relaxed(group, _needs(test, self.true), (*true, *false)))
 
     def h_max(self) -> list[float]:
         """Return the cost of the dearest precondition chain to every literal; keeps supporters."""
         values = [_INFINITE] * len(self.users)
-        waiting = [len(relaxed.needs) for relaxed in self.relaxed]
-        self.supporter = [-1] * len(self.relaxed)
+        waiting = [len(rule.needs) for rule in self.rules]
+        self.supporter = [-1] * len(self.rules)
         queue: list[tuple[float, int]] = [(0, literal) for literal in sorted(self.start)]
         for literal in self.start:
             values[literal] = 0
@@ -114,8 +88,8 @@ class _Relaxation:
                 if waiting[i]:
                     continue
                 self.supporter[i] = literal  # the last to come is the dearest
-                reached = value + self.costs[self.relaxed[i].group]
-                for given in self.relaxed[i].gives:
+                reached = value + self.costs[self.rules[i].op]
+                for given in self.rules[i].gives:
                     if reached < values[given]:
                         values[given] = reached
                         heapq.heappush(queue, (reached, given))
@@ -126,10 +100,10 @@ class _Relaxation:
         zone = self._zone()
         before = self._before(zone)
         crossing = {
-            self.relaxed[i].group
+            self.rules[i].op
             for literal in before
             for i in self.users[literal]
-            if self.supporter[i] == literal and any(g in zone for g in self.relaxed[i].gives)
+            if self.supporter[i] == literal and any(g in zone for g in self.rules[i].gives)
         }
         cost = min(self.costs[group] for group in crossing)
         for group in crossing:
@@ -143,7 +117,7 @@ class _Relaxation:
             literal = waiting.pop()
             for i in self.makers[literal]:
                 needed = self.supporter[i]
-                if needed >= 0 and needed not in zone and not self.costs[self.relaxed[i].group]:
+                if needed >= 0 and needed not in zone and not self.costs[self.rules[i].op]:
                     zone.add(needed)
                     waiting.append(needed)
         return zone
@@ -157,7 +131,7 @@ class _Relaxation:
             for i in self.users[literal]:
                 if self.supporter[i] != literal:
                     continue
-                gives = self.relaxed[i].gives
+                gives = self.rules[i].gives
                 if any(given in zone for given in gives):
                     continue
                 for given in gives:
@@ -165,8 +139,3 @@ class _Relaxation:
                         found.add(given)
                         waiting.append(given)
         return found
-
-
-def _needs(test: Test, true: int) -> tuple[int, ...]:
-    mask, value = test
-    return tuple(2 * i + (not value >> i & 1) for i in positions(mask)) or (true,)

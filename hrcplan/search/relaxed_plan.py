@@ -6,30 +6,18 @@ goal. So one pass over many states serves all goals, and what a goal needs is a 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 
 import numpy as np
 
 from hrcplan.core.arrays import Bools, Floats, Ids
 from hrcplan.core.bits import positions
+from hrcplan.search.delete_relaxation import RelaxedRule, literals, relaxed_rules
 from hrcplan.task.conditions import Test
 from hrcplan.task.steps import Operator
 
 INFINITE = float("inf")
 HOLDS, NEVER = -1, -2
-
-
-@dataclass(frozen=True, slots=True)
-class _Rule:
-    """One thing that an op can do: literals before (as a test), and literals after.
-
-    Literal ``2 i`` says that fact i is true, ``2 i + 1`` that it is false.
-    """
-
-    op: int
-    needs: Test
-    gives: tuple[int, ...]
 
 
 class Relaxation:
@@ -44,17 +32,17 @@ class Relaxation:
         self._prices = [op.cost for op in ops]
         self._is_unit = set(self._prices) <= {1}
         self._ids: dict[int, int] = {}
-        self._goals = [[self._number(test) for test in tests] for tests in goals]
-        rules = self._that_matter(list(_rules(ops)))
+        self._goals = [[self._number(literals(test)) for test in tests] for tests in goals]
+        rules = self._that_matter(list(relaxed_rules(ops, admissible=False)))
         self._op_bits = [1 << rule.op for rule in rules]
         self._needs = [self._number(rule.needs) for rule in rules]
         self._lay_out(rules)
 
-    def _number(self, test: Test) -> tuple[int, ...]:
-        """Return the numbers of the literals of a test, new ones where there are none yet."""
-        return tuple(self._ids.setdefault(x, len(self._ids)) for x in _literals(test))
+    def _number(self, needs: Sequence[int]) -> tuple[int, ...]:
+        """Return the numbers of literals, new ones where there are none yet."""
+        return tuple(self._ids.setdefault(x, len(self._ids)) for x in needs)
 
-    def _that_matter(self, rules: list[_Rule]) -> list[_Rule]:
+    def _that_matter(self, rules: list[RelaxedRule]) -> list[RelaxedRule]:
         """Return the rules that can help with a goal; number the literals that they need."""
         makers: dict[int, list[int]] = {}
         for i, rule in enumerate(rules):
@@ -66,13 +54,13 @@ class Relaxation:
             for i in makers.get(waiting.pop(), ()):
                 if i not in chosen:
                     chosen.add(i)
-                    new = [x for x in _literals(rules[i].needs) if x not in seen]
+                    new = [x for x in rules[i].needs if x not in seen]
                     seen.update(new)
                     waiting += new
                     self._number(rules[i].needs)
         return [rules[i] for i in sorted(chosen)]
 
-    def _lay_out(self, rules: Sequence[_Rule]) -> None:
+    def _lay_out(self, rules: Sequence[RelaxedRule]) -> None:
         """Lay needs and makers out in tables for numpy."""
         n = len(self._ids)  # the literal behind the last one always holds: it fills the table
         width = max((len(needs) for needs in self._needs), default=0) or 1
@@ -143,9 +131,9 @@ class Relaxation:
         costs: list[float | None] = []
         for tests in self._goals:
             found: float | None = None
-            for literals in tests:
-                if all(supporter[literal] != NEVER for literal in literals):
-                    cost = self._cost(self._ops_for(literals, supporter, known))
+            for needs in tests:
+                if all(supporter[literal] != NEVER for literal in needs):
+                    cost = self._cost(self._ops_for(needs, supporter, known))
                     found = cost if found is None else min(found, cost)
             costs.append(found)
         return costs
@@ -180,19 +168,3 @@ class Relaxation:
         if self._is_unit:
             return float(ops.bit_count())
         return float(sum(self._prices[op] for op in positions(ops)))
-
-
-def _literals(test: Test) -> list[int]:
-    mask, value = test
-    return [2 * i + (not value >> i & 1) for i in positions(mask)]
-
-
-def _rules(ops: Sequence[Operator]) -> Iterator[_Rule]:
-    for index, op in enumerate(ops):
-        for test in op.tests:
-            for change in op.effects:
-                gives = [2 * i for i in positions(change.adds)]
-                gives += [2 * i + 1 for i in positions(change.deletes)]
-                for given in change.tests:
-                    needs = (test[0] | given[0], test[1] | given[1])
-                    yield _Rule(index, needs, tuple(gives))
