@@ -8,9 +8,9 @@ import pytest
 from hrcplan.bank.ramirez_geffner import read_instance
 from hrcplan.inference.observations import Resolver
 from hrcplan.inference.recognition.cost import CostBelief
-from hrcplan.inference.recognition.distances import Distances
-from hrcplan.inference.recognition.optimal import Searcher, search
+from hrcplan.inference.recognition.optimal import FastDownwardProver, Searcher, search
 from hrcplan.inference.run import infer, run
+from hrcplan.search.distances import Distances
 from hrcplan.search.relaxed_plan import Relaxation
 from hrcplan.task import BitEffect
 from hrcplan.task.steps import Operator
@@ -91,9 +91,19 @@ def test_long_chains_need_no_recursion():
     assert long._costs(by_number) == [3000.0, 7.0, 0.0]
 
 
+def test_without_a_prover_distances_are_estimates(workshop):
+    distances = Distances(workshop.table.ops, workshop.goals.tests, 20.0)
+    first = distances.first(workshop.initial)
+    assert all(goal.distance == goal.estimate and not goal.is_proven for goal in first)
+    assert any(goal.estimate for goal in first)
+    assert distances.bridge(workshop.initial, workshop.goals.tests[0]) is None
+
+
 def test_a_way_is_carried_on_without_a_search(workshop):
     """What was done can stand at the beginning of a known way, in another order too."""
-    distances = Distances(workshop.table.ops, workshop.goals.tests, 20.0)
+    distances = Distances(
+        workshop.table.ops, workshop.goals.tests, 20.0, FastDownwardProver(workshop.table.ops)
+    )
     places = distances.first(workshop.initial)
     way = places[0].way
     assert way is not None

@@ -19,7 +19,8 @@ from hrcplan.core.arrays import Floats
 from hrcplan.inference.belief import normalized
 from hrcplan.inference.changes import NEVER, ChangeFilter, FilterState, GoalChange
 from hrcplan.inference.exact import IMPOSSIBLE
-from hrcplan.inference.recognition.distances import Distances, GoalDistance
+from hrcplan.inference.recognition.optimal import FastDownwardProver
+from hrcplan.search.distances import Distances, GoalDistance
 from hrcplan.task.steps import STEPS, TASK
 
 TIMEOUT_S = 25.0
@@ -69,7 +70,7 @@ class CostBelief:
         self.goals = goals
         self.table = StepTable(goals.task, _cost_kind(goals))
         self.ops = self.table.ops
-        self.distances = Distances(self.ops, goals.tests, timeout_s)
+        self.distances = Distances(self.ops, goals.tests, timeout_s, FastDownwardProver(self.ops))
         self.unit = sum(op.cost for op in self.ops) / max(1, len(self.ops)) or 1.0
         self.filter = ChangeFilter(len(goals), 1, hazard, never)
         self._ops_of: list[list[int]] = [[] for _ in range(len(self.table))]

@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -17,6 +16,7 @@ from tempfile import TemporaryDirectory
 from hrcplan.core.bits import positions
 from hrcplan.planners.fast_downward import find_binary
 from hrcplan.planners.process import ProcessLimits, run
+from hrcplan.search.distances import Way
 from hrcplan.search.packed_states import FactPacking
 from hrcplan.search.relevance import relevant
 from hrcplan.task.conditions import Test
@@ -33,14 +33,6 @@ for task in *.sas; do
   "$0" --internal-plan-file "${task%.sas}.plan" --search "$1" < "$task" > /dev/null 2>&1
 done
 """
-
-
-@dataclass(frozen=True, slots=True)
-class Way:
-    """A cheapest way to a goal: its cost, and its ops."""
-
-    cost: int
-    ops: tuple[int, ...]
 
 
 class Searcher:
@@ -102,9 +94,38 @@ class Searcher:
         values = (_value(state, p) for p in self._packing.positions)
         return "\n".join([self._head, *map(str, values), self._tail])
 
-    def key(self, state: int) -> int:
-        """Return the part of a state that matters to the goal."""
-        return state & self._packing.mask
+    @property
+    def relevant_facts(self) -> int:
+        """The facts that matter to the goal, as bits."""
+        return self._packing.mask
+
+
+class FastDownwardProver:
+    """Proves distances by Fast Downward; without its program it proves none.
+
+    Args:
+        ops: The operators, all of them simple.
+    """
+
+    def __init__(self, ops: Sequence[Operator]) -> None:
+        self._ops = ops
+        self._searchers: dict[Test, Searcher] = {}
+
+    def _searcher(self, goal: Test) -> Searcher:
+        if goal not in self._searchers:
+            self._searchers[goal] = Searcher(self._ops, goal)
+        return self._searchers[goal]
+
+    def relevant_facts(self, goal: Test) -> int:
+        """Return the facts that matter to a goal, as bits."""
+        return self._searcher(goal).relevant_facts
+
+    def cheapest_ways(
+        self, searches: Sequence[tuple[int, Test]], limit_s: float, total_s: float
+    ) -> list[Way | None]:
+        """Return a cheapest way for each (state, goal); None where there is none, or no time."""
+        texts = [self._searcher(goal).text(state) for state, goal in searches]
+        return search(texts, limit_s, total_s)
 
 
 def search(texts: Sequence[str], limit_s: float, total_s: float) -> list[Way | None]:

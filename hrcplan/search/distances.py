@@ -1,12 +1,12 @@
-"""How far every goal is from where someone stands: proven where time allows, else estimated."""
+"""How far every goal is from a state: proven where time allows, else estimated."""
 
 from __future__ import annotations
 
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
-from hrcplan.inference.recognition.optimal import Searcher, Way, search
 from hrcplan.search.relaxed_plan import Relaxation
 from hrcplan.task.conditions import Test
 from hrcplan.task.steps import Operator
@@ -18,12 +18,32 @@ MIN_S = 0.03
 
 
 @dataclass(frozen=True, slots=True)
-class GoalDistance:
-    """Where someone stands with regard to one goal.
+class Way:
+    """A cheapest way to a goal: its cost, and its operators."""
 
-    ``way`` is a cheapest way, if it is known. ``estimate`` is the cost of a relaxed plan, None if
-    there is none. ``distance`` is what is believed: proven, or carried on with the changes of the
-    estimate. ``is_proven`` says whether the distance from the start was proven.
+    cost: int
+    ops: tuple[int, ...]
+
+
+class Prover(Protocol):
+    """Finds cheapest ways, and proves that they are cheapest."""
+
+    def relevant_facts(self, goal: Test) -> int:
+        """Return the facts that matter to a goal, as bits."""
+
+    def cheapest_ways(
+        self, searches: Sequence[tuple[int, Test]], limit_s: float, total_s: float
+    ) -> list[Way | None]:
+        """Return a cheapest way for each (state, goal); None where there is none, or no time."""
+
+
+@dataclass(frozen=True, slots=True)
+class GoalDistance:
+    """How far one goal is.
+
+    ``way`` is a cheapest way, if there is a proof. ``estimate`` is the cost of a relaxed plan, None
+    if there is none. ``distance`` is the best value: proven, or an earlier one plus the change of
+    the estimate since. ``is_proven`` says whether the distance from the start was proven.
     """
 
     estimate: float | None
@@ -33,7 +53,7 @@ class GoalDistance:
 
 
 class Clock:
-    """Gives out time: a share at the start, the rest bit by bit."""
+    """Divides time: one share for the first state, the rest evenly among the observations."""
 
     def __init__(self, timeout_s: float) -> None:
         self.timeout_s = timeout_s
@@ -49,21 +69,22 @@ class Distances:
     """Distances to goals from states.
 
     Args:
-        ops: What can be done.
+        ops: The operators. Proofs need them to be simple, and goals of one alternative.
         goals: The alternatives of each goal.
-        timeout_s: Seconds for proofs, all in all.
+        timeout_s: Seconds for all proofs together.
+        prover: Proves distances; without it all are estimates.
     """
 
     def __init__(
-        self, ops: Sequence[Operator], goals: Sequence[Sequence[Test]], timeout_s: float
-    ) -> None:
+        self, ops: Sequence[Operator], goals: Sequence[Sequence[Test]], timeout_s: float,
+        prover: Prover | None = None,
+    ) -> None:  # fmt: skip
         self.ops, self.goals = ops, goals
         self.clock = Clock(timeout_s)
         began = time.monotonic()
         self.relaxation = Relaxation(ops, goals)
         self.clock.spent_s += time.monotonic() - began
-        self._simple = all(op.is_simple for op in ops)
-        self._searchers: dict[int, Searcher] = {}
+        self.prover = prover if all(op.is_simple for op in ops) else None
         self._known: dict[tuple[int, int], Way | None] = {}
 
     def estimates(self, states: Sequence[int]) -> list[list[float | None]]:
@@ -127,35 +148,30 @@ class Distances:
             return None
         return Way(way.cost - sum(self.ops[op].cost for op in done), tuple(rest))
 
-    def _searcher(self, goal: int) -> Searcher:
-        if goal not in self._searchers:
-            self._searchers[goal] = Searcher(self.ops, self.goals[goal][0])
-        return self._searchers[goal]
-
     def _ways(self, state: int, goals: Sequence[int], n_observed: int) -> dict[int, Way | None]:
         """Return cheapest ways to goals, where they are found in time."""
-        if not self._simple or self.clock.left_s(n_observed) <= MIN_S:
+        if self.prover is None or self.clock.left_s(n_observed) <= MIN_S:
             return {}
         began = time.monotonic()
-        goals = [goal for goal in goals if len(self.goals[goal]) == 1]
-        keys = {goal: (goal, self._searcher(goal).key(state)) for goal in goals}
-        new = [goal for goal in goals if keys[goal] not in self._known]
+        tests = {goal: self.goals[goal][0] for goal in goals if len(self.goals[goal]) == 1}
+        keys = {g: (g, state & self.prover.relevant_facts(test)) for g, test in tests.items()}
+        new = [goal for goal in tests if keys[goal] not in self._known]
         left_s = self.clock.left_s(n_observed)
         if new and left_s > MIN_S:
             limit_s = max(MIN_S, min(MAX_S, 2 * left_s / len(new)))
-            texts = [self._searcher(goal).text(state) for goal in new]
-            for goal, way in zip(new, search(texts, limit_s, left_s), strict=True):
-                self._known[keys[goal]] = way
+            searches = [(state, tests[goal]) for goal in new]
+            ways = self.prover.cheapest_ways(searches, limit_s, left_s)
+            self._known.update((keys[goal], way) for goal, way in zip(new, ways, strict=True))
         self.clock.spent_s += time.monotonic() - began
-        return {goal: self._known.get(keys[goal]) for goal in goals}
+        return {goal: self._known.get(key) for goal, key in keys.items()}
 
     def bridge(self, state: int, tests: Sequence[Test], limit_s: float = 1.0) -> Way | None:
         """Return a cheapest way to where one of several tests holds; None if none is found."""
-        if not self._simple:
+        if self.prover is None:
             return None
-        texts = [Searcher(self.ops, test).text(state) for test in tests]
-        found = [way for way in search(texts, limit_s, 2 * limit_s) if way is not None]
-        return min(found, key=lambda way: way.cost, default=None)
+        searches = [(state, test) for test in tests]
+        ways = self.prover.cheapest_ways(searches, limit_s, 2 * limit_s)
+        return min((way for way in ways if way), key=lambda way: way.cost, default=None)
 
 
 def _moved(place: GoalDistance, estimate: float | None, way: Way | None) -> GoalDistance:
