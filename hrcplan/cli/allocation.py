@@ -56,13 +56,14 @@ def command(
     optimal, and so is how far the value may move before another allocation is better. Where a proof
     is out of reach the diagram is approximate, and says so.
     """
-    from hrcplan.cli.arguments import function, problem_of, split_names
+    from hrcplan.cli.arguments import problem_of, split_names
     from hrcplan.core.numbers import exact
+    from hrcplan.pddl.settings import parse_function
     from hrcplan.planners.allocation import LEAST, MOST, diagram
 
     domain, name, (element,) = split_names(names, 1)
     problem = problem_of(domain, name, settings)
-    key = function(element, problem)
+    key = parse_function(element, problem)
     least, most = problem.domain.value_range(key[0]) or (LEAST, MOST)
     if limits is not None:
         least, most = (exact(Fraction(str(limit))) for limit in limits)

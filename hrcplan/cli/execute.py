@@ -3,21 +3,41 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import rich_click as click
 
 from hrcplan.cli import output
-from hrcplan.errors import UsageError
 
-if TYPE_CHECKING:
-    from hrcplan.execution.humans import WorldChange
-    from hrcplan.pddl.model import Problem
+HELP = """Carry out DOMAIN PROBLEM with a simulated human, and replan before actions fail.
 
-WORLDS = ("simulated",)
+\b
+--profile NAME
+  replan-always       planners get sensed values; every sensed change replans
+  hrcplan             planners get -10 ln(1 - p) of the failure probability p, failures are
+                      remembered; replans only if a new plan is better
+  estimated           as hrcplan, but a filter infers agent states from outcomes
+  FILE.toml           a profile of your own (keys as in hrcplan/agents/profiles.toml)
+
+\b
+--human NAME[,WORD…], or module:Class
+  steady              nothing changes by itself
+  uncooperative       one element of the human's agent state rises to 10
+  partly-cooperative  it rises to a value from 5 to 10
+  random              the change comes before a random action of the human, else at 0 s
+  attempt             each attempt of an action is drawn anew, else once per run (once)
+  before | during | after
+                      the change is sensed before, during (default) or after the
+                      human's first action under it
+
+\b
+--change WHAT@SECONDS, any number of times
+  FUNCTION OBJECT…=NUMBER@SECONDS    "motivation human=9@0"     an agent state, 0 to 10
+  PREDICATE OBJECT…@SECONDS          "box-at blue wp0@60"       a fact begins to hold
+  not PREDICATE OBJECT…@SECONDS      "not box-at blue wp4@60"   a fact ceases to hold
+"""
 
 
-@click.command("execute")
+@click.command("execute", help=HELP)
 @click.argument("names", nargs=-1, required=True, metavar="DOMAIN PROBLEM")
 @click.option(
     "--profile",
@@ -25,16 +45,22 @@ WORLDS = ("simulated",)
     default="hrcplan",
     show_default=True,
     metavar="NAME",
-    help="replan-always, hrcplan, or a .toml file: when to replan, what planners are told.",
+    help="When to replan, and which values planners get: see above.",
 )
 @click.option(
     "--human",
     default="steady",
     show_default=True,
     metavar="SPEC",
-    help="steady, case1 or case2; with commas: random, attempt, before, during, after.",
+    help="How the human behaves: see above.",
 )
-@click.option("--world", type=click.Choice(WORLDS), default="simulated", show_default=True)
+@click.option(
+    "--world",
+    default="simulated",
+    show_default=True,
+    metavar="NAME",
+    help="Where actions are carried out: simulated, an installed world, or module:Class.",
+)
 @click.option(
     "--planner",
     default="auto",
@@ -50,36 +76,36 @@ WORLDS = ("simulated",)
     metavar="S",
     help="Seconds per plan.",
 )
-@click.option("--no-model", is_flag=True, help="Do not use what is sensed of the human.")
+@click.option("--no-model", is_flag=True, help="Do not use sensed values.")
 @click.option(
     "--change",
     "changes",
     multiple=True,
-    metavar="'F OBJ…=N@T'",
-    help="At T seconds a state or fact changes: 'motivation human=9@0', 'not at a b@60'.",
+    metavar="CHANGE",
+    help="A value or fact changes at a time, as in 'motivation human=9@0': see above.",
 )
 @click.option(
     "--set",
     "settings",
     multiple=True,
-    metavar="'F OBJ…=N'",
-    help="Change a value of the initial state.",
+    metavar="SETTING",
+    help="Change a value of the initial state, as in 'motivation human=8'.",
 )
 @click.option(
     "--replan-limit",
     type=click.IntRange(0),
     default=None,
     metavar="N",
-    help="Instead of the profile's.",
+    help="Replans per run, instead of the number in the profile.",
 )
-@click.option("--seed", type=int, default=1, show_default=True)
+@click.option("--seed", type=int, default=1, show_default=True, help="Random seed.")
 @click.option(
     "--journal",
     type=click.Path(path_type=Path),
     metavar="FILE",
     help="Write everything down, so that the run can be resumed and replayed.",
 )
-@click.option("--resume", is_flag=True, help="Go on with the run in the journal.")
+@click.option("--resume", is_flag=True, help="Continue the run in the journal.")
 @click.option(
     "--speed",
     type=click.FloatRange(0, min_open=True),
@@ -104,61 +130,26 @@ def command(
     resume: bool,
     speed: float | None,
 ) -> int:
-    """Carry out DOMAIN PROBLEM with a simulated human, and replan before actions fail."""
+    """Carry out a problem; ``HELP`` is what ``--help`` prints."""
     from hrcplan.cli.arguments import problem_of, split_names
     from hrcplan.cli.live import Live
-    from hrcplan.execution.execute import carry_out, make_setup
+    from hrcplan.execution.execute import carry_out, prepare_run
 
     domain, name, _ = split_names(names, 0)
     problem = problem_of(domain, name, settings)
-    setup = make_setup(
-        problem, profile=profile_name, human=human, model=not no_model, planner=planner, seed=seed,
-        changes=[_change(text, problem) for text in changes], replan_limit=replan_limit,
-        timeout_s=timeout,
+    prepared = prepare_run(
+        problem, profile=profile_name, human=human, changes=changes, model=not no_model,
+        planner=planner, seed=seed, replan_limit=replan_limit, timeout_s=timeout, world=world,
     )  # fmt: skip
     live = Live(problem, speed)
-    done = carry_out(setup, journal=journal, resume=resume, timeout_s=timeout,
-                     watch=None if output.JSON else live.watch)  # fmt: skip
+    watch = None if output.JSON else live.watch
+    done = carry_out(prepared, journal=journal, resume=resume, watch=watch)
+    outcome = done.outcome
     if output.JSON:
-        row = done.row
         output.document({
-            "success": row.success, "ending": row.ending, "why": done.run.why or None,
-            "row": row.to_json(), "measures": row.measures(), **done.timeline.to_json(),
+            "success": outcome.success, "ending": outcome.ending, "why": done.run.why or None,
+            "row": outcome.to_json(), "measures": outcome.measures(), **done.timeline.to_json(),
         })  # fmt: skip
     else:
-        live.finish(done.run, done.row)
-    return 0 if done.row.success else 1
-
-
-def _change(text: str, problem: Problem) -> WorldChange:
-    from hrcplan.cli.arguments import setting
-    from hrcplan.execution.worlds.simulated import FactChange, StateChange
-
-    what, at, when = text.lower().rpartition("@")
-    try:
-        t = float(when)
-    except ValueError:
-        t = -1.0
-    if not at or not 0 <= t < float("inf"):
-        message = f"'{text}' does not end with @SECONDS"
-        raise UsageError(message, code="bad-change", hint='as in --change "motivation human=9@0"')
-    if "=" in what:
-        key, value = setting(what, problem)
-        return StateChange(t, {key: value})
-    words = what.replace("(", " ").replace(")", " ").split()
-    negated = words[:1] == ["not"]
-    fact = tuple(words[1:] if negated else words)
-    _check_fact(fact, problem)
-    facts = frozenset({fact})
-    return FactChange(t, deletes=facts) if negated else FactChange(t, adds=facts)
-
-
-def _check_fact(fact: tuple[str, ...], problem: Problem) -> None:
-    known = problem.domain.predicates.get(fact[0]) if fact else None
-    if known is None or len(known.params) != len(fact) - 1:
-        message = f"'{' '.join(fact)}' is no fact of the domain"
-        hint = f"predicates: {', '.join(map(str, problem.domain.predicates.values()))}"
-        raise UsageError(message, code="bad-change", hint=hint)
-    for word, param in zip(fact[1:], known.params, strict=True):
-        if word not in problem.objects_of(param.types):
-            raise UsageError(f"'{word}' is no object for {param}", code="bad-change")
+        live.finish(done.run, outcome)
+    return 0 if outcome.success else 1

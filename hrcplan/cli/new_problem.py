@@ -62,9 +62,9 @@ def command(
     target: Path | None,
 ) -> None:
     """Write a problem like PROBLEM with another goal, checked before it is written."""
-    from hrcplan.cli.arguments import setting
     from hrcplan.pddl.generate import with_goal
     from hrcplan.pddl.inputs import read
+    from hrcplan.pddl.settings import parse_setting
     from hrcplan.pddl.write import problem_text
 
     if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_-]*", name):
@@ -73,7 +73,7 @@ def command(
         raise UsageError("either --goal or --vary is needed", hint="--goal '(and …)'")
     base = read(domain, origin)
     check_target(target, base.path, base.domain.path)
-    changed = base.with_values(dict(setting(text, base) for text in settings))
+    changed = base.with_values(dict(parse_setting(text, base) for text in settings))
     if vary:
         made = _varied(changed, seed, new_objects)
     else:

@@ -2,135 +2,207 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-from hrcplan.agents import load_profile
+from hrcplan.agents import Profile, load_profile
+from hrcplan.core.deprecation import warn_old_name
 from hrcplan.core.numbers import Number
-from hrcplan.errors import UsageError
+from hrcplan.core.text import type_text
+from hrcplan.errors import MissingPlannerError, UsageError
+from hrcplan.execution.changes import WorldChange
 from hrcplan.execution.driver import PlanProvider, RunWatch
 from hrcplan.execution.events import Command, Event
-from hrcplan.execution.humans import STEADY, WorldChange, nature_for
 from hrcplan.execution.journal import Journal, JournalFile, JournalWriter, RunSetup
 from hrcplan.execution.model import ExecutionModel
 from hrcplan.execution.monitor import Monitor
+from hrcplan.execution.natures import STEADY, NatureSource, nature_for
 from hrcplan.execution.outcome import Outcome
 from hrcplan.execution.replanner import DEFAULT_TIMEOUT_S, Replanner
 from hrcplan.execution.run import Run
 from hrcplan.execution.simulate import Engine, Spec
 from hrcplan.execution.timeline import Timeline
-from hrcplan.pddl.inputs import read
-from hrcplan.pddl.model import FluentKey, Problem
+from hrcplan.execution.worlds.registry import EVENT_WORLDS, SIMULATED
+from hrcplan.pddl.inputs import Readable, as_problem
+from hrcplan.pddl.model import Domain, FluentKey, Problem
+from hrcplan.pddl.settings import check_function
+from hrcplan.planners.contract import Planner
 from hrcplan.planners.registry import PLANNERS
 
 
 @dataclass(frozen=True, slots=True)
-class Executed:
-    """A finished run: its row, its last state, what happened, and whether it was resumed."""
+class Execution:
+    """A finished run.
 
-    row: Outcome
+    Attributes:
+        outcome: How it ended, and what was counted.
+        run: The last state of the monitor.
+        timeline: Every action, plan and message, with times.
+        n_resumed: How many lines of a journal the run was resumed from; 0 for a new run.
+    """
+
+    outcome: Outcome
     run: Run
     timeline: Timeline
     n_resumed: int = 0
 
+    @property
+    def row(self) -> Outcome:
+        """The earlier name of ``outcome``, deprecated."""
+        warn_old_name("attribute", "row", "outcome")
+        return self.outcome
+
+    def __repr__(self) -> str:
+        return f"Execution({self.outcome!r}, {len(self.timeline.bars)} actions)"
+
+
+@dataclass(frozen=True, slots=True)
+class PreparedRun:
+    """A run before it begins: what it depends on, and the engine that carries it out."""
+
+    setup: RunSetup
+    engine: Engine
+    timeout_s: float = DEFAULT_TIMEOUT_S
+
 
 def execute(
-    domain: str,
-    problem: str,
+    domain: Readable | Domain | Problem,
+    problem: Readable | None = None,
     *,
-    profile: str = "hrcplan",
-    human: str = STEADY,
-    changes: Sequence[WorldChange] = (),
+    profile: str | Profile = "hrcplan",
+    human: str | NatureSource = STEADY,
+    changes: Sequence[str | WorldChange] = (),
     values: Mapping[FluentKey, Number] | None = None,
     model: bool = True,
-    planner: str = "auto",
+    planner: str | Planner = "auto",
     seed: int | str = 1,
     replan_limit: int | None = None,
-    journal: Path | None = None,
+    journal: str | os.PathLike[str] | None = None,
     resume: bool = False,
-) -> Executed:
-    """Return what came of a problem, given by paths or shipped names, in a simulated world.
+) -> Execution:
+    """Carry a problem out in a simulated world, and return what happened.
 
     Args:
-        domain: A path or a shipped name.
-        problem: A path or a shipped name.
-        profile: ``replan-always``, ``hrcplan``, or a ``.toml`` file.
-        human: ``steady``, ``case1``, ``case2``, … (see ``humans.spec_of``), or ``module:Class``.
-        changes: Changes of agent state or of facts at given times.
-        values: Function values to put into the initial state.
-        model: Whether what is sensed is used.
-        planner: Asked first; the others take over if it fails.
-        seed: Everything random follows from it.
-        replan_limit: Instead of the profile's.
+        domain: A `Problem`, or whatever `hrcplan.read` takes.
+        problem: The problem, if ``domain`` is only its domain.
+        profile: ``replan-always``, ``hrcplan``, ``estimated``, a ``.toml`` file, or a `Profile`.
+        human: ``steady``, ``uncooperative``, ``partly-cooperative``, more words after commas (see
+            ``natures.parse_human``), ``module:Class``, or an object with a method ``nature``.
+        changes: Changes at given times, as text (``"motivation human=9@0"``, ``"not box-at blue
+            wp4@60"``) or as ``StateChange`` and ``FactChange``.
+        values: Function values to put into the initial state, as ``{("motivation", "human"): 8}``.
+        model: Whether sensed values are used.
+        planner: Is asked first; the others are asked if it fails. A name, or an object.
+        seed: All random draws follow from it.
+        replan_limit: Replans per run, instead of the profile's number.
         journal: Where to write the run down.
-        resume: Go on with the run in the journal, if there is one.
+        resume: Continue the run in the journal, if there is one.
 
     Raises:
         InputError: if a file is missing or has faults.
         UsageError: if a name is unknown or a value out of range.
+        TypeError: if an argument is of a wrong type.
 
-    >>> execute("transport", "two-boxes").row.ending
+    >>> execute("transport/two-boxes", changes=["motivation human=9@0"]).outcome.ending
     'goal reached'
     """
-    loaded = read(domain, problem).with_values(values or {})
-    setup = make_setup(loaded, profile=profile, human=human, changes=changes, model=model,
-                           planner=planner, seed=seed, replan_limit=replan_limit)  # fmt: skip
-    return carry_out(setup, journal=journal, resume=resume)
+    initial = as_problem(domain, problem)
+    for key in values or {}:
+        check_function(key, initial)
+    prepared = prepare_run(
+        initial.with_values(values or {}), profile=profile, human=human, changes=changes,
+        model=model, planner=planner, seed=seed, replan_limit=replan_limit,
+    )  # fmt: skip
+    return carry_out(prepared, journal=None if journal is None else Path(journal), resume=resume)
 
 
-def make_setup(
-    problem: Problem, *, profile: str = "hrcplan", human: str = STEADY,
-    changes: Sequence[WorldChange] = (), model: bool = True, planner: str = "auto",
-    seed: int | str = 1, replan_limit: int | None = None, timeout_s: float = DEFAULT_TIMEOUT_S,
-) -> RunSetup:  # fmt: skip
-    """Return everything that a run depends on; what chance decides is drawn here.
+def prepare_run(
+    problem: Problem, *, profile: str | Profile = "hrcplan", human: str | NatureSource = STEADY,
+    changes: Sequence[str | WorldChange] = (), model: bool = True,
+    planner: str | Planner = "auto", seed: int | str = 1, replan_limit: int | None = None,
+    timeout_s: float = DEFAULT_TIMEOUT_S, world: str = SIMULATED,
+    provider: PlanProvider | None = None,
+) -> PreparedRun:  # fmt: skip
+    """Return a run that is ready to begin; what chance decides is drawn here.
+
+    Args as for `execute`. ``timeout_s``: seconds per plan. ``world``: a name in ``EVENT_WORLDS``.
+    ``provider``: answers requests for plans instead of the planners.
 
     Raises:
         UsageError: if a name is unknown or a value out of range.
+        TypeError: if an argument is of a wrong type.
     """
-    chosen = load_profile(profile).limited_to(replan_limit)
-    planners = tuple(planner.split(",")) if not planner.startswith("cmd:") else (planner,)
+    _check_type("seed", seed, int, str)
+    _check_type("replan_limit", replan_limit, int, type(None))
+    _check_type("profile", profile, str, Profile)
+    chosen = load_profile(profile) if isinstance(profile, str) else profile
+    planners = _planners(planner)
+    names = tuple(p if isinstance(p, str) else p.card.name for p in planners)
     shared = ExecutionModel(problem)
-    engine = Engine(Monitor(shared, chosen, model), Replanner(shared, planners, timeout_s))
+    provider = provider or Replanner(shared, planners, timeout_s)
+    engine = Engine(Monitor(shared, chosen.limited_to(replan_limit), model), provider)
+    EVENT_WORLDS.find(world)
     nature = nature_for(human, Spec(seed=seed), engine, changes)
-    return RunSetup(problem, chosen, model, nature, planners)
+    setup = RunSetup(problem, engine.monitor.profile, model, nature, names, world)
+    return PreparedRun(setup, engine, timeout_s)
+
+
+def _planners(planner: str | Planner) -> tuple[str | Planner, ...]:
+    """Return the planners to ask first, in order.
+
+    Raises:
+        UsageError: if a name is unknown; one that is not installed is left to its successors.
+    """
+    if isinstance(planner, Planner):
+        return (planner,)
+    _check_type("planner", planner, str)
+    names = tuple(planner.split(",")) if not planner.startswith("cmd:") else (planner,)
+    for name in names:
+        if name != "auto":
+            try:
+                PLANNERS.find(name)
+            except MissingPlannerError:
+                continue
+    return names
+
+
+def _check_type(name: str, value: object, *types: type) -> None:
+    if not isinstance(value, types) or isinstance(value, bool):
+        wanted = " or ".join("None" if t is type(None) else t.__name__ for t in types)
+        raise TypeError(f"{name} is {wanted}, not {type_text(value)}")
 
 
 def carry_out(
-    setup: RunSetup, *, journal: Path | None = None, resume: bool = False,
-    timeout_s: float = DEFAULT_TIMEOUT_S, watch: RunWatch | None = None,
-    planner: PlanProvider | None = None,
-) -> Executed:  # fmt: skip
-    """Return the finished run of a setup; a resumed one takes the setup of its journal.
-
-    ``planner`` answers instead of the planners that the setup names.
+    prepared: PreparedRun, *, journal: Path | None = None, resume: bool = False,
+    watch: RunWatch | None = None,
+) -> Execution:  # fmt: skip
+    """Return the finished run; a resumed one takes the setup of its journal.
 
     Raises:
         InputError: if the journal is damaged or of another run.
         UsageError: if it exists and ``resume`` was not asked for, or cannot be written.
     """
-    file, known = _opened(journal, resume)
+    file, recorded = _opened(journal, resume)
     try:
-        return _carried_out(setup, file, known, timeout_s, watch, planner)
+        return _carried_out(prepared, file, recorded, watch)
     finally:
         if file is not None:
             file.close()
 
 
 def _carried_out(
-    setup: RunSetup, file: JournalFile | None, known: Journal | None, timeout_s: float,
-    watch: RunWatch | None, planner: PlanProvider | None,
-) -> Executed:  # fmt: skip
-    if known is not None:
-        setup = _same_problem(known, setup)
+    prepared: PreparedRun, file: JournalFile | None, recorded: Journal | None,
+    watch: RunWatch | None,
+) -> Execution:  # fmt: skip
     writer = None
+    if recorded is not None:
+        prepared = _with_setup_of(recorded, prepared)
+    setup, engine = prepared.setup, prepared.engine
     if file is not None:
         begin, resume = JournalWriter.begin, JournalWriter.resume
-        writer = begin(file, setup) if known is None else resume(file, known)
-    model = ExecutionModel(setup.problem)
-    answering = planner or Replanner(model, setup.planners, timeout_s)
-    engine = Engine(Monitor(model, setup.profile, setup.sensing), answering)
+        writer = begin(file, setup) if recorded is None else resume(file, recorded)
     timeline = Timeline()
 
     def both(run: Run, event: Event, commands: tuple[Command, ...]) -> None:
@@ -138,15 +210,16 @@ def _carried_out(
         if watch is not None:
             watch(run, event, commands)
 
-    run = engine.run(setup.nature, writer, both)
-    row = engine.outcome(run)
+    world = EVENT_WORLDS.make(setup.world, engine.model, setup.nature)
+    run = engine.run(setup.nature, writer, both, world)
+    outcome = engine.outcome(run)
     if writer is not None:
-        writer.finish(row)
-    return Executed(row, run, timeline, 0 if known is None else len(known.lines))
+        writer.finish(outcome)
+    return Execution(outcome, run, timeline, 0 if recorded is None else len(recorded.lines))
 
 
 def _opened(path: Path | None, resume: bool) -> tuple[JournalFile | None, Journal | None]:
-    """Return the file to write, and the journal in it to go on with, if there are any."""
+    """Return the file to write, and the journal in it to continue, if there are any."""
     if path is None:
         if resume:
             hint = "--journal FILE --resume"
@@ -156,23 +229,40 @@ def _opened(path: Path | None, resume: bool) -> tuple[JournalFile | None, Journa
     if not resume or not file.n_bytes:
         return file, None
     try:
-        known = file.journal()
-        if known.is_empty:  # killed before the first line was complete
+        recorded = file.journal()
+        if recorded.is_empty:  # killed before the first line was complete
             file.cut(0)
             return file, None
     except BaseException:
         file.close()
         raise
-    return file, known
+    return file, recorded
 
 
-def _same_problem(known: Journal, setup: RunSetup) -> RunSetup:
-    found = known.setup()
-    ours, theirs = setup.problem, found.problem
+def _with_setup_of(recorded: Journal, prepared: PreparedRun) -> PreparedRun:
+    """Return the run that a journal began, with the planner of ``prepared`` if it fits.
+
+    Raises:
+        UsageError: if the journal is of another problem, or names code that the user did not name.
+    """
+    setup, given = recorded.setup(), prepared.setup
+    ours, theirs = given.problem, setup.problem
     if (ours.domain.name, ours.name) != (theirs.domain.name, theirs.name):
         message = f"the journal is of {theirs.domain.name}/{theirs.name}"
-        raise UsageError(message, path=str(known.path))
-    for name in found.planners:
-        if name not in ("auto", *setup.planners):
+        raise UsageError(message, path=str(recorded.path))
+    for name in setup.planners:
+        if name not in ("auto", *given.planners):
             PLANNERS.find_listed(name)  # a journal must not choose which code runs
-    return found
+    if setup.world != given.world:
+        EVENT_WORLDS.find_listed(setup.world)
+    if _without_paths(ours) == theirs and setup.planners == given.planners:
+        shared, provider = prepared.engine.model, prepared.engine.planner
+    else:
+        shared = ExecutionModel(theirs)
+        provider = Replanner(shared, setup.planners, prepared.timeout_s)
+    engine = Engine(Monitor(shared, setup.profile, setup.sensing), provider)
+    return replace(prepared, setup=setup, engine=engine)
+
+
+def _without_paths(problem: Problem) -> Problem:
+    return replace(problem, path="", domain=replace(problem.domain, path=""))

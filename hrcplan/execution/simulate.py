@@ -19,7 +19,7 @@ from hrcplan.execution.monitor import Monitor
 from hrcplan.execution.outcome import Outcome, outcome_of
 from hrcplan.execution.replanner import Replanner
 from hrcplan.execution.run import Run
-from hrcplan.execution.worlds import chance
+from hrcplan.execution.worlds import EventWorld, chance
 from hrcplan.execution.worlds.simulated import (
     DRAWS,
     DURING,
@@ -94,10 +94,11 @@ class Engine:
         return self.monitor.model
 
     def run(
-        self, nature: Nature, record: RunRecord | None = None, watch: RunWatch | None = None
-    ) -> Run:
-        """Return one finished run in a simulated world."""
-        world = SimulatedWorld(self.model, nature)
+        self, nature: Nature, record: RunRecord | None = None, watch: RunWatch | None = None,
+        world: EventWorld | None = None,
+    ) -> Run:  # fmt: skip
+        """Return one finished run, in a simulated world with this nature or in another world."""
+        world = world or SimulatedWorld(self.model, nature)
         return Driver(self.monitor, world, self.planner, record or NullRecord(), watch).run()
 
     def outcome(self, run: Run) -> Outcome:

@@ -14,7 +14,7 @@ from hrcplan.core.registry import ObjectRegistry, PartNames, Registry, members, 
 from hrcplan.episodes.humans import HUMANS
 from hrcplan.episodes.worlds import WORLDS
 from hrcplan.errors import UsageError
-from hrcplan.execution.humans import NATURES
+from hrcplan.execution.natures import NATURES
 from hrcplan.inference.registry import METHODS
 from hrcplan.planners.registry import PLANNERS
 from hrcplan.studies.study import STUDIES

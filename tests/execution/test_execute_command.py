@@ -7,7 +7,6 @@ from pathlib import Path
 
 import pytest
 
-from hrcplan.execution import execute as execute_module
 from hrcplan.execution.execute import execute
 
 
@@ -72,10 +71,19 @@ def test_replay_names_the_first_difference(tmp_path: Path) -> None:
         (["--change", "motivation human=9"], 2, "@SECONDS"),
         (["--change", "motivation human=11@0"], 2, "[0, 10]"),
         (["--change", "mood human=3@0"], 2, "no function 'mood'"),
-        (["--change", "box-at blue@0"], 2, "no fact"),
-        (["--change", "box-at blue wp9@0"], 2, "no object"),
+        (["--change", "motivation human=high@0"], 2, "'high' is no number"),
+        (["--change", "motivation human=9@soon"], 2, "'soon' is no number"),
+        (["--change", "motivation human=9@nan"], 2, "not a number from 0 on"),
+        (["--change", "motivation humn=9@0"], 2, "'humn' is no agent of the problem"),
+        (["--change", "total-cost=3@0"], 2, "(total-cost) is no agent state here"),
+        (["--change", "box-att blue wp0@0"], 2, "did you mean 'box-at'?"),
+        (["--change", "box-at blue@0"], 2, "'box-at' takes 2 objects, not 1"),
+        (["--change", "not box-at blue wp9@0"], 2, "'wp9' is no wp of the problem"),
+        (["--change", "not controllable robot@5"], 2, "fixed during a run"),
+        (["--human", "uncoperative"], 2, "did you mean 'uncooperative'?"),
+        (["--world", "moon"], 2, "there is no event-world 'moon'"),
         (["--resume"], 2, "journal"),
-        (["--planner", "nobody"], 0, "goal reached"),  # the next planner takes over
+        (["--planner", "nobody"], 2, "there is no planner 'nobody'"),
     ],
 )
 def test_wrong_use(args: list[str], code: int, words: str) -> None:
@@ -92,8 +100,6 @@ class Lazy:
     """A human of a researcher's own."""
 
     def nature(self, problem: object, seed: object) -> object:
-        nature = execute_module.nature_for
-        assert nature
         from hrcplan.execution.worlds.simulated import Nature, StateChange
 
         return Nature(seed, (StateChange(0.0, {("knowledge", "human"): 10}),))
@@ -102,14 +108,14 @@ class Lazy:
 def test_a_human_of_ones_own(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "laboratory", sys.modules[__name__])
     done = execute("transport", "two-boxes", human="laboratory:Lazy")
-    assert done.row.failed_human == 1
-    assert done.row.success
+    assert done.outcome.failed_human == 1
+    assert done.outcome.success
 
 
 def test_the_same_loop_runs_in_the_kitchen() -> None:
-    done = execute("kitchen", "smoothie-mango", human="case1,random", seed=2)
-    assert done.row.ending == "goal reached"
-    assert done.row.executed_human + done.row.executed_robot >= 5
+    done = execute("kitchen", "smoothie-mango", human="uncooperative,random", seed=2)
+    assert done.outcome.ending == "goal reached"
+    assert done.outcome.executed_human + done.outcome.executed_robot >= 5
 
 
 NEW_DOMAIN = """
@@ -141,8 +147,8 @@ def test_the_same_loop_runs_on_a_domain_that_nobody_has_seen(tmp_path: Path) -> 
     domain.write_text(NEW_DOMAIN)
     problem.write_text(NEW_PROBLEM)
     rows = [
-        execute(str(domain), str(problem), human=human, seed=seed).row
-        for human in ("steady", "case1", "case2,attempt")
+        execute(str(domain), str(problem), human=human, seed=seed).outcome
+        for human in ("steady", "uncooperative", "partly-cooperative,attempt")
         for seed in (1, 2)
     ]
     assert all(row.success for row in rows), rows
@@ -179,6 +185,6 @@ def test_a_domain_without_agents_is_executed_too(tmp_path: Path) -> None:
     run = hrcplan("execute", str(domain), str(problem))
     assert run.returncode == 0, run.stderr
     assert "goal reached: 2 steps" in run.stdout
-    nobody = hrcplan("execute", str(domain), str(problem), "--human", "case1")
+    nobody = hrcplan("execute", str(domain), str(problem), "--human", "uncooperative")
     assert nobody.returncode == 2
     assert "no human" in nobody.stderr

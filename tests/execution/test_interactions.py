@@ -1,7 +1,6 @@
 """Beyond the paper: interactions, estimation, and failure memory, in simulated runs."""
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -9,7 +8,7 @@ import pytest
 from hrcplan.agents import load_profile
 from hrcplan.execution import Outcome, Spec, engine_for, means, simulate
 from hrcplan.execution import events as ev
-from hrcplan.execution.execute import carry_out, make_setup
+from hrcplan.execution.execute import carry_out, prepare_run
 from hrcplan.execution.journal import read_journal
 from hrcplan.execution.model import ExecutionModel
 from hrcplan.execution.monitor import Monitor
@@ -92,21 +91,22 @@ def test_what_could_only_get_worse_is_no_state_of_the_task() -> None:
 def test_a_journal_of_interactions_replays(tmp_path: Any) -> None:
     problem = read("transport-coached", "two-boxes")
     path = tmp_path / "run.jsonl"
-    setup = make_setup(problem, profile="estimated", human="case2", planner="exact", seed=3)
-    setup = replace(setup, profile=load_profile("hrcplan"))
-    done = carry_out(setup, journal=path)
+    prepared = prepare_run(
+        problem, profile="hrcplan", human="partly-cooperative", planner="exact", seed=3
+    )
+    done = carry_out(prepared, journal=path)
     found = replay(read_journal(path))
     assert found.difference is None
-    assert found.row == done.row
+    assert found.row == done.outcome
 
 
 def test_estimates_are_replayed_too(tmp_path: Any) -> None:
     path = tmp_path / "run.jsonl"
-    setup = make_setup(read("transport", "two-boxes"), profile="estimated", model=False,
-                           human="case1", planner="exact", seed=5)  # fmt: skip
-    done = carry_out(setup, journal=path)
+    prepared = prepare_run(read("transport", "two-boxes"), profile="estimated", model=False,
+                           human="uncooperative", planner="exact", seed=5)  # fmt: skip
+    done = carry_out(prepared, journal=path)
     found = replay(read_journal(path))
-    assert (found.difference, found.row) == (None, done.row)
+    assert (found.difference, found.row) == (None, done.outcome)
 
 
 def test_the_same_seed_gives_the_same_rows() -> None:

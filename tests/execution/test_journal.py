@@ -19,7 +19,7 @@ from hypothesis import strategies as st
 from hrcplan.errors import InputError, UsageError
 from hrcplan.execution import events as ev
 from hrcplan.execution.codec import from_json, to_json
-from hrcplan.execution.execute import Executed, carry_out, execute, make_setup
+from hrcplan.execution.execute import Execution, carry_out, execute, prepare_run
 from hrcplan.execution.journal import RunSetup, read_journal, setup_from_json
 from hrcplan.execution.model import ExecutionModel
 from hrcplan.execution.replanner import Replanner
@@ -37,10 +37,11 @@ CHANGES = (
 )
 
 
-def eventful(journal: Path, resume: bool = False) -> Executed:
+def eventful(journal: Path, resume: bool = False) -> Execution:
     problem = read("transport", "two-boxes")
-    setup = make_setup(problem, profile="replan-always", changes=CHANGES, seed=5)
-    return carry_out(setup, journal=journal, resume=resume, planner=shared_planner())
+    prepared = prepare_run(problem, profile="replan-always", changes=CHANGES, seed=5,
+                           provider=shared_planner())  # fmt: skip
+    return carry_out(prepared, journal=journal, resume=resume)
 
 
 @lru_cache
@@ -58,19 +59,19 @@ def content(path: Path) -> list[dict[str, object]]:
 
 
 @pytest.fixture(scope="module")
-def whole(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Executed]:
+def whole(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Execution]:
     path = tmp_path_factory.mktemp("journal") / "run.jsonl"
     return path, eventful(path)
 
 
-def test_the_run_has_something_in_it(whole: tuple[Path, Executed]) -> None:
-    row = whole[1].row
+def test_the_run_has_something_in_it(whole: tuple[Path, Execution]) -> None:
+    row = whole[1].outcome
     assert row.success
     assert row.replans_deviation + row.replans_failure + row.replans_change >= 2
 
 
 def test_a_run_killed_at_any_position_goes_on_to_the_same_end(
-    whole: tuple[Path, Executed], tmp_path: Path
+    whole: tuple[Path, Execution], tmp_path: Path
 ) -> None:
     path, done = whole
     lines = path.read_bytes().splitlines(keepends=True)
@@ -79,7 +80,7 @@ def test_a_run_killed_at_any_position_goes_on_to_the_same_end(
         killed = tmp_path / "killed.jsonl"
         killed.write_bytes(b"".join(lines[:n]) + torn)
         again = eventful(killed, resume=True)
-        assert (again.row, again.run.state) == (done.row, done.run.state), n
+        assert (again.outcome, again.run.state) == (done.outcome, done.run.state), n
         assert again.timeline == done.timeline, n
         assert content(killed) == content(path), n
 
@@ -87,7 +88,8 @@ def test_a_run_killed_at_any_position_goes_on_to_the_same_end(
 def test_a_killed_process_is_resumed(tmp_path: Path) -> None:
     """The real thing: kill -9 in the middle, then --resume; compared with an undisturbed run."""
     command = [sys.executable, "-m", "hrcplan", "execute", "transport/two-boxes", "--profile",
-               "replan-always", "--human", "case2", "--seed", "4", "--json"]  # fmt: skip
+               "replan-always", "--human", "partly-cooperative", "--seed", "4",
+               "--json"]  # fmt: skip
     path = tmp_path / "killed.jsonl"
     arguments = ["--journal", str(path)]
     running = subprocess.Popen([*command[:-1], *arguments, "--speed", "150"],
@@ -104,10 +106,10 @@ def test_a_killed_process_is_resumed(tmp_path: Path) -> None:
     assert replay(read_journal(path)).difference is None
 
 
-def test_resuming_a_finished_run_changes_nothing(whole: tuple[Path, Executed]) -> None:
+def test_resuming_a_finished_run_changes_nothing(whole: tuple[Path, Execution]) -> None:
     path, done = whole
     before = path.read_bytes()
-    assert eventful(path, resume=True).row == done.row
+    assert eventful(path, resume=True).outcome == done.outcome
     assert path.read_bytes() == before
 
 
@@ -115,20 +117,20 @@ def test_resume_without_a_journal_begins_anew(tmp_path: Path) -> None:
     assert eventful(tmp_path / "new.jsonl", resume=True).n_resumed == 0
 
 
-def test_a_journal_is_never_overwritten(whole: tuple[Path, Executed]) -> None:
+def test_a_journal_is_never_overwritten(whole: tuple[Path, Execution]) -> None:
     with pytest.raises(UsageError, match="exists"):
         eventful(whole[0])
 
 
-def test_a_journal_of_another_problem_is_refused(whole: tuple[Path, Executed]) -> None:
+def test_a_journal_of_another_problem_is_refused(whole: tuple[Path, Execution]) -> None:
     with pytest.raises(UsageError, match="transport/two-boxes"):
         execute("transport", "handover", journal=whole[0], resume=True)
 
 
-def test_every_decision_follows(whole: tuple[Path, Executed]) -> None:
+def test_every_decision_follows(whole: tuple[Path, Execution]) -> None:
     found = replay(read_journal(whole[0]))
     assert found.difference is None
-    assert found.row == whole[1].row
+    assert found.row == whole[1].outcome
     assert found.n_events == found.n_decisions
 
 
@@ -151,7 +153,7 @@ def tampered(path: Path, old: str, new: str, to: Path) -> Path:
     ids=["decision", "event", "row", "plan", "kind"],
 )
 def test_what_does_not_follow_is_found(
-    whole: tuple[Path, Executed], tmp_path: Path, old: str, new: str
+    whole: tuple[Path, Execution], tmp_path: Path, old: str, new: str
 ) -> None:
     path = tampered(whole[0], old, new, tmp_path / "tampered.jsonl")
     difference = replay(read_journal(path)).difference
@@ -160,7 +162,7 @@ def test_what_does_not_follow_is_found(
 
 
 def test_a_run_does_not_go_on_from_a_tampered_journal(
-    whole: tuple[Path, Executed], tmp_path: Path
+    whole: tuple[Path, Execution], tmp_path: Path
 ) -> None:
     path = tampered(whole[0], '"outcome":"done"', '"outcome":"failed"', tmp_path / "bad.jsonl")
     with pytest.raises(InputError, match="another way"):
@@ -177,7 +179,7 @@ def test_a_run_does_not_go_on_from_a_tampered_journal(
     ids=["damaged", "missing", "repeated"],
 )
 def test_damage_inside_is_named(
-    whole: tuple[Path, Executed], tmp_path: Path, words: str,
+    whole: tuple[Path, Execution], tmp_path: Path, words: str,
     damage: Callable[[list[bytes]], list[bytes]],
 ) -> None:  # fmt: skip
     path = tmp_path / "damaged.jsonl"
@@ -188,7 +190,7 @@ def test_damage_inside_is_named(
 
 @given(st.integers(1, 10_000), st.integers(0, 10_000), st.sampled_from(list('x"0{[-')))
 def test_damage_anywhere_is_found_or_harmless(
-    whole: tuple[Path, Executed], line: int, column: int, character: str
+    whole: tuple[Path, Execution], line: int, column: int, character: str
 ) -> None:
     """One character of one line is overwritten: bad input, a difference, or no matter."""
     lines = whole[0].read_text().splitlines()
@@ -214,7 +216,7 @@ def test_not_a_journal(tmp_path: Path) -> None:
 def test_settings_survive_the_journal() -> None:
     problem = read("kitchen", "salad-greek")
     nature = Nature("a/1", CHANGES[:1], CHANGES[1:], "after", "attempt", frozenset({"mix"}))
-    setup = make_setup(problem, profile="hrcplan", seed="x")
+    setup = prepare_run(problem, profile="hrcplan", seed="x").setup
     setup = RunSetup(setup.problem, setup.profile, False, nature, ("kairos",))
     table = json.loads(json.dumps(setup.to_json()))
     found = setup_from_json(table, "test")
@@ -251,4 +253,4 @@ def test_a_journal_of_an_earlier_version_is_replayed_and_resumed(tmp_path: Path)
     begun = tmp_path / "run.jsonl"
     begun.write_bytes(b"".join(old.read_bytes().splitlines(keepends=True)[:12]))
     again = execute("transport", "two-boxes", journal=begun, resume=True)
-    assert again.row == found.row
+    assert again.outcome == found.row

@@ -28,6 +28,7 @@ class RunSetup:
     sensing: bool
     nature: Nature
     planners: tuple[str, ...] = ()
+    world: str = "simulated"
 
     def to_json(self) -> dict[str, Any]:
         """Return the setup as a JSON object, complete in itself."""
@@ -38,6 +39,7 @@ class RunSetup:
             "sensing": self.sensing,
             "nature": _nature_to_json(self.nature),
             "planners": list(self.planners),
+            "world": self.world,
         }
 
 
@@ -54,6 +56,7 @@ def setup_from_json(table: Mapping[str, Any], path: str) -> RunSetup:
             bool(table["sensing"]),
             _nature(table["nature"]),
             tuple(table["planners"]),
+            str(table.get("world", "simulated")),
         )
     except (KeyError, TypeError, ValueError, AttributeError) as error:
         message = f"the first line of the journal is no beginning: {error!r}"

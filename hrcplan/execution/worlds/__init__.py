@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 from hrcplan.execution.events import Command, Event
 
 
+@runtime_checkable
 class EventWorld(Protocol):
     """Carries commands out and says what happens, one instant at a time."""
 
