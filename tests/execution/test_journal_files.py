@@ -54,7 +54,7 @@ def test_a_journal_that_is_being_written_is_left_alone(
     assert (path.read_bytes(), path.stat().st_ino) == (before, inode)
     other.close()
     if resume or not before:
-        assert execute(*TASK, journal=path, resume=resume).row.success
+        assert execute(*TASK, journal=path, resume=resume).outcome.success
         assert path.stat().st_ino == inode
 
 
