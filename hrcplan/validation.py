@@ -7,7 +7,8 @@ and it shares no code with any planner.
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections import deque
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import groupby
 from types import EllipsisType
@@ -15,23 +16,41 @@ from typing import NamedTuple, overload
 
 from hrcplan.core.numbers import Number, number_text
 from hrcplan.core.text import cut
+from hrcplan.pddl.derivation import Derivation
 from hrcplan.pddl.inputs import Readable, as_problem
 from hrcplan.pddl.interference import Access, access, clash
 from hrcplan.pddl.model import (
     DURATION,
     TOTAL_COST,
     TOTAL_TIME,
+    VIOLATED,
     Action,
+    Atom,
+    Constant,
     Domain,
+    Effect,
     Fact,
     FluentKey,
+    Function,
+    Preference,
     Problem,
     fact_text,
 )
-from hrcplan.pddl.semantics import Binding, LiftedState, Undefined, bind, changes, evaluate, unmet
+from hrcplan.pddl.semantics import (
+    Binding,
+    LiftedState,
+    Undefined,
+    bind,
+    changes,
+    evaluate,
+    holds,
+    instances,
+    unmet,
+)
 from hrcplan.plans import EPSILON_S, Plan, PlannedAction, as_plan, seconds_text
 
 COST: FluentKey = (TOTAL_COST,)
+TIMED = -1  # the step of what comes by itself
 
 
 @dataclass(frozen=True, slots=True)
@@ -156,7 +175,7 @@ def _replay(problem: Problem, plan: Plan, epsilon_s: Number) -> Report:
     replay = _Replay(problem, plan, epsilon_s)
     try:
         replay.run()
-        missing = unmet(problem.goal, replay.state, {}, problem)
+        missing = unmet(problem.goal, replay.seen, {}, problem)
     except _BrokenError as broken:
         report = replay.report(reason=str(broken), failed_step=broken.step)
         return replace(report, gap_s=broken.gap_s)
@@ -175,11 +194,19 @@ class _Replay:
         values = dict(problem.values)
         if TOTAL_COST in problem.domain.functions:
             values.setdefault(COST, 0)
+        values.update({(VIOLATED, p.name): 0 for p in _preferences(problem)})
         self.state = LiftedState(problem.facts, values)
+        self._derivation = Derivation(problem)
         self.costs: list[Number] = [0] * len(plan.actions)
         self.end_s: Number = 0
-        self._running: dict[int, _Event] = {}
+        self._coming = deque(_timed_events(problem))
+        self._running: dict[int, tuple[_Event, LiftedState]] = {}
         self._near: list[tuple[_Event, Access]] = []
+
+    @property
+    def seen(self) -> LiftedState:
+        """The state with what follows from it by axioms: what conditions look at."""
+        return self._derivation.close(self.state)
 
     def report(self, *, reason: str | None = None, failed_step: int | None = None) -> Report:
         """Return what was found; numbers only of a valid plan."""
@@ -193,7 +220,10 @@ class _Replay:
         makespan = self.end_s if temporal else self.plan.makespan_s
         counted = None if temporal else len(costs)
         cost = self.state.values.get(COST, counted)
-        metric = _metric(self.problem, self.state, makespan if temporal else counted)
+        end = self.seen
+        for preference in self.problem.preferences:
+            end = self._counted(preference, self.seen, {}, end)
+        metric = _metric(self.problem, end, makespan if temporal else counted)
         return Report(True, cost, makespan, metric, state=facts, step_costs=costs)
 
     def run(self) -> None:
@@ -202,9 +232,11 @@ class _Replay:
         if self.plan.is_schedule:
             steps = range(len(self.plan.actions))
             self._play([e for i in steps for e in self._events(i, self.plan.actions[i].start_s)])
-            return
-        for step in range(len(self.plan.actions)):
-            self._play(self._events(step, self.end_s + gap if step else 0))
+        else:
+            for step in range(len(self.plan.actions)):
+                self._play(self._events(step, self.end_s + gap if step else 0))
+        for _, group in groupby(self._coming, key=lambda e: e.time):
+            self._happen(tuple(group))  # what comes by itself comes after the last action too
 
     def _events(self, step: int, start_s: Number | None) -> list[_Event]:
         """Return start and end of an action that starts at a time, read in the present state."""
@@ -224,28 +256,47 @@ class _Replay:
         return [start, start._replace(time=time + duration, is_start=False)][: 1 + action.durative]
 
     def _play(self, events: Sequence[_Event]) -> None:
-        ordered = sorted(events, key=lambda e: (e.time, e.step, not e.is_start))
-        for time, group in groupby(ordered, key=lambda e: e.time):
-            self.end_s = max(self.end_s, time)
+        last = max((event.time for event in events), default=0)
+        coming: list[_Event] = []
+        while self._coming and self._coming[0].time <= last:
+            coming.append(self._coming.popleft())
+        ordered = sorted([*coming, *events], key=lambda e: (e.time, e.step, not e.is_start))
+        for _, group in groupby(ordered, key=lambda e: e.time):
             self._happen(tuple(group))
+        self.end_s = max(self.end_s, last)
 
     def _happen(self, group: Sequence[_Event]) -> None:
         """Let the events of one instant happen; all of them read the state before it."""
+        before = self.seen
         after = self.state
         for event in group:
             if event.fault is not None:
                 raise _BrokenError(event.step, event.fault)
             self._check_interference(event)
-            _require(self.problem, event, self.state)
+            _require(self.problem, event, before)
             after = self._changed(event, after)
+            for preference in event.action.preferences:
+                if preference.when == event.when:
+                    after = self._counted(preference, before, event.binding, after)
         self.state = after
         for event in group:
             if event.is_start and event.action.durative:
-                self._running[event.step] = event
+                self._running[event.step] = event, before
             else:
                 self._running.pop(event.step, None)
-        for event in self._running.values():
-            _demand(self.problem, event, "all", self.state)
+        for event, _ in self._running.values():
+            _demand(self.problem, event, "all", self.seen)
+
+    def _counted(
+        self, preference: Preference, now: LiftedState, binding: Binding, after: LiftedState
+    ) -> LiftedState:
+        """Return ``after`` with the instances counted of a preference that ``now`` violates."""
+        n_violated = sum(
+            not holds(preference.formula, now, inner, self.problem)
+            for inner in instances(preference.params, binding, self.problem)
+        )
+        key = VIOLATED, preference.name
+        return replace(after, values={**after.values, key: after.values.get(key, 0) + n_violated})
 
     def _check_interference(self, event: _Event) -> None:
         """Stop if the event interferes with one that is closer than ``epsilon_s``."""
@@ -262,10 +313,11 @@ class _Replay:
     def _changed(self, event: _Event, after: LiftedState) -> LiftedState:
         """Return ``after`` with the effects of one event, read in the state before its instant."""
         before = self.state.values
-        timed = LiftedState(self.state.facts, {**before, (DURATION,): event.duration})
+        timed = LiftedState(self.seen.facts, {**before, (DURATION,): event.duration})
         effects = [e for e in event.action.effects if e.when == event.when]
+        _, started = self._running.get(event.step, (event, timed))
         try:
-            change = changes(effects, timed, event.binding, self.problem)
+            change = changes(effects, timed, event.binding, self.problem, started)
         except Undefined as error:
             raise _BrokenError(event.step, str(error)) from None
         if COST in change.values:
@@ -276,6 +328,22 @@ class _Replay:
             for key, value in change.values.items()
         }
         return replace(change, values=moved).apply(after)
+
+
+def _timed_events(problem: Problem) -> Iterator[_Event]:
+    """Yield the timed initial literals as events of no step."""
+    for change in problem.timed:
+        target = Function if change.value is not None else Atom
+        kind = "assign" if change.value is not None else "add" if change.positive else "delete"
+        value = None if change.value is None else Constant(change.value)
+        effect = Effect("start", kind, target(change.key[0], change.key[1:]), value)
+        yield _Event(change.time, True, TIMED, Action(str(change), (), (), (effect,)), {}, 0)
+
+
+def _preferences(problem: Problem) -> Iterator[Preference]:
+    yield from problem.preferences
+    for action in problem.domain.actions:
+        yield from action.preferences
 
 
 def objective(problem: Problem, report: Report) -> Number | None:

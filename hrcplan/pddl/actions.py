@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Iterator, Set
 
 from hrcplan.core.text import nearest, nearest_name, quote
 from hrcplan.pddl.effects import read_effects
 from hrcplan.pddl.formulas import read_conditions, read_expression
-from hrcplan.pddl.model import DURATION, Action, Constant, Expr
+from hrcplan.pddl.model import CONTINUOUS, DURATION, Action, Constant, Expr, Preference
 from hrcplan.pddl.parentheses import ACTIONS, PARTS
+from hrcplan.pddl.preferences import read_preferences
 from hrcplan.pddl.reader import GroupNode, ParseNode, WordNode
 from hrcplan.pddl.scope import Scope
 from hrcplan.pddl.semantics import Undefined, evaluate
 from hrcplan.pddl.source import SECTION_SIMILARITY, SourceText
 from hrcplan.pddl.typed_lists import read_params
 
+PROCESS = ":process"
+PLUS = frozenset([PROCESS, ":event"])
 _CLOSE = SECTION_SIMILARITY
 _CLASSICAL = (":parameters", ":precondition", ":effect")
 _DURATIVE = (":parameters", ":duration", ":condition", ":effect")
@@ -28,17 +31,22 @@ _OTHER_PARTS = {
 }
 
 
-def read_actions(root: GroupNode, scope: Scope) -> Iterator[tuple[GroupNode, Action]]:
-    """Yield the actions of a domain with their trees; of two with one name the first."""
+def read_actions(
+    root: GroupNode, scope: Scope, heads: Set[str] = ACTIONS
+) -> Iterator[tuple[GroupNode, Action]]:
+    """Yield the actions of a domain (or what has other heads) with their trees.
+
+    Of two with one name the first.
+    """
     seen: dict[str, Action] = {}
     for node in root[2:]:
-        if not isinstance(node, GroupNode) or node.head not in ACTIONS:
+        if not isinstance(node, GroupNode) or node.head not in heads:
             continue
         action = _action(node, scope)
         if action is None:
             continue
         if action.name in seen:
-            message = f"action {quote(action.name)} is declared twice"
+            message = f"{node.head[1:]} {quote(action.name)} is declared twice"
             if seen[action.name] == action:
                 scope.source.warn(node[1].at, "duplicate-action", message)
             else:
@@ -59,9 +67,17 @@ def _action(node: GroupNode, scope: Scope) -> Action | None:
     params = read_params(parts[":parameters"], scope) if ":parameters" in parts else ()
     inner = scope.binding(params)
     timed = inner.knowing(DURATION) if durative else inner
+    moment = None if durative else "start"
+    if node.head == PROCESS:
+        timed, moment = inner.knowing(CONTINUOUS), "all"
+    if node.head in PLUS:
+        source.use(":time", node.at)
     if durative:
         source.use(":durative-actions", node.at)
     condition = parts.get(":condition" if durative else ":precondition")
+    preferences: tuple[Preference, ...] = ()
+    if condition is not None:
+        condition, preferences = read_preferences(condition, inner, durative)
     effect = parts.get(":effect")
     if effect is None or (
         isinstance(effect, GroupNode) and effect[1:] == [] and effect.head in "and"
@@ -71,11 +87,10 @@ def _action(node: GroupNode, scope: Scope) -> Action | None:
         name=str(node[1]),
         params=params,
         conditions=() if condition is None else tuple(read_conditions(condition, inner, durative)),
-        effects=()
-        if effect is None
-        else tuple(read_effects(effect, timed, None if durative else "start")),
+        effects=() if effect is None else tuple(read_effects(effect, timed, moment)),
         durative=durative,
         durations=tuple(_durations(parts.get(":duration"), inner, node)) if durative else (),
+        preferences=preferences,
     )
 
 

@@ -7,8 +7,9 @@ from dataclasses import replace
 
 from hrcplan.core.text import nearest, nearest_name, quote
 from hrcplan.pddl import conventions
-from hrcplan.pddl.actions import read_actions
+from hrcplan.pddl.actions import PLUS, PROCESS, read_actions
 from hrcplan.pddl.annotations import read_notes
+from hrcplan.pddl.axioms import DERIVED, read_axioms
 from hrcplan.pddl.formulas import OBJECT_FLUENTS
 from hrcplan.pddl.model import OBJECT, Domain, Signature
 from hrcplan.pddl.parentheses import ACTIONS
@@ -19,13 +20,12 @@ from hrcplan.pddl.source import SECTION_SIMILARITY, SourceText
 from hrcplan.pddl.typed_lists import Entry, params_of, read_typed, report_types
 
 _UNSUPPORTED = {
-    ":derived": "derived predicates",
-    ":axiom": "axioms",
-    ":process": "processes",
-    ":event": "events",
-    ":constraints": "constraints",
+    ":axiom": "axioms of PDDL 1.2",
+    ":constraints": "trajectory constraints",
 }
-_SECTIONS = (":requirements", ":types", ":constants", ":predicates", ":functions", *ACTIONS)
+_CURES = {":axiom": "write (:derived (p ?x) CONDITION)"}
+_REPEATED = ACTIONS | PLUS | {DERIVED}
+_SECTIONS = (":requirements", ":types", ":constants", ":predicates", ":functions", *_REPEATED)
 
 
 def read_domain(root: GroupNode, source: SourceText) -> Domain:
@@ -43,11 +43,18 @@ def read_domain(root: GroupNode, source: SourceText) -> Domain:
         functions=_signatures(sections.get(":functions"), source, types, "function"),
         path=source.path,
     )
-    actions = list(read_actions(root, Scope(source, base, constants, {})))
+    axioms = tuple(read_axioms(root, Scope(source, base, constants, {})))
+    derived = frozenset(axiom.name for axiom in axioms)
+    scope = Scope(source, base, constants, {}, derived=derived)
+    actions = list(read_actions(root, scope))
+    plus = list(read_actions(root, scope, PLUS))
     names = [action.name for _, action in actions]
     domain = replace(
         base,
         actions=tuple(action for _, action in actions),
+        axioms=axioms,
+        processes=tuple(action for node, action in plus if node.head == PROCESS),
+        events=tuple(action for node, action in plus if node.head != PROCESS),
         notes=read_notes(source, names, base.functions),
     )
     report_types(source, types, ":types" in sections)
@@ -68,7 +75,7 @@ def sections_of(
         name = _section_name(node, source, known)
         if name is None or isinstance(node, WordNode):
             continue
-        if name in seen and name not in ACTIONS:
+        if name in seen and name not in _REPEATED:
             source.error(node.at, "repeated-section", f"a second {name} section")
         else:
             seen.add(name)
@@ -82,7 +89,8 @@ def _section_name(node: ParseNode, source: SourceText, known: Sequence[str]) -> 
     elif name in known:
         return name
     elif name in _UNSUPPORTED:
-        source.error(node.at, "unsupported", f"{_UNSUPPORTED[name]} are not supported")
+        source.error(node.at, "unsupported", f"{_UNSUPPORTED[name]} are not supported",
+                     _CURES.get(name))  # fmt: skip
     elif name == ":length":
         source.warn(node.at, "ignored-section", "hrcplan takes no notice of :length")
     else:

@@ -11,12 +11,13 @@ from hrcplan.pddl.formulas import (
     has_parts,
     is_unsupported,
     read_atom,
+    read_conditions,
     read_expression,
     read_formula,
     read_function,
     time_of,
 )
-from hrcplan.pddl.model import TOTAL_COST, TRUE, And, Effect
+from hrcplan.pddl.model import CONTINUOUS, TOTAL_COST, TRUE, And, Effect, Formula
 from hrcplan.pddl.reader import GroupNode, ParseNode
 from hrcplan.pddl.scope import Scope
 from hrcplan.pddl.typed_lists import read_params
@@ -47,20 +48,16 @@ def read_effects(node: ParseNode, scope: Scope, when: str | None) -> Iterator[Ef
             yield from _conditional(node, scope, when)
         case _ if is_unsupported(node, scope):
             return
+        case head if when is None and head in ASSIGNMENTS and _mentions(node, CONTINUOUS):
+            scope.source.use(":continuous-effects", node.at)
+            yield from _assignment(node, scope.knowing(CONTINUOUS), "all")
         case _ if when is None:
-            _report_no_time(node, scope)
+            message = "a durative effect needs (at start …) or (at end …)"
+            scope.source.error(node.at, "no-time", message)
         case head if head in ASSIGNMENTS:
             yield from _assignment(node, scope, when)
         case _:
             yield from _literal(node, scope, when)
-
-
-def _report_no_time(node: GroupNode, scope: Scope) -> None:
-    if node.head in ASSIGNMENTS and _mentions(node, "#t"):
-        scope.source.error(node.at, "unsupported", "continuous effects (#t) are not supported")
-    else:
-        message = "a durative effect needs (at start …) or (at end …)"
-        scope.source.error(node.at, "no-time", message)
 
 
 def _mentions(node: ParseNode, word: str) -> bool:
@@ -82,19 +79,42 @@ def _conditional(node: GroupNode, scope: Scope, when: str | None) -> Iterator[Ef
     if not has_parts(node, 2, scope):
         return
     scope.source.use(":conditional-effects", node.at)
-    condition, body = node[1], node[2]
     if when is None:
-        # (when (at end c) (at end e)): condition and effect say when by themselves.
-        first, second = time_of(condition), time_of(body)
-        if first is None or second is None or first[0] != second[0] or first[0] == "all":
-            message = "condition and effect need the same (at start …) or (at end …)"
-            scope.source.error(node.at, "unsupported", message)
-            return
-        when, condition, body = first[0], first[1], second[1]
-    given = read_formula(condition, scope)
-    for effect in read_effects(body, scope, when):
-        both = given if effect.given == TRUE else And((given, effect.given))
-        yield replace(effect, given=both)
+        yield from _timed_conditional(node, scope)
+        return
+    given = read_formula(node[1], scope)
+    for effect in read_effects(node[2], scope, when):
+        yield replace(effect, given=_both(given, effect.given))
+
+
+def _timed_conditional(node: GroupNode, scope: Scope) -> Iterator[Effect]:
+    """Yield the effects of ``(when (at start c) (at end e))``: each part says when by itself."""
+    found = list(read_conditions(node[1], scope, durative=True))
+    starts, ends = (And(tuple(c.formula for c in found if c.when == w)) for w in ("start", "end"))
+    if any(c.when == "all" for c in found):
+        message = "'over all' in the condition of an effect is not supported"
+        scope.source.error(node.at, "unsupported", message, "a fact that the start sets can say it")
+        return
+    for effect in read_effects(node[2], scope, None):
+        if effect.when == "start" and ends != TRUE:
+            message = "an effect at the start cannot depend on the end"
+            scope.source.error(node.at, "not-an-effect", message, "write (at end …) for the effect")
+        elif effect.when == "start":
+            yield replace(effect, given=_both(_plain(starts), effect.given))
+        else:
+            before = _both(_plain(starts), effect.given_start)
+            yield replace(effect, given=_both(_plain(ends), effect.given), given_start=before)
+
+
+def _plain(formula: And) -> Formula:
+    """Return the one part of a conjunction that has just one."""
+    return formula.parts[0] if len(formula.parts) == 1 else formula
+
+
+def _both(outer: Formula, inner: Formula) -> Formula:
+    if inner == TRUE or outer == TRUE:
+        return inner if outer == TRUE else outer
+    return And((outer, inner))
 
 
 def _literal(node: GroupNode, scope: Scope, when: str) -> Iterator[Effect]:
@@ -108,7 +128,13 @@ def _literal(node: GroupNode, scope: Scope, when: str) -> Iterator[Effect]:
         scope.source.error(inner.at, "not-an-effect", message, _cure(node, inner))
         return
     atom = read_atom(inner, scope)
-    if atom is not None:
+    if when == "all":
+        message = "a process changes numbers only, such as (increase (f) (* #t 2))"
+        scope.source.error(inner.at, "not-an-effect", message, "an event can change facts")
+    elif atom is not None and atom.name in scope.derived:
+        message = f"{quote(atom.name)} is derived: no action can change it"
+        scope.source.error(inner.at, "derived-predicate", message)
+    elif atom is not None:
         yield Effect(when, "add" if inner is node else "delete", atom)
 
 

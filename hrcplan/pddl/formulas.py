@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Set
 
 from hrcplan.core.numbers import to_number
 from hrcplan.core.text import plural, quote
 from hrcplan.pddl.model import (
+    CONTINUOUS,
     DURATION,
     TRUE,
+    VIOLATED,
     And,
     Arithmetic,
     Atom,
@@ -30,8 +32,8 @@ from hrcplan.pddl.typed_lists import read_params
 COMPARISONS = frozenset(["<", "<=", "=", ">=", ">"])
 ARITHMETIC = frozenset("+-*/")
 UNSUPPORTED = {
-    "preference": "preferences",
-    "is-violated": "preferences",
+    "preference": "preferences inside of another condition than and, forall",
+    "is-violated": "preferences outside of the metric",
     "probabilistic": "probabilistic effects",
     "oneof": "non-deterministic effects",
     "always": "trajectory constraints",
@@ -153,10 +155,24 @@ def read_expression(node: ParseNode, scope: Scope) -> Expr:
         return _arithmetic(node, scope)
     if node.head in scope.numbers and len(node) == 1:
         return Function(str(node.head))
+    if node.head == VIOLATED and scope.preferences is not None:
+        return _violated(node, scope, scope.preferences)
     if node.head:
         return read_function(node, scope) or Constant(0)
     scope.source.error(node.at, "not-a-number", "a numeric expression is expected here")
     return Constant(0)
+
+
+def _violated(node: GroupNode, scope: Scope, known: Set[str]) -> Expr:
+    name = node[1] if len(node) == 2 else node
+    if not isinstance(name, WordNode):
+        scope.source.error(node.at, "bad-preference", "(is-violated NAME) is expected here")
+        return Constant(0)
+    if name not in known:
+        message = f"there is no preference {quote(name)}"
+        scope.source.unknown(name.at, "unknown-preference", message, str(name), known)
+        return Constant(0)
+    return Function(VIOLATED, (str(name),))
 
 
 def read_function(node: ParseNode, scope: Scope) -> Function | None:
@@ -207,8 +223,9 @@ def _number_or_name(word: WordNode, scope: Scope) -> Expr:
         return Constant(value)
     if word in scope.numbers:
         return Function(str(word))
-    if word == "#t":
-        scope.source.error(word.at, "unsupported", "continuous effects (#t) are not supported")
+    if word == CONTINUOUS:
+        message = "#t stands in effects of processes and untimed effects of durative actions only"
+        scope.source.error(word.at, "unknown-function", message)
     elif looks_numeric(word):
         message = f"{quote(word)} is not a number"
         scope.source.error(word.at, "bad-number", message, decimal_cure(word))

@@ -18,10 +18,12 @@ from math import prod
 from hrcplan.core.text import quote
 from hrcplan.pddl.joins import FactIndex, Join, conjuncts, needed_atoms
 from hrcplan.pddl.model import (
+    CONTINUOUS,
     DURATION,
     TOTAL_COST,
     TOTAL_TIME,
     TRUE,
+    VIOLATED,
     Action,
     And,
     Arithmetic,
@@ -54,7 +56,7 @@ from hrcplan.pddl.source import SourceText
 
 MAX_BINDINGS = 20_000  # looked at per action; beyond that a gap is found when the task is grounded
 MAX_REPORTS = 20
-_SPECIAL = frozenset([DURATION, TOTAL_COST, TOTAL_TIME])
+_SPECIAL = frozenset([CONTINUOUS, DURATION, TOTAL_COST, TOTAL_TIME, VIOLATED])
 
 
 def check_values(

@@ -52,6 +52,9 @@ def access(problem: Problem, action: Action, binding: Binding, when: str) -> Acc
         functions.update(
             ground_key(f, binding) for _, d in action.durations for f in functions_in(d)
         )
+        for effect in action.effects:
+            for inner in instances(effect.params, binding, problem):
+                look(effect.given_start, inner)
     written: dict[str, set[Fact]] = {role: set() for role in ("add", "delete", "sum", "assign")}
     for effect in action.effects:
         if effect.when != when:

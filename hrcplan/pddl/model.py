@@ -21,6 +21,10 @@ OBJECT = "object"
 TOTAL_COST = "total-cost"
 TOTAL_TIME = "total-time"
 DURATION = "?duration"
+CONTINUOUS = "#t"
+"""The time that has passed since a process or an action with continuous effects began."""
+VIOLATED = "is-violated"
+"""The function, of a preference's name, that a metric reads: how often it is violated."""
 
 
 def fact_text(fact: Fact) -> str:
@@ -81,7 +85,7 @@ class Function:
     args: tuple[str, ...] = ()
 
     def __str__(self) -> str:
-        return self.name if self.name == DURATION else _group(self.name, *self.args)
+        return self.name if self.name in (DURATION, CONTINUOUS) else _group(self.name, *self.args)
 
 
 @dataclass(frozen=True, slots=True)
@@ -179,8 +183,11 @@ class Condition:
 class Effect:
     """One change: ``add``/``delete`` an atom, or ``assign``/``increase``/… a function.
 
+    ``when`` is ``start`` or ``end``, or ``all`` for a number that changes while time passes.
+
     ``params`` are the variables of an enclosing ``forall``; ``given`` is the condition of an
-    enclosing ``when`` (``TRUE`` if there is none).
+    enclosing ``when`` (``TRUE`` if there is none), read when the effect happens, and
+    ``given_start`` one that an effect at the end reads at the start of its action.
     """
 
     when: str
@@ -189,6 +196,7 @@ class Effect:
     value: Expr | None = None
     params: tuple[Param, ...] = ()
     given: Formula = TRUE
+    given_start: Formula = TRUE
 
     def __str__(self) -> str:
         match self.kind:
@@ -204,6 +212,46 @@ class Effect:
 
 
 @dataclass(frozen=True, slots=True)
+class Preference:
+    """A condition that should hold: ``when`` is empty in a goal, else as in a `Condition`.
+
+    ``params`` are the variables of an enclosing ``forall``: each instance counts by itself.
+    """
+
+    name: str
+    formula: Formula
+    params: tuple[Param, ...] = ()
+    when: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Axiom:
+    """A derived predicate (PDDL 2.2): it holds of ``params`` wherever ``body`` does."""
+
+    name: str
+    params: tuple[Param, ...]
+    body: Formula
+
+
+@dataclass(frozen=True, slots=True)
+class TimedChange:
+    """A timed initial literal: at ``time`` a fact comes or goes, or a function gets a value."""
+
+    time: Number
+    key: Fact
+    positive: bool = True
+    value: Number | None = None
+
+    def __str__(self) -> str:
+        text = fact_text(self.key)
+        if self.value is not None:
+            text = f"(= {text} {number_text(self.value)})"
+        elif not self.positive:
+            text = f"(not {text})"
+        return f"(at {number_text(self.time)} {text})"
+
+
+@dataclass(frozen=True, slots=True)
 class Action:
     """An action schema; an instantaneous one has all its conditions and effects at start."""
 
@@ -213,6 +261,7 @@ class Action:
     effects: tuple[Effect, ...]
     durative: bool = False
     durations: tuple[tuple[str, Expr], ...] = ()
+    preferences: tuple[Preference, ...] = ()
 
     @property
     def fixed_duration(self) -> Expr | None:
@@ -239,7 +288,10 @@ class Note:
 
 @dataclass(frozen=True)
 class Domain:
-    """A planning domain, with the file it came from and its ``;; hrcplan:`` notes."""
+    """A planning domain, with the file it came from and its ``;; hrcplan:`` notes.
+
+    ``processes`` and ``events`` (PDDL+) happen by themselves wherever their conditions hold.
+    """
 
     name: str
     requirements: tuple[str, ...] = ()
@@ -248,6 +300,9 @@ class Domain:
     predicates: Mapping[str, Signature] = field(default_factory=dict)
     functions: Mapping[str, Signature] = field(default_factory=dict)
     actions: tuple[Action, ...] = ()
+    axioms: tuple[Axiom, ...] = ()
+    processes: tuple[Action, ...] = ()
+    events: tuple[Action, ...] = ()
     notes: tuple[Note, ...] = ()
     path: str = ""
 
@@ -305,6 +360,17 @@ class Domain:
         return any(action.durative for action in self.actions)
 
     @cached_property
+    def is_continuous(self) -> bool:
+        """Whether numbers change while time passes: by processes, events, or effects of ``#t``."""
+        effects = (effect for action in self.actions for effect in action.effects)
+        return bool(self.processes or self.events) or any(e.when == "all" for e in effects)
+
+    @cached_property
+    def derived(self) -> frozenset[str]:
+        """Predicates that axioms define: no state holds them, they follow from it."""
+        return frozenset(axiom.name for axiom in self.axioms)
+
+    @cached_property
     def changed_functions(self) -> frozenset[str]:
         """Functions that some action changes, ``total-cost`` included if it is one of them."""
         return frozenset(
@@ -317,7 +383,11 @@ class Domain:
 
 @dataclass(frozen=True)
 class Problem:
-    """A planning problem: objects, initial state, goal and metric of one domain."""
+    """A planning problem: objects, initial state, goal and metric of one domain.
+
+    ``timed`` are changes that come by themselves, in order of time; ``preferences`` those of the
+    goal, which a plan may miss.
+    """
 
     name: str
     domain: Domain
@@ -327,6 +397,8 @@ class Problem:
     goal: Formula = TRUE
     metric: Expr | None = None
     maximize: bool = False
+    timed: tuple[TimedChange, ...] = ()
+    preferences: tuple[Preference, ...] = ()
     path: str = ""
 
     def __repr__(self) -> str:

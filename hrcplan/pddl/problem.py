@@ -15,7 +15,20 @@ from hrcplan.pddl.formulas import (
     read_function,
 )
 from hrcplan.pddl.initial_values import check_values
-from hrcplan.pddl.model import TOTAL_TIME, TRUE, Domain, Expr, Fact, FluentKey, Formula, Problem
+from hrcplan.pddl.model import (
+    TOTAL_TIME,
+    TRUE,
+    Atom,
+    Domain,
+    Expr,
+    Fact,
+    FluentKey,
+    Formula,
+    Preference,
+    Problem,
+    TimedChange,
+)
+from hrcplan.pddl.preferences import read_preferences, with_names
 from hrcplan.pddl.reader import GroupNode, ParseNode, WordNode
 from hrcplan.pddl.requirements import check_requirements, read_requirements
 from hrcplan.pddl.scope import Scope, decimal_cure
@@ -23,6 +36,7 @@ from hrcplan.pddl.source import SourceText
 from hrcplan.pddl.typed_lists import report_types
 
 _SECTIONS = (":domain", ":requirements", ":objects", ":init", ":goal", ":metric")
+_SENSES = ("minimize", "maximize")
 _LOGIC = frozenset(["and", "or", "imply", "forall", "exists", "when"])
 
 
@@ -44,16 +58,19 @@ def read_problem(root: GroupNode, source: SourceText, domain: Domain) -> Problem
     init = _Init(scope)
     for node in sections.get(":init", ())[1:]:
         init.take(node)
-    metric, maximize = _metric(sections.get(":metric"), scope)
+    goal, preferences = _goal(sections.get(":goal"), root, scope)
+    metric, maximize = _metric(sections.get(":metric"), with_names(scope, preferences, root))
     problem = Problem(
         name=name,
         domain=domain,
         objects=objects,
         facts=frozenset(init.facts),
         values=init.values,
-        goal=_goal(sections.get(":goal"), root, scope),
+        goal=goal,
         metric=metric,
         maximize=maximize,
+        timed=tuple(sorted(init.timed, key=lambda change: change.time)),
+        preferences=preferences,
         path=source.path,
     )
     if domain.requirements:
@@ -87,6 +104,7 @@ class _Init:
         self.facts: set[Fact] = set()
         self.values: dict[FluentKey, Number] = {}
         self.places: dict[FluentKey, int] = {}
+        self.timed: list[TimedChange] = []
 
     def take(self, node: ParseNode) -> None:
         source = self.scope.source
@@ -95,14 +113,45 @@ class _Init:
         elif node.head == "=":
             self._value(node)
         elif node.head == "at" and len(node) == 3 and _is_time(node[1], node[2]):
-            source.error(node.at, "unsupported", "timed initial literals are not supported")
+            self._timed(node)
         elif node.head == "not":
             self._negated(node)
         else:
             self._fact(node)
 
-    def _fact(self, node: GroupNode) -> None:
+    def _timed(self, node: GroupNode) -> None:
+        """Take a change that comes by itself, such as ``(at 9 (open))``."""
+        source, (_, spelled, change) = self.scope.source, node
+        source.use(":timed-initial-literals", node.at)
+        time = to_number(str(spelled))
+        if time is None or time < 0 or not isinstance(change, GroupNode):
+            source.error(spelled.at, "bad-number", "a time is not below zero")
+        elif change.head == "=":
+            function = read_function(change[1], self.scope) if len(change) == 3 else None
+            value = self._number(change[2]) if len(change) == 3 else None
+            if function is not None and value is not None:
+                key = (function.name, *function.args)
+                self.timed.append(TimedChange(time, key, value=value))
+        else:
+            positive = change.head != "not"
+            inner = change if positive else change[-1]
+            atom = self._base_atom(inner) if isinstance(inner, GroupNode) and inner else None
+            if atom is not None:
+                self.timed.append(TimedChange(time, (atom.name, *atom.args), positive))
+            elif not source.has_errors:
+                source.error(node.at, "not-a-fact", "(at TIME (p a b)) is expected here")
+
+    def _base_atom(self, node: GroupNode) -> Atom | None:
+        """Return a fact that a state can hold: no derived predicate."""
         atom = read_atom(node, self.scope)
+        if atom is not None and atom.name in self.scope.domain.derived:
+            message = f"{quote(atom.name)} is derived: no initial state holds it"
+            self.scope.source.error(node.at, "derived-predicate", message, "remove it")
+            return None
+        return atom
+
+    def _fact(self, node: GroupNode) -> None:
+        atom = self._base_atom(node)
         if atom is not None:
             fact = (atom.name, *atom.args)
             if fact in self.facts:
@@ -123,12 +172,15 @@ class _Init:
             source.error(node.at, "not-a-fact", "(= (f a) NUMBER) is expected here")
             return
         function = read_function(node[1], self.scope)
-        spelled = node[2]
-        value = to_number(spelled) if isinstance(spelled, WordNode) else None
-        if value is None:
-            _report_no_number(spelled, self.scope)
-        elif function is not None:
+        value = self._number(node[2])
+        if value is not None and function is not None:
             self._set((function.name, *function.args), value, node.at)
+
+    def _number(self, node: ParseNode) -> Number | None:
+        value = to_number(node) if isinstance(node, WordNode) else None
+        if value is None:
+            _report_no_number(node, self.scope)
+        return value
 
     def _set(self, key: FluentKey, value: Number, at: int) -> None:
         source, shown = self.scope.source, quote(f"({' '.join(key)})")
@@ -156,22 +208,34 @@ def _is_time(word: ParseNode, what: ParseNode) -> bool:
     )
 
 
-def _goal(section: GroupNode | None, root: GroupNode, scope: Scope) -> Formula:
+def _goal(
+    section: GroupNode | None, root: GroupNode, scope: Scope
+) -> tuple[Formula, tuple[Preference, ...]]:
     if section is None or len(section) < 2:
         at = root if section is None else section
         scope.source.error(at.at, "no-goal", "the problem has no goal", "add (:goal (and …))")
-        return TRUE
+        return TRUE, ()
     if len(section) > 2:
         hint = "put an (and …) around all"
         scope.source.error(section[2].at, "stray-word", "a goal is one condition", hint)
-    return read_formula(section[1], scope)
+    hard, preferences = read_preferences(section[1], scope)
+    return read_formula(hard, scope), preferences
 
 
 def _metric(section: GroupNode | None, scope: Scope) -> tuple[Expr | None, bool]:
     if section is None:
         return None, False
-    if len(section) != 3 or section[1] not in ("minimize", "maximize"):
-        message = "(:metric minimize EXPRESSION) is expected here"
-        scope.source.error(section.at, "bad-metric", message)
+    if len(section) != 3 or section[1] not in _SENSES:
+        message = "(:metric minimize EXPRESSION) or (:metric maximize EXPRESSION) is expected"
+        scope.source.error(section.at, "bad-metric", message, _metric_cure(section))
         return None, False
     return read_expression(section[2], scope.knowing(TOTAL_TIME)), section[1] == "maximize"
+
+
+def _metric_cure(section: GroupNode) -> str | None:
+    word = section[1] if len(section) > 1 else None
+    if isinstance(word, GroupNode) and word.head in _SENSES:
+        return f"write (:metric {word.head} …): the word takes no parentheses of its own"
+    if isinstance(word, WordNode) and word not in _SENSES:
+        return nearest(word, _SENSES)
+    return None

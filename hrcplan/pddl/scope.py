@@ -5,7 +5,7 @@ Looks a name up, reports an unknown one with a hint, and checks number and types
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass, field, replace
 from itertools import count
 
@@ -40,7 +40,9 @@ class Scope:
 
     ``numbers`` are the special values that only some places know: ``?duration`` in a durative
     action, ``total-time`` in a metric. ``renames`` are the variables of quantifiers that are also
-    bound outside, and what they are called in the model.
+    bound outside, and what they are called in the model; ``preferences`` the names that a
+    metric may ask about (None outside of a metric); ``derived`` the predicates that no action
+    may change.
     """
 
     source: SourceText
@@ -49,6 +51,8 @@ class Scope:
     variables: Mapping[str, tuple[str, ...]]
     numbers: frozenset[str] = frozenset()
     renames: Mapping[str, str] = field(default_factory=dict)
+    preferences: Set[str] | None = None
+    derived: Set[str] = frozenset()
 
     def binding(self, params: Sequence[Param]) -> Scope:
         """Return this scope with further variables."""

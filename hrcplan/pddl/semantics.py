@@ -254,9 +254,15 @@ class StateUpdate:
 
 
 def changes(
-    effects: Sequence[Effect], state: LiftedState, binding: Binding, problem: Problem
+    effects: Sequence[Effect],
+    state: LiftedState,
+    binding: Binding,
+    problem: Problem,
+    started: LiftedState | None = None,
 ) -> StateUpdate:
     """Return what ``effects`` change in ``state``; all of them read the state before.
+
+    ``started`` is the state in which their action started, if that is another one.
 
     Raises:
         Undefined: if an expression needs a function without a value.
@@ -267,6 +273,8 @@ def changes(
     for effect in effects:
         for inner in instances(effect.params, binding, problem):
             if not holds(effect.given, state, inner, problem):
+                continue
+            if not holds(effect.given_start, started or state, inner, problem):
                 continue
             key = ground_key(effect.target, inner)
             if effect.value is None:

@@ -29,9 +29,11 @@ from hrcplan.pddl.model import (
     Not,
     Or,
     Param,
+    Preference,
     Problem,
     Quantified,
     Signature,
+    TimedChange,
     fact_text,
 )
 
@@ -96,9 +98,16 @@ def _domain_lines(domain: Domain) -> Iterator[str]:
     yield from _section("constants", _typed((n, (t,)) for n, t in domain.constants.items()))
     yield from _section("predicates", map(_signature, domain.predicates.values()))
     yield from _section("functions", map(_signature, domain.functions.values()))
+    for axiom in domain.axioms:
+        head = f"({' '.join([axiom.name, _params(axiom.params)]).strip()})"
+        yield f"  (:derived {head} {_formula(axiom.body)})"
     for action in domain.actions:
         yield ""
         yield from _durative_lines(action) if action.durative else _action_lines(action)
+    for word, others in (("process", domain.processes), ("event", domain.events)):
+        for other in others:
+            yield ""
+            yield from _action_lines(other, word)
     yield ")"
 
 
@@ -109,7 +118,9 @@ def _problem_lines(problem: Problem) -> Iterator[str]:
     yield "  (:init"
     yield from _init_lines(problem)
     yield "  )"
-    yield f"  (:goal {_formula(problem.goal)})"
+    preferences = [_preference(preference) for preference in problem.preferences]
+    goal = _formula(problem.goal)
+    yield f"  (:goal {_group('and', [goal, *preferences]) if preferences else goal})"
     if problem.metric is not None:
         sense = "maximize" if problem.maximize else "minimize"
         yield f"  (:metric {sense} {_expression(problem.metric)})"
@@ -162,6 +173,24 @@ def _init_lines(problem: Problem) -> Iterator[str]:
         yield from _wrapped(
             f"(= {fact_text(key)} {decimal_text(problem.values[key])})" for key in group
         )
+    yield from _wrapped(map(_timed_init, problem.timed))
+
+
+def _timed_init(change: TimedChange) -> str:
+    fact = fact_text(change.key)
+    if change.value is not None:
+        fact = f"(= {fact} {decimal_text(change.value)})"
+    elif not change.positive:
+        fact = f"(not {fact})"
+    return f"(at {decimal_text(change.time)} {fact})"
+
+
+def _preference(preference: Preference) -> str:
+    body = _formula(preference.formula)
+    if preference.when:
+        body = f"({_TIMES[preference.when]} {body})"
+    text = f"(preference {preference.name} {body})"
+    return f"(forall ({_params(preference.params)}) {text})" if preference.params else text
 
 
 def _wrapped(entries: Iterable[str]) -> Iterator[str]:
@@ -174,13 +203,14 @@ def _wrapped(entries: Iterable[str]) -> Iterator[str]:
     yield line
 
 
-def _action_lines(action: Action) -> Iterator[str]:
-    yield f"  (:action {action.name}"
+def _action_lines(action: Action, word: str = "action") -> Iterator[str]:
+    yield f"  (:{word} {action.name}"
     yield f"    :parameters ({_params(action.params)})"
-    if len(action.conditions) == 1:
-        yield f"    :precondition {_formula(action.conditions[0].formula)}"
-    elif action.conditions:
-        parts = (_formula(c.formula) for c in action.conditions)
+    parts = [_formula(c.formula) for c in action.conditions]
+    parts += [_preference(replace(p, when="")) for p in action.preferences]
+    if len(parts) == 1:
+        yield f"    :precondition {parts[0]}"
+    elif parts:
         yield f"    :precondition {_group('and', parts)}"
     yield from _part("effect", (_effect(effect) for effect in action.effects))
     yield "  )"
@@ -191,8 +221,8 @@ def _durative_lines(action: Action) -> Iterator[str]:
     yield f"    :parameters ({_params(action.params)})"
     limits = [f"({op} ?duration {_expression(expr)})" for op, expr in action.durations]
     yield f"    :duration {limits[0] if len(limits) == 1 else _group('and', limits)}"
-    conditions = (f"({_TIMES[c.when]} {_formula(c.formula)})" for c in action.conditions)
-    yield from _part("condition", conditions)
+    conditions = [f"({_TIMES[c.when]} {_formula(c.formula)})" for c in action.conditions]
+    yield from _part("condition", [*conditions, *map(_preference, action.preferences)])
     yield from _part("effect", (_timed_effect(effect) for effect in action.effects))
     yield "  )"
 
@@ -205,8 +235,17 @@ def _part(keyword: str, entries: Iterable[str]) -> Iterator[str]:
 
 
 def _timed_effect(effect: Effect) -> str:
-    inner = f"({_TIMES[effect.when]} {_effect(replace(effect, params=()))})"
-    return f"(forall ({_params(effect.params)}) {inner})" if effect.params else inner
+    time = _TIMES[effect.when]
+    if effect.when == "all":
+        return _effect(effect)
+    if effect.given_start == TRUE:
+        text = f"({time} {_effect(replace(effect, params=()))})"
+    else:
+        given = f"(at start {_formula(effect.given_start)})"
+        if effect.given != TRUE:
+            given = f"(and {given} ({time} {_formula(effect.given)}))"
+        text = f"(when {given} ({time} {_effect(replace(effect, params=(), given=TRUE))}))"
+    return f"(forall ({_params(effect.params)}) {text})" if effect.params else text
 
 
 def _effect(effect: Effect) -> str:

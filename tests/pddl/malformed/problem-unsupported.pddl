@@ -4,8 +4,9 @@
   (:objects robot - agent)
   (:length (:serial 5) (:parallel 3))  ;; expect: ignored-section
   (:init (at robot depot) (= (effort robot) 1)
-    (at 10 (not (at robot depot))))  ;; expect: unsupported
+    (at 10 (not (at robot depot))))  ;; expect: missing-requirement
   (:constraints (always (at robot depot)))  ;; expect: unsupported
-  (:goal (and (at robot depot)
-    (preference tidy (at robot depot))))  ;; expect: unsupported
-  (:metric minimize (is-violated tidy)))  ;; expect: unsupported
+  (:goal (and (at robot depot)  ;; expect: missing-requirement
+    (preference neat (at robot depot))
+    (or (preference tidy (at robot depot)))))  ;; expect: unsupported
+  (:metric minimize (is-violated tidy)))  ;; expect: unknown-preference

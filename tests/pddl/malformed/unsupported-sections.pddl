@@ -2,7 +2,8 @@
   (:requirements :strips :derived-predicates :constraints :time)
   (:predicates (p) (q))
   (:constraints (always (p)))  ;; expect: unsupported
-  (:derived (q) (p))  ;; expect: unsupported
-  (:process burn :parameters () :effect (p))  ;; expect: unsupported
-  (:event bang :parameters () :effect (p))  ;; expect: unsupported
+  (:axiom :vars () :context (p) :implies (q))  ;; expect: unsupported
+  (:derived (q) (p))
+  (:process burn :parameters () :effect (p))  ;; expect: not-an-effect
+  (:event bang :parameters () :effect (p))
   (:action act :parameters () :effect (p)))

@@ -1,0 +1,107 @@
+"""Preferences (PDDL 3) in goals and conditions: taken out of the tree, then read by themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from hrcplan.pddl.formulas import read_conditions, read_formula
+from hrcplan.pddl.model import Formula, Param, Preference
+from hrcplan.pddl.reader import GroupNode, ParseNode, WordNode
+from hrcplan.pddl.scope import Scope
+from hrcplan.pddl.typed_lists import read_params
+
+UNNAMED = "unnamed"
+
+
+def read_preferences(
+    node: ParseNode, scope: Scope, durative: bool | None = None
+) -> tuple[ParseNode, tuple[Preference, ...]]:
+    """Return a tree without its preferences, and these.
+
+    ``durative`` is None for a goal, else it says whether the tree is a durative action's condition.
+    """
+    if not _mentions(node):
+        return node, ()
+    scope.source.use(":preferences", node.at)
+    found: list[Preference] = []
+    return _without(node, scope, (), durative, found), tuple(found)
+
+
+def _mentions(node: ParseNode) -> bool:
+    if not isinstance(node, GroupNode):
+        return False
+    return node.head == "preference" or (
+        node.head in ("and", "forall") and any(map(_mentions, node[1:]))
+    )
+
+
+def _without(
+    node: ParseNode,
+    scope: Scope,
+    params: tuple[Param, ...],
+    durative: bool | None,
+    found: list[Preference],
+) -> ParseNode:
+    if not isinstance(node, GroupNode) or not _mentions(node):
+        return node
+    if node.head == "preference":
+        found.extend(_preference(node, scope, params, durative))
+        return GroupNode(node.at)
+    rest = GroupNode(node.at)
+    if node.head == "forall" and len(node) == 3:
+        inner, inside = scope.quantifying(read_params(node[1], scope), node.at)
+        body = _without(node[2], inside, (*params, *inner), durative, found)
+        rest.extend([node[0], node[1], body])
+    else:
+        rest.append(node[0])
+        rest.extend(_without(part, scope, params, durative, found) for part in node[1:])
+    return rest
+
+
+def _preference(
+    node: GroupNode, scope: Scope, params: tuple[Param, ...], durative: bool | None
+) -> Iterator[Preference]:
+    named = len(node) == 3 and isinstance(node[1], WordNode)
+    if not named and len(node) != 2:
+        message = "(preference NAME CONDITION) is expected here"
+        scope.source.error(node.at, "bad-preference", message)
+        return
+    name = str(node[1]) if named else UNNAMED
+    for when, formula in _conditions(node[-1], scope, durative):
+        yield Preference(name, formula, params, when)
+
+
+def _conditions(
+    node: ParseNode, scope: Scope, durative: bool | None
+) -> Iterator[tuple[str, Formula]]:
+    if durative is None:
+        yield "", read_formula(node, scope)
+    else:
+        for condition in read_conditions(node, scope, durative):
+            if condition.when == "all":
+                message = "a preference over the whole duration of an action is not supported"
+                scope.source.error(node.at, "unsupported", message, "prefer it (at start …)")
+            yield condition.when, condition.formula
+
+
+def with_names(scope: Scope, preferences: tuple[Preference, ...], root: GroupNode) -> Scope:
+    """Return the scope of a metric: it knows the preferences of the goal and of the actions.
+
+    Those of a ``:constraints`` section are known too: that it is not supported is said there.
+    """
+    actions = scope.domain.actions
+    names = {p.name for action in actions for p in action.preferences}
+    names.update(preference.name for preference in preferences)
+    for section in root[2:]:
+        if isinstance(section, GroupNode) and section.head == ":constraints":
+            names.update(_names(section))
+    return replace(scope, preferences=names)
+
+
+def _names(node: GroupNode) -> Iterator[str]:
+    if node.head == "preference" and len(node) > 1 and isinstance(node[1], WordNode):
+        yield str(node[1])
+    for part in node:
+        if isinstance(part, GroupNode):
+            yield from _names(part)
