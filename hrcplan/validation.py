@@ -16,6 +16,7 @@ from typing import NamedTuple, overload
 
 from hrcplan.core.numbers import Number, number_text
 from hrcplan.core.text import cut
+from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.derivation import Derivation
 from hrcplan.pddl.inputs import Readable, as_problem
 from hrcplan.pddl.interference import Access, access, clash
@@ -155,6 +156,7 @@ def validate(
 
     Raises:
         InputError: if a file is missing or has faults, or the text is no plan.
+        UnsupportedError: if numbers change while time passes.
         UsageError: if the problem is given twice.
         TypeError: if an argument is none of these.
 
@@ -172,6 +174,9 @@ def validate(
 
 
 def _replay(problem: Problem, plan: Plan, epsilon_s: Number) -> Report:
+    if problem.domain.is_continuous:
+        message = "hrcplan cannot judge plans of domains with processes, events or #t"
+        raise UnsupportedError(message, hint="VAL can")
     replay = _Replay(problem, plan, epsilon_s)
     try:
         replay.run()

@@ -25,6 +25,7 @@ from hrcplan.execution.run import Run
 from hrcplan.execution.simulate import Engine, Spec
 from hrcplan.execution.timeline import Timeline
 from hrcplan.execution.worlds.registry import EVENT_WORLDS, SIMULATED
+from hrcplan.pddl.inlining import plain
 from hrcplan.pddl.inputs import Readable, as_problem
 from hrcplan.pddl.model import Domain, FluentKey, Problem
 from hrcplan.pddl.settings import check_function
@@ -131,12 +132,14 @@ def prepare_run(
     ``provider``: answers requests for plans instead of the planners.
 
     Raises:
+        UnsupportedError: if the problem has a construct that an execution cannot hold.
         UsageError: if a name is unknown or a value out of range.
         TypeError: if an argument is of a wrong type.
     """
     _check_type("seed", seed, int, str)
     _check_type("replan_limit", replan_limit, int, type(None))
     _check_type("profile", profile, str, Profile)
+    problem = plain(problem)
     chosen = load_profile(profile) if isinstance(profile, str) else profile
     planners = _planners(planner)
     names = tuple(p if isinstance(p, str) else p.card.name for p in planners)

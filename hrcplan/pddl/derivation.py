@@ -171,7 +171,7 @@ def _alternatives(
                 for chosen in product(*options)
             ]
         case Quantified(False, params, body):
-            names = {param.name: f"{param.name}-{next(numbers)}'" for param in params}
+            names = {param.name: f"{param.name}-{next(numbers)}_" for param in params}
             inner = tuple(replace(param, name=names[param.name]) for param in params)
             found = _alternatives(substituted(body, names), numbers)
             return [((*inner, *more), part) for more, part in found]

@@ -55,7 +55,8 @@ def _without(
         rest.extend([node[0], node[1], body])
     else:
         rest.append(node[0])
-        rest.extend(_without(part, scope, params, durative, found) for part in node[1:])
+        parts = [_without(part, scope, params, durative, found) for part in node[1:]]
+        rest.extend(part for part in parts if part != [])
     return rest
 
 

@@ -118,9 +118,7 @@ def _problem_lines(problem: Problem) -> Iterator[str]:
     yield "  (:init"
     yield from _init_lines(problem)
     yield "  )"
-    preferences = [_preference(preference) for preference in problem.preferences]
-    goal = _formula(problem.goal)
-    yield f"  (:goal {_group('and', [goal, *preferences]) if preferences else goal})"
+    yield f"  (:goal {_with_preferences(problem.goal, problem.preferences)})"
     if problem.metric is not None:
         sense = "maximize" if problem.maximize else "minimize"
         yield f"  (:metric {sense} {_expression(problem.metric)})"
@@ -185,6 +183,13 @@ def _timed_init(change: TimedChange) -> str:
     return f"(at {decimal_text(change.time)} {fact})"
 
 
+def _with_preferences(hard: Formula, preferences: Sequence[Preference]) -> str:
+    if not preferences:
+        return _formula(hard)
+    parts = hard.parts if isinstance(hard, And) else (hard,)
+    return _group("and", [*map(_formula, parts), *map(_preference, preferences)])
+
+
 def _preference(preference: Preference) -> str:
     body = _formula(preference.formula)
     if preference.when:
@@ -206,12 +211,11 @@ def _wrapped(entries: Iterable[str]) -> Iterator[str]:
 def _action_lines(action: Action, word: str = "action") -> Iterator[str]:
     yield f"  (:{word} {action.name}"
     yield f"    :parameters ({_params(action.params)})"
-    parts = [_formula(c.formula) for c in action.conditions]
-    parts += [_preference(replace(p, when="")) for p in action.preferences]
-    if len(parts) == 1:
-        yield f"    :precondition {parts[0]}"
-    elif parts:
-        yield f"    :precondition {_group('and', parts)}"
+    formulas = [c.formula for c in action.conditions]
+    hard = formulas[0] if len(formulas) == 1 else And(tuple(formulas))
+    if formulas or action.preferences:
+        wishes = [replace(preference, when="") for preference in action.preferences]
+        yield f"    :precondition {_with_preferences(hard, wishes)}"
     yield from _part("effect", (_effect(effect) for effect in action.effects))
     yield "  )"
 

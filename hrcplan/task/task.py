@@ -11,6 +11,7 @@ from typing import Final
 from hrcplan.core.bits import positions
 from hrcplan.core.numbers import Number, exact
 from hrcplan.core.text import cut
+from hrcplan.pddl.inlining import plain
 from hrcplan.pddl.model import Fact, FluentKey, Formula, Problem, formula_functions
 from hrcplan.pddl.semantics import evaluate
 from hrcplan.task.actions import GroundAction
@@ -38,7 +39,8 @@ class Task:
 
     Raises:
         UnsupportedError: if an action changes a number that is neither total-cost nor agent state,
-            or an agent-state function has more than 16 reachable values.
+            an agent-state function has more than 16 reachable values, or the problem has a
+            construct that bits cannot hold (see `hrcplan.pddl.constructs`).
         LimitError: if there are too many ground actions, or at the deadline.
 
     >>> from hrcplan import ground
@@ -48,8 +50,15 @@ class Task:
     """
 
     def __init__(
-        self, problem: Problem, deadline: float = inf, *, grounding: Grounding | None = None
+        self,
+        problem: Problem,
+        deadline: float = inf,
+        *,
+        grounding: Grounding | None = None,
+        origin: Problem | None = None,
     ) -> None:
+        self._origin: Final = problem if origin is None else origin  # with derived predicates
+        problem = plain(problem)
         grounding = ground(problem, deadline) if grounding is None else grounding
         self.problem: Final = problem
         self.grounding: Final = grounding
@@ -131,8 +140,8 @@ class Task:
         old, problem = self.problem.values, self.problem.with_values(values)
         changed = [key for key, value in values.items() if old.get(key) != value]
         if any(k not in old or k in self.reached or k[0] in self._structural for k in changed):
-            return Task(problem)
-        return Task(problem, grounding=self.grounding)
+            return Task(problem, origin=self._origin)
+        return Task(problem, grounding=self.grounding, origin=self._origin)
 
     def with_facts(self, facts: Iterable[Fact]) -> Task:
         """Return this task from another initial state, grounded anew only if that is needed.
@@ -149,7 +158,7 @@ class Task:
         problem = replace(self.problem, facts=frozenset(facts))
         known = self.bits.keys()
         same = problem.facts - known == self.problem.facts - known
-        return Task(problem, grounding=self.grounding if same else None)
+        return Task(problem, grounding=self.grounding if same else None, origin=self._origin)
 
     def with_goal(self, goal: Formula) -> Task:
         """Return this task with another goal, without grounding anything anew.
@@ -157,7 +166,9 @@ class Task:
         Raises:
             UnsupportedError: if bits cannot hold the goal.
         """
-        return Task(replace(self.problem, goal=goal), grounding=self.grounding)
+        goal = plain(replace(self._origin, goal=goal)).goal
+        problem = replace(self.problem, goal=goal)
+        return Task(problem, grounding=self.grounding, origin=self._origin)
 
     def with_actions(self, actions: tuple[GroundAction, ...], costs: tuple[Number, ...]) -> Task:
         """Return a task that only has some of the actions, at other costs and without a metric.
@@ -165,7 +176,8 @@ class Task:
         ``actions`` are numbered from 0; what costs depended on no longer counts.
         """
         grounding = self.grounding.with_actions(actions, costs)
-        return Task(replace(self.problem, metric=None), grounding=grounding)
+        problem = replace(self.problem, metric=None)
+        return Task(problem, grounding=grounding, origin=self._origin)
 
     @cached_property
     def _structural(self) -> frozenset[str]:

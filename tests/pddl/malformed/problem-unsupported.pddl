@@ -8,5 +8,5 @@
   (:constraints (always (at robot depot)))  ;; expect: unsupported
   (:goal (and (at robot depot)  ;; expect: missing-requirement
     (preference neat (at robot depot))
-    (or (preference tidy (at robot depot)))))  ;; expect: unsupported
+    (or (preference tidy (at robot depot)))))  ;; expect: unsupported missing-requirement
   (:metric minimize (is-violated tidy)))  ;; expect: unknown-preference
