@@ -1,16 +1,17 @@
-"""Robots that help a human whose goal they have to infer: history and belief in, step out.
+"""Robots that help a human whose goal they infer: observed steps in, the robot's step out.
 
-The short way: ``ASSISTANTS.find("hrcplan")(bank)`` makes one; see `Assistant` for what it does.
+The short way: ``ASSISTANTS.make("hrcplan", bank)``. The contract is `Assistant`.
 """
 
 from hrcplan.assistance.assistant import (
     Assistant,
     AssistantState,
     BeliefAssistant,
-    Explanation,
-    StepChoice,
+    Explains,
+    KnowsGoal,
     explain,
 )
+from hrcplan.assistance.explanation import Explanation, StepChoice
 from hrcplan.assistance.registry import ASSISTANTS
 
 __all__ = [
@@ -18,7 +19,9 @@ __all__ = [
     "Assistant",
     "AssistantState",
     "BeliefAssistant",
+    "Explains",
     "Explanation",
+    "KnowsGoal",
     "StepChoice",
     "explain",
 ]

@@ -1,32 +1,52 @@
-"""What every assistant does: it watches like a belief, and chooses what the robot does next."""
+"""The contract of assistants: they observe like a belief, and choose what the robot does next.
+
+`Assistant` is all that has to be written. `KnowsGoal` and `Explains` are capabilities: hrcplan uses
+them where a class has their methods. `BeliefAssistant` is a base for your own.
+`hrcplan.testing.check_assistant` tests the laws.
+"""
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Hashable
 from dataclasses import dataclass
-from typing import Any, Generic, Protocol, TypeVar, runtime_checkable
+from typing import Generic, Protocol, TypeVar, runtime_checkable
 
-import numpy as np
-
+from hrcplan.assistance.explanation import (
+    Explanation,
+    StepChoice,
+    explanation_of,
+)
 from hrcplan.assistance.step_values import StepValues
-from hrcplan.bank import Bank
+from hrcplan.bank import Bank, StepTable
 from hrcplan.bank.progress import Progress, ProgressTracker
 from hrcplan.core.arrays import Floats
-from hrcplan.inference.belief import Belief, State
-from hrcplan.inference.exact import IMPOSSIBLE
+from hrcplan.core.deprecation import Renamed, warn_old_name
+from hrcplan.inference.belief import (
+    IMPOSSIBLE,
+    Belief,
+    BeliefState,
+    HasProgress,
+    S_contra,
+    TracksProgress,
+    n_declared,
+)
 
-WAIT = None
-TIES = 9  # decimals of values: what differs by less is equally good
+S = TypeVar("S", bound=BeliefState)
 
-S = TypeVar("S", bound=State)
+
+class ProgressState(BeliefState, HasProgress, Protocol):
+    """The state of an assistant that follows the plan graphs."""
+
+
+P = TypeVar("P", bound=ProgressState)
 
 
 @runtime_checkable
 class Assistant(Belief[S], Protocol[S]):
-    """A belief that also chooses the robot's steps; whoever keeps this protocol can be studied.
+    """A belief that also chooses the robot's steps; it is made from a bank.
 
-    It is made from a bank. Nothing is remembered outside the states.
+    All memory is in the states.
     """
 
     def choose(self, state: S) -> int | None:
@@ -34,21 +54,29 @@ class Assistant(Belief[S], Protocol[S]):
         ...
 
 
-@dataclass(frozen=True, slots=True)
-class StepChoice:
-    """Steps that the robot could do, and how good each is; ``wait`` is how good it is to wait."""
+@runtime_checkable
+class KnowsGoal(Protocol[S]):
+    """An assistant that is told the human's goal after each of the human's turns."""
 
-    steps: tuple[int, ...] = ()
-    values: tuple[float, ...] = ()
-    wait: float = 0.0
+    def inform(self, state: S, goal: int) -> S:
+        """Return the state once the human's present goal is known."""
+        ...
 
-    @property
-    def best(self) -> int | None:
-        """The best step, the first of equals; None if waiting is as good."""
-        if not self.steps:
-            return WAIT
-        place = int(np.round(self.values, TIES).argmax())
-        return self.steps[place] if round(self.values[place] - self.wait, TIES) > 0 else WAIT
+
+@runtime_checkable
+class Explains(Protocol[S_contra]):
+    """An assistant that can say what it has weighed."""
+
+    def explain(self, state: S_contra) -> Explanation:
+        """Return why it chooses, in this state, what it chooses."""
+        ...
+
+
+@runtime_checkable
+class NeedsTraining(Protocol):
+    """A class of assistants that train a classifier unless they are given another belief."""
+
+    needs_training: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,23 +84,81 @@ class AssistantState(Generic[S]):
     """The state of a `BeliefAssistant`: its belief, the goals' progress, the human's last step."""
 
     belief: S
-    track: Progress
+    progress: Progress
     last: int | None = None
     ignored: str | None = None
 
     @property
     def world(self) -> int:
         """The state of the task, as bits."""
-        return self.track.world
+        return self.progress.world
 
     @property
     def n_declared(self) -> int:
         """How many changes of goal the belief has declared."""
-        return int(getattr(self.belief, "n_declared", 0))
+        return n_declared(self.belief)
+
+    track = Renamed("progress")
 
 
-class BeliefAssistant(ABC, Generic[S]):
-    """An assistant made of a belief and a way to value steps, which is all that is left to write.
+class BankAssistant(ABC, Generic[S]):
+    """What the built-in assistants share: the bank, the goals' progress, and the steps' values."""
+
+    def __init__(self, bank: Bank, tracker: ProgressTracker | None = None) -> None:
+        self.bank = bank
+        self.tracker = tracker or ProgressTracker(bank)
+        self.step_values = StepValues(self.tracker)
+
+    outlook = Renamed("step_values")
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The goals' names, in order."""
+        return self.bank.names
+
+    @property
+    def steps(self) -> StepTable:
+        """The steps that can be observed."""
+        return self.bank.table
+
+    @abstractmethod
+    def start(self) -> S:
+        """Return the state before anything was done."""
+
+    @abstractmethod
+    def observe(self, state: S, step: int, *, robot: bool = False) -> S:
+        """Return the state after one more step, done by the human or by the robot."""
+
+    @abstractmethod
+    def posterior(self, state: S) -> Floats:
+        """Return the probability of each goal, in order."""
+
+    @abstractmethod
+    def choose(self, state: S) -> int | None:
+        """Return the step that the robot should do now, or None to wait."""
+
+
+class ValueAssistant(BankAssistant[P], Generic[P]):
+    """An assistant that values steps, does the best one, and can explain it."""
+
+    @abstractmethod
+    def options(self, state: P) -> StepChoice:
+        """Return the steps that the robot could do now, and how good each is."""
+
+    def choose(self, state: P) -> int | None:
+        """Return the step that the robot should do now, or None to wait."""
+        return self.options(state).best
+
+    def explain(self, state: P, n_goals: int = 3, n_steps: int = 5) -> Explanation:
+        """Return why it chooses what it chooses, with that many goals and steps at most."""
+        return explanation_of(
+            self.step_values, state.progress, self.posterior(state), self.options(state),
+            n_declared(state), n_goals, n_steps,
+        )  # fmt: skip
+
+
+class BeliefAssistant(ValueAssistant[AssistantState[S]], Generic[S]):
+    """An assistant made of a belief and a way to value steps; only ``options`` is left to write.
 
     Args:
         bank: The plans.
@@ -80,16 +166,9 @@ class BeliefAssistant(ABC, Generic[S]):
     """
 
     def __init__(self, bank: Bank, belief: Belief[S]) -> None:
-        self.bank, self.belief = bank, belief
-        own = getattr(belief, "tracker", None)
-        self.tracker: ProgressTracker = own or ProgressTracker(bank)
-        self._shares_track = own is not None
-        self.outlook = StepValues(self.tracker)
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """The goals' names, in order."""
-        return self.bank.names
+        super().__init__(bank, belief.tracker if isinstance(belief, TracksProgress) else None)
+        self.belief = belief
+        self._shares_progress = isinstance(belief, TracksProgress)
 
     def start(self) -> AssistantState[S]:
         """Return the state before anything was done."""
@@ -101,57 +180,50 @@ class BeliefAssistant(ABC, Generic[S]):
         """Return the state after one more step, done by the human or by the robot."""
         belief = self.belief.observe(state.belief, step, robot=robot)
         if belief.ignored == IMPOSSIBLE:
-            return AssistantState(belief, state.track, state.last, IMPOSSIBLE)
-        last = state.last if robot else step
-        return AssistantState(
-            belief, self._followed(state.track, belief, step), last, belief.ignored
-        )
+            return AssistantState(belief, state.progress, state.last, IMPOSSIBLE)
+        progress = self._progress_after(state.progress, belief, step)
+        return AssistantState(belief, progress, state.last if robot else step, belief.ignored)
 
-    def _followed(self, track: Progress, belief: Any, step: int) -> Progress:
-        if self._shares_track:
-            shared: Progress = belief.track
-            return shared
-        found = self.tracker.follow(track, step)
-        return track if found is None else found[0]
+    def _progress_after(self, progress: Progress, belief: BeliefState, step: int) -> Progress:
+        if self._shares_progress and isinstance(belief, HasProgress):
+            return belief.progress
+        followed = self.tracker.follow(progress, step)
+        return progress if followed is None else followed[0]
 
     def posterior(self, state: AssistantState[S]) -> Floats:
         """Return the probability of each goal, in order."""
         return self.belief.posterior(state.belief)
 
-    @abstractmethod
-    def options(self, state: AssistantState[S]) -> StepChoice:
-        """Return the steps that the robot could do now, and how good each is."""
 
-    def choose(self, state: AssistantState[S]) -> int | None:
-        """Return the step that the robot should do now, or None to wait."""
-        return self.options(state).best
+@runtime_checkable
+class _Told(Protocol[S]):
+    """`KnowsGoal` as it was called in earlier versions."""
+
+    def told(self, state: S, goal: int) -> S: ...
 
 
-@dataclass(frozen=True, slots=True)
-class StepCandidate:
-    """A step that the robot could do: its value, and the goals that it would help, likeliest first.
+def inform(assistant: Assistant[S], state: S, goal: int) -> S:
+    """Return an assistant's state after a turn of the human whose goal is ``goal``.
 
-    ``saves`` is how many steps it is expected to save.
+    The goal changes nothing for an assistant that is not told it (`KnowsGoal`).
     """
+    if isinstance(assistant, KnowsGoal):
+        informed: S = assistant.inform(state, goal)
+        return informed
+    if isinstance(assistant, _Told):
+        warn_old_name(f"method of {type(assistant).__name__}", "told", "inform")
+        informed = assistant.told(state, goal)
+        return informed  # noqa: RET504  (typed above)
+    return state
 
-    action: str
-    value: float
-    saves: float
-    helps: tuple[tuple[str, float], ...]
 
-
-@dataclass(frozen=True, slots=True)
-class Explanation:
-    """Why an assistant does what it does: the goals it believes in, and what it could do."""
-
-    goals: tuple[tuple[str, float], ...]
-    chosen: str | None
-    candidates: tuple[StepCandidate, ...]
-    n_declared: int
+def needs_training(kind: Hashable) -> bool:
+    """Return whether a class of assistants trains a classifier, which takes minutes."""
+    return isinstance(kind, NeedsTraining) and kind.needs_training
 
 
 def explain(
-    assistant: BeliefAssistant[Any], state: AssistantState[Any], n_goals: int = 3, n_steps: int = 5
+    assistant: ValueAssistant[P], state: P, n_goals: int = 3, n_steps: int = 5
 ) -> Explanation:
     """Return why an assistant chooses what it chooses.
 
@@ -161,30 +233,4 @@ def explain(
         n_goals: The most goals to name.
         n_steps: The most candidates to name.
     """
-    posterior, outlook = assistant.posterior(state), assistant.outlook
-    options = assistant.options(state)
-    wanted = outlook.wanted(state.track)
-    saved, _ = outlook.help(state.track, wanted, options.steps, posterior)
-    words = [str(assistant.bank.table[step]) for step in options.steps]
-    order = sorted(range(len(words)), key=lambda i: -round(options.values[i], TIES))
-    candidates = tuple(
-        StepCandidate(
-            words[i],
-            options.values[i],
-            float(saved[i]),
-            _named(assistant, posterior, wanted.goals[wanted.steps == options.steps[i]], n_goals),
-        )
-        for i in order[:n_steps]
-    )
-    everything = np.arange(len(posterior))
-    chosen = None if options.best is None else str(assistant.bank.table[options.best])
-    return Explanation(
-        _named(assistant, posterior, everything, n_goals), chosen, candidates, state.n_declared
-    )
-
-
-def _named(
-    assistant: BeliefAssistant[Any], posterior: Floats, goals: Sequence[int] | Any, n: int
-) -> tuple[tuple[str, float], ...]:
-    chosen = sorted(map(int, goals), key=lambda goal: -posterior[goal])[:n]
-    return tuple((assistant.names[goal], float(posterior[goal])) for goal in chosen)
+    return assistant.explain(state, n_goals, n_steps)

@@ -16,35 +16,33 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from hrcplan.assistance.assistant import AssistantState, BeliefAssistant, StepChoice
+from hrcplan.assistance.assistant import AssistantState
 from hrcplan.assistance.bigrams import Bigrams
-from hrcplan.assistance.children import BRANCHING
-from hrcplan.assistance.lookahead import Lookahead, StepSequence, entropy, futures, shares
+from hrcplan.assistance.explanation import StepChoice
+from hrcplan.assistance.imagined_steps import BRANCHING
+from hrcplan.assistance.lookahead import LookaheadAssistant, StepSequence, entropy, futures, shares
 from hrcplan.bank import Bank
 from hrcplan.errors import UsageError
 from hrcplan.inference.belief import Belief
-from hrcplan.inference.classifier.forest import ForestBelief
 
 # Bits that a saved step is worth. Of .3, 1, 3 and 10, 3 guesses fixed goals best on goals made by
 # chance (tools/tune_changed_mind.py); with more, insight has hardly any say.
 SUPPORT = 3.0
 
 
-class DecisionPoints(BeliefAssistant[Any]):
+class DecisionPoints(LookaheadAssistant[Any]):
     """Does what makes the human's next action most telling, and helps the likely goals.
 
     Args:
         bank: The plans.
         belief: What is believed about the goal; by default a forest, which is trained first.
         support: What a step that is expected to be saved is worth, in bits.
-        bigrams: Which steps follow which; by default counted in sampled plans.
-        width: How many steps are looked at from each place of the tree.
+        bigrams: How often a step follows another; by default counted in sampled plans.
+        width: How many steps are tried from each position of the tree.
 
     Raises:
         UsageError: if ``support`` is negative, or ``width`` less than 1.
     """
-
-    learns = True  # its belief is trained, unless another one is given
 
     def __init__(
         self, bank: Bank, belief: Belief[Any] | None = None, support: float = SUPPORT,
@@ -52,9 +50,8 @@ class DecisionPoints(BeliefAssistant[Any]):
     ) -> None:  # fmt: skip
         if not support >= 0:
             raise UsageError(f"support is worth 0 bits or more, not {support}")
-        super().__init__(bank, ForestBelief(bank) if belief is None else belief)
+        super().__init__(bank, belief, bigrams, width)
         self.support = support
-        self.lookahead = Lookahead(self.outlook, bigrams or Bigrams(bank), width)
 
     def options(self, state: AssistantState[Any]) -> StepChoice:
         """Return the likeliest steps, and what each is worth, in bits."""

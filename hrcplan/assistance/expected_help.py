@@ -10,7 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from hrcplan.assistance.assistant import AssistantState, BeliefAssistant, StepChoice
+from hrcplan.assistance.assistant import AssistantState, BeliefAssistant
+from hrcplan.assistance.explanation import StepChoice
 from hrcplan.bank import Bank
 from hrcplan.inference.belief import Belief
 from hrcplan.inference.switching import SwitchingBelief
@@ -55,9 +56,9 @@ class ExpectedHelp(BeliefAssistant[Any]):
 
     def _later(self, state: AssistantState[Any]) -> float:
         """Return what the robot's step after the human's next one is expected to save."""
-        wanted, posterior = self.outlook.wanted(state.track), self.posterior(state)
-        n_next = np.maximum(1, np.bincount(wanted.goals, minlength=len(posterior)))
-        chances = np.bincount(wanted.steps, (posterior / n_next).take(wanted.goals))
+        next_steps, posterior = self.step_values.next_steps(state.progress), self.posterior(state)
+        n_next = np.maximum(1, np.bincount(next_steps.goals, minlength=len(posterior)))
+        chances = np.bincount(next_steps.steps, (posterior / n_next).take(next_steps.goals))
         likely = np.argsort(-chances, kind="stable")[:N_ANSWERS]
         total = float(chances.take(likely).sum())
         if not total:
@@ -71,8 +72,10 @@ class ExpectedHelp(BeliefAssistant[Any]):
         return float(found / total)
 
     def _now(self, state: AssistantState[Any]) -> StepChoice:
-        wanted = self.outlook.wanted(state.track)
-        steps = self.outlook.candidates(state.track, wanted)
-        saved, needed = self.outlook.help(state.track, wanted, steps, self.posterior(state))
-        values = saved - self.waste_price * (1 - needed)
-        return StepChoice(tuple(steps), tuple(values.tolist()))
+        next_steps = self.step_values.next_steps(state.progress)
+        steps = self.step_values.candidates(state.progress, next_steps)
+        saved, needed = self.step_values.expected_saving(
+            state.progress, next_steps, steps, self.posterior(state)
+        )
+        worth = saved - self.waste_price * (1 - needed)
+        return StepChoice(tuple(steps), tuple(worth.tolist()))

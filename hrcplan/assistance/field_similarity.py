@@ -11,7 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from hrcplan.assistance.assistant import AssistantState, BeliefAssistant, StepChoice
+from hrcplan.assistance.assistant import AssistantState, BeliefAssistant
+from hrcplan.assistance.explanation import StepChoice
 from hrcplan.bank import Bank
 from hrcplan.inference.belief import Belief
 from hrcplan.inference.recursive import Next, RecursiveBelief
@@ -37,14 +38,14 @@ class FieldSimilarity(BeliefAssistant[Any]):
 
     def __init__(self, bank: Bank, belief: Belief[Any] | None = None) -> None:
         super().__init__(bank, RecursiveBelief(bank) if belief is None else belief)
-        joint = self.tracker.joint
-        self._fields = np.where(joint.needs, 1.0, -1.0)
-        self._used = sorted(set(joint.step_of.tolist()))
+        combined = self.tracker.combined
+        self._fields = np.where(combined.needs, 1.0, -1.0)
+        self._used = sorted(set(combined.step_of.tolist()))
 
     def options(self, state: AssistantState[Any]) -> StepChoice:
         """Return the steps that some goal needs, and how like the human's last action each is."""
-        label, track = self.tracker.joint.label, state.track
-        steps = tuple(self.bank.table.able(track.world, self._used, self.outlook.agents))
+        label, progress = self.tracker.combined.label, state.progress
+        steps = tuple(self.bank.table.able(progress.world, self._used, self.step_values.agents))
         values = np.zeros(len(steps))
         if state.last is not None:
             # All fields are equally long, so the cosine is the mean of the products.

@@ -14,36 +14,40 @@ from typing import Any
 
 import numpy as np
 
-from hrcplan.assistance.assistant import AssistantState, BeliefAssistant, StepChoice
+from hrcplan.assistance.assistant import AssistantState
 from hrcplan.assistance.bigrams import Bigrams
-from hrcplan.assistance.children import BRANCHING
-from hrcplan.assistance.lookahead import Lookahead, StepSequence, TreePosition, entropy, futures
+from hrcplan.assistance.explanation import StepChoice
+from hrcplan.assistance.imagined_steps import BRANCHING
+from hrcplan.assistance.lookahead import (
+    LookaheadAssistant,
+    StepSequence,
+    TreePosition,
+    entropy,
+    futures,
+)
 from hrcplan.bank import Bank
 from hrcplan.core.arrays import Floats
 from hrcplan.errors import UsageError
 from hrcplan.inference.belief import Belief
-from hrcplan.inference.classifier.forest import ForestBelief
 
 # Bits that a step of the likeliest goal is worth, and any other one costs; from .1 to 3 it makes no
 # difference beyond chance on goals made by chance (tools/tune_changed_mind.py).
 ALIGNMENT = 1.0
 
 
-class InformationGain(BeliefAssistant[Any]):
+class InformationGain(LookaheadAssistant[Any]):
     """Does the first step of the branch that tells most, and agrees with the likeliest goal.
 
     Args:
         bank: The plans.
         belief: What is believed about the goal; by default a forest, which is trained first.
         alignment: What a robot step that the likeliest goal has next is worth, in bits.
-        bigrams: Which steps follow which; by default counted in sampled plans.
-        width: How many steps are looked at from each place of the tree.
+        bigrams: How often a step follows another; by default counted in sampled plans.
+        width: How many steps are tried from each position of the tree.
 
     Raises:
         UsageError: if ``alignment`` is negative, or ``width`` less than 1.
     """
-
-    learns = True  # its belief is trained, unless another one is given
 
     def __init__(
         self, bank: Bank, belief: Belief[Any] | None = None, alignment: float = ALIGNMENT,
@@ -51,9 +55,8 @@ class InformationGain(BeliefAssistant[Any]):
     ) -> None:  # fmt: skip
         if not alignment >= 0:
             raise UsageError(f"alignment is worth 0 bits or more, not {alignment}")
-        super().__init__(bank, ForestBelief(bank) if belief is None else belief)
+        super().__init__(bank, belief, bigrams, width)
         self.alignment = alignment
-        self.lookahead = Lookahead(self.outlook, bigrams or Bigrams(bank), width)
 
     def options(self, state: AssistantState[Any]) -> StepChoice:
         """Return the likeliest steps, and what the best branch of each is worth, in bits."""
@@ -87,6 +90,6 @@ class InformationGain(BeliefAssistant[Any]):
 
     def _robot(self, place: TreePosition, present: Floats, goal: int) -> list[tuple[int, int]]:
         """Return the robot's likeliest steps, and +1 or -1 as the likeliest goal wants them."""
-        mine = set(place.wanted.steps[place.wanted.goals == goal].tolist())
+        mine = set(place.next_steps.steps[place.next_steps.goals == goal].tolist())
         steps = self.lookahead.steps(place, present)
         return [(step, 1 if step in mine else -1) for step in steps]

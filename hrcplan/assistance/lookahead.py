@@ -1,24 +1,25 @@
-"""A small tree of what may come: a robot step, the human's response, and so on (IV-B.1, IV-C.2).
+"""A small tree of future steps: a robot step, the human's response, and so on (IV-B.1, IV-C.2).
 
-Of all that could come next, only the few likeliest steps are looked at.
+From each position only the few likeliest steps are tried.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence, Set
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Generic, cast
 
 import numpy as np
 
-from hrcplan.assistance.ahead import ImaginedSteps
-from hrcplan.assistance.assistant import AssistantState
+from hrcplan.assistance.assistant import AssistantState, BeliefAssistant, S
 from hrcplan.assistance.bigrams import Bigrams
-from hrcplan.assistance.children import BRANCHING, Branching
+from hrcplan.assistance.imagined_steps import BRANCHING, Branching, ImaginedSteps
 from hrcplan.assistance.step_values import NextSteps, StepValues
+from hrcplan.bank import Bank
 from hrcplan.bank.progress import Progress
 from hrcplan.core.arrays import Floats
-from hrcplan.inference.belief import Belief
+from hrcplan.inference.belief import BatchBelief, Belief
+from hrcplan.inference.classifier.forest import ForestBelief
 from hrcplan.pddl.conventions import people
 
 StepSequence = tuple[int, ...]
@@ -27,21 +28,21 @@ StepSequence = tuple[int, ...]
 
 @dataclass(frozen=True, slots=True)
 class TreePosition:
-    """A place in the tree: where all goals stand, what they want, and the step that led there.
+    """A position in the tree: the goals' progress and next steps, and the step that led there.
 
-    ``known`` is shared by the whole tree: steps in another order lead to the same states.
+    ``reached`` is shared by the whole tree: steps in another order lead to the same states.
     """
 
-    track: Progress
-    wanted: NextSteps
+    progress: Progress
+    next_steps: NextSteps
     last: int | None
-    known: dict[int, tuple[Progress, NextSteps]] = field(default_factory=dict)
+    reached: dict[int, tuple[Progress, NextSteps]] = field(default_factory=dict)
 
 
-def shares(place: TreePosition, belief: Floats) -> Floats:
+def shares(position: TreePosition, belief: Floats) -> Floats:
     """Return for each step the probability that the human's goal has it next, up to the last."""
-    wanted = place.wanted
-    found: Floats = np.bincount(wanted.steps, belief.take(wanted.goals)).astype(np.float64)
+    next_steps = position.next_steps
+    found: Floats = np.bincount(next_steps.steps, belief.take(next_steps.goals)).astype(np.float64)
     return found
 
 
@@ -49,71 +50,74 @@ class Lookahead:
     """Expands the tree.
 
     Args:
-        outlook: Looks for what the robot could do.
-        bigrams: Which steps follow which; without them the belief decides what is looked at.
-        width: How many steps are looked at from each place, at most.
+        step_values: Knows the goals' next steps, and the robots.
+        bigrams: How often a step follows another; without them the belief decides alone.
+        width: How many steps are tried from each position, at most.
 
     Raises:
         UsageError: if ``width`` is less than 1.
     """
 
     def __init__(
-        self, outlook: StepValues, bigrams: Bigrams | None = None, width: int = BRANCHING
+        self, step_values: StepValues, bigrams: Bigrams | None = None, width: int = BRANCHING
     ) -> None:
-        self._agents, self._humans = outlook.agents, people(outlook.bank.goals.problem)
-        self._ahead, self._children = ImaginedSteps(outlook), Branching(outlook, bigrams, width)
+        self._agents, self._humans = step_values.agents, people(step_values.bank.goals.problem)
+        self._imagined, self._branching = (
+            ImaginedSteps(step_values),
+            Branching(step_values, bigrams, width),
+        )
 
-    def root(self, state: AssistantState[Any]) -> TreePosition:
-        """Return the place where an assistant is."""
-        track = self._ahead.begin(state.track)
-        return TreePosition(track, self._ahead.wanted(track), state.last)
+    def root(self, state: AssistantState[S]) -> TreePosition:
+        """Return the position of an assistant."""
+        progress = self._imagined.begin(state.progress)
+        return TreePosition(progress, self._imagined.next_steps(progress), state.last)
 
-    def after(self, place: TreePosition, step: int) -> TreePosition:
-        """Return the place after a step that can be done."""
-        world = self._ahead.tracker.bank.table.successor(place.track.world, step)
-        key = place.track.world if world is None else world
-        if key not in place.known:
-            track = self._ahead.after(place.track, step)
-            place.known[key] = track, self._ahead.wanted(track)
-        return TreePosition(*place.known[key], step, place.known)
+    def after(self, position: TreePosition, step: int) -> TreePosition:
+        """Return the position after an applicable step."""
+        world = self._imagined.bank.table.successor(position.progress.world, step)
+        key = position.progress.world if world is None else world
+        if key not in position.reached:
+            progress = self._imagined.after(position.progress, step)
+            position.reached[key] = progress, self._imagined.next_steps(progress)
+        return TreePosition(*position.reached[key], step, position.reached)
 
-    def steps(self, place: TreePosition, belief: Floats) -> list[int]:
-        """Return the likeliest steps that the robot can do at a place; likeliest first."""
-        return self._able(place, belief, self._agents)
+    def steps(self, position: TreePosition, belief: Floats) -> list[int]:
+        """Return the likeliest steps that the robot can do at a position, likeliest first."""
+        return self._able(position, belief, self._agents)
 
-    def responses(self, place: TreePosition, belief: Floats) -> list[tuple[int, float]]:
-        """Return the human's likeliest steps at a place, with probabilities that sum to one.
+    def responses(self, position: TreePosition, belief: Floats) -> list[tuple[int, float]]:
+        """Return the human's likeliest steps at a position, with probabilities that sum to one.
 
         A goal's plans are followed by any of their next steps alike.
         """
-        steps = self._able(place, belief, self._humans)
-        wanted = place.wanted
-        n_next = np.bincount(wanted.goals, minlength=len(belief))
-        weights = (belief / np.maximum(1, n_next)).take(wanted.goals)
-        chances = np.bincount(wanted.steps, weights).take(steps) if steps else np.zeros(0)
+        steps = self._able(position, belief, self._humans)
+        next_steps = position.next_steps
+        n_next = np.bincount(next_steps.goals, minlength=len(belief))
+        weights = (belief / np.maximum(1, n_next)).take(next_steps.goals)
+        chances = np.bincount(next_steps.steps, weights).take(steps) if steps else np.zeros(0)
         total = chances.sum()
         if total <= 0:  # what is believed in has nothing to do
             chances, total = np.ones(len(steps)), len(steps)
         return list(zip(steps, (chances / total).tolist(), strict=True))
 
-    def _able(self, place: TreePosition, belief: Floats, agents: Set[str]) -> list[int]:
-        return self._children.of(place.track, place.wanted, place.last, agents, lambda: belief)
+    def _able(self, position: TreePosition, belief: Floats, agents: Set[str]) -> list[int]:
+        return self._branching.expand(
+            position.progress, position.next_steps, position.last, agents, lambda: belief
+        )
 
 
-def futures(belief: Belief[Any], state: Any, branches: Sequence[StepSequence]) -> Floats:
-    """Return what will be believed after each of several branches, a row for each.
+def futures(belief: Belief[S], state: S, branches: Sequence[StepSequence]) -> Floats:
+    """Return the posterior after each of several branches, a row for each.
 
     Args:
-        belief: The belief. One that does not look at the order of steps can have a method
-            ``extended``, which answers for all branches at once; see `Forest`.
+        belief: The belief. A `BatchBelief` judges all branches in one call.
         state: Its state at the root.
         branches: The branches.
     """
-    extended = getattr(belief, "extended", None)
-    if extended is not None:
-        rows: Floats = extended(state.row, branches)
+    if isinstance(belief, BatchBelief):
+        rows: Floats = belief.posteriors_after(state, branches)
         return rows
-    states: dict[StepSequence, Any] = {(): state}
+    states: dict[StepSequence, S] = {(): state}
     for branch in branches:
         for i, step in enumerate(branch):
             if branch[: i + 1] not in states:
@@ -131,3 +135,25 @@ def entropy(beliefs: Floats) -> Floats:
     logs = np.log2(np.where(beliefs > 0, beliefs, 1.0))
     found: Floats = 0.0 - (beliefs * logs).sum(axis=-1)
     return found
+
+
+class LookaheadAssistant(BeliefAssistant[S], Generic[S]):
+    """A base for assistants that look ahead in a tree; ``options`` is left to write.
+
+    Args:
+        bank: The plans.
+        belief: What is believed about the goal; by default a forest, which is trained first.
+        bigrams: How often a step follows another; by default counted in sampled plans.
+        width: How many steps are tried from each position of the tree.
+
+    Raises:
+        UsageError: if ``width`` is less than 1.
+    """
+
+    needs_training = True
+
+    def __init__(
+        self, bank: Bank, belief: Belief[S] | None, bigrams: Bigrams | None, width: int
+    ) -> None:
+        super().__init__(bank, cast(Belief[S], ForestBelief(bank)) if belief is None else belief)
+        self.lookahead = Lookahead(self.step_values, bigrams or Bigrams(bank), width)

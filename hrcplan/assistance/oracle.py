@@ -7,18 +7,19 @@ from zlib import crc32
 
 import numpy as np
 
-from hrcplan.assistance.step_values import StepValues
+from hrcplan.assistance.assistant import BankAssistant
 from hrcplan.bank import Bank
-from hrcplan.bank.progress import Progress, ProgressTracker
+from hrcplan.bank.progress import Progress
 from hrcplan.core.arrays import Floats
-from hrcplan.inference.exact import IMPOSSIBLE
+from hrcplan.core.deprecation import Renamed
+from hrcplan.inference.belief import IMPOSSIBLE
 
 
 @dataclass(frozen=True, slots=True)
 class OracleState:
-    """The state of `Oracle`: where every goal stands, and the goal it was told."""
+    """The state of `Oracle`: the goals' progress, and the human's goal."""
 
-    track: Progress
+    progress: Progress
     goal: int | None = None
     n_declared: int = 0
     ignored: str | None = None
@@ -26,49 +27,45 @@ class OracleState:
     @property
     def world(self) -> int:
         """The state of the task, as bits."""
-        return self.track.world
+        return self.progress.world
 
 
-class Oracle:
+class Oracle(BankAssistant[OracleState]):
     """Does a step that the human's goal has next; which one depends on the state alone."""
 
     def __init__(self, bank: Bank) -> None:
-        self.bank, self.tracker = bank, ProgressTracker(bank)
-        self.outlook = StepValues(self.tracker)
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """The goals' names, in order."""
-        return self.bank.names
+        super().__init__(bank)
 
     def start(self) -> OracleState:
-        """Return the state before anything was done or told."""
+        """Return the state before anything was done."""
         return OracleState(self.tracker.start)
 
-    def told(self, state: OracleState, goal: int) -> OracleState:
+    def inform(self, state: OracleState, goal: int) -> OracleState:
         """Return the state once the human's goal is known."""
         return replace(
             state, goal=goal, n_declared=state.n_declared + (state.goal not in (None, goal))
         )
 
+    told = Renamed("inform")
+
     def observe(self, state: OracleState, step: int, *, robot: bool = False) -> OracleState:
         """Return the state after one more step."""
-        found = self.tracker.follow(state.track, step)
-        if found is None:
+        followed = self.tracker.follow(state.progress, step)
+        if followed is None:
             return replace(state, ignored=IMPOSSIBLE)
-        return replace(state, track=found[0], ignored=None)
+        return replace(state, progress=followed[0], ignored=None)
 
     def posterior(self, state: OracleState) -> Floats:
         """Return certainty of the goal."""
-        found = np.zeros(len(self.names))
-        found[state.goal or 0] = 1.0
-        return found
+        posterior = np.zeros(len(self.names))
+        posterior[state.goal or 0] = 1.0
+        return posterior
 
     def choose(self, state: OracleState) -> int | None:
         """Return a step that the goal has next and the robot can do; None if there is none."""
-        wanted = self.outlook.wanted(state.track)
-        mine = set(wanted.steps[wanted.goals == state.goal].tolist())
-        steps = [s for s in self.outlook.candidates(state.track, wanted) if s in mine]
+        following = self.step_values.next_steps(state.progress)
+        useful = set(following.steps[following.goals == state.goal].tolist())
+        steps = [s for s in self.step_values.candidates(state.progress, following) if s in useful]
         return steps[_spread(state.world) % len(steps)] if steps else None
 
 

@@ -137,17 +137,17 @@ def combined_graph_of(bank: Bank) -> CombinedGraph:
 class ApplicableSteps:
     """Which labels someone can do in a state, as bits; kept up to date from state to state."""
 
-    def __init__(self, joint: CombinedGraph) -> None:
-        table, task = joint.bank.table, joint.bank.goals.task
+    def __init__(self, combined: CombinedGraph) -> None:
+        table, task = combined.bank.table, combined.bank.goals.task
         self._task = task
-        self._rules: list[list[Rule]] = [[] for _ in range(joint.n_labels)]
-        self._odd: list[list[int]] = [[] for _ in range(joint.n_labels)]
+        self._rules: list[list[Rule]] = [[] for _ in range(combined.n_labels)]
+        self._odd: list[list[int]] = [[] for _ in range(combined.n_labels)]
         self._mentions: dict[int, set[int]] = {}
         for step in range(len(table)):
             for index in table[step].actions:
-                self._take(index, joint.label[step])
+                self._take(index, combined.label[step])
         self._affected: dict[int, _Part] = {}
-        self._all = self._part(range(joint.n_labels))
+        self._all = self._part(range(combined.n_labels))
 
     def _take(self, index: int, label: int) -> None:
         action = self._task.actions[index]

@@ -63,50 +63,50 @@ class ProgressTracker:
 
     def __init__(self, bank: Bank) -> None:
         self.bank = bank
-        self.joint = combined_graph_of(bank)
-        self._doable = ApplicableSteps(self.joint)
+        self.combined = combined_graph_of(bank)
+        self._doable = ApplicableSteps(self.combined)
         self._relevant = [graph.relevant for graph in bank.graphs]
         self._known: dict[tuple[int, int], int] = {}
         self._matters: dict[int, int] = {}
         world = bank.initial
-        self.start = Progress(world, self.joint.roots, self._doable.of(world))
+        self.start = Progress(world, self.combined.roots, self._doable.of(world))
 
-    def follow(self, track: Progress, step: int) -> tuple[Progress, Evidence] | None:
+    def follow(self, progress: Progress, step: int) -> tuple[Progress, Evidence] | None:
         """Return where everything stands after a step, and what it says; None if nobody can do it.
 
         What it says, it says about the moment before.
         """
-        joint = self.joint
-        before, world = track.world, self.bank.table.successor(track.world, step)
+        combined = self.combined
+        before, world = progress.world, self.bank.table.successor(progress.world, step)
         if world is None:
             return None
-        goals = joint.concerned(step, before ^ world)
-        old = track.nodes.take(goals)
-        hit, places = joint.edges(old, step)
+        goals = combined.concerned(step, before ^ world)
+        old = progress.nodes.take(goals)
+        hit, places = combined.edges(old, step)
         found = goals[hit], places[hit]
-        if joint.one_label_each:
+        if combined.one_label_each:
             says = found
         else:
-            same, named = joint.labeled(old, joint.label[step])
+            same, named = combined.labeled(old, combined.label[step])
             says = goals[same], named[same]
-        n_next, shares = joint.n_next.take(track.nodes), joint.log_shares.take(says[1])
-        seen = Evidence(says[0], shares, n_next, track.doable.bit_count())
-        if track.off:
-            seen = self._look_off(track, step, seen)
+        n_next, shares = combined.n_next.take(progress.nodes), combined.log_shares.take(says[1])
+        seen = Evidence(says[0], shares, n_next, progress.doable.bit_count())
+        if progress.off:
+            seen = self._look_off(progress, step, seen)
         if before == world:
-            return track, seen
-        nodes = track.nodes.copy()
-        nodes[found[0]] = joint.targets.take(found[1])
+            return progress, seen
+        nodes = progress.nodes.copy()
+        nodes[found[0]] = combined.targets.take(found[1])
         missed = [] if len(found[0]) == len(goals) else goals[~hit].tolist()
-        off = self._jumps(track, step, world, missed, nodes)
-        doable = self._doable.after(track.doable, before, world)
+        off = self._jumps(progress, step, world, missed, nodes)
+        doable = self._doable.after(progress.doable, before, world)
         return Progress(world, nodes, doable, off), seen
 
-    def _look_off(self, track: Progress, step: int, seen: Evidence) -> Evidence:
-        label, n_next = self.joint.label, seen.n_next
+    def _look_off(self, progress: Progress, step: int, seen: Evidence) -> Evidence:
+        label, n_next = self.combined.label, seen.n_next
         more: list[tuple[int, float]] = []
-        for goal, place in track.off.items():
-            graph, node = self.resolve(goal, place)
+        for goal, place in progress.off.items():
+            graph, node = self.graph_of(goal, place)
             following = graph.next(node) if graph.n_nodes else {}
             n_next[goal] = len({label[s] for s in following})
             ways = sum(graph.plans_from(t) for s, t in following.items() if label[s] == label[step])
@@ -118,7 +118,7 @@ class ProgressTracker:
         shares = np.append(seen.log_shares, [share for _, share in more])
         return replace(seen, goals=goals, log_shares=shares)
 
-    def resolve(self, goal: int, place: OffGraph) -> tuple[PlanGraph, int]:
+    def graph_of(self, goal: int, place: OffGraph) -> tuple[PlanGraph, int]:
         """Return graph and node of a goal that has left its graph."""
         if place.graph is not None:
             return place.graph, place.node
@@ -135,45 +135,51 @@ class ProgressTracker:
         return graph, 0
 
     def _jumps(
-        self, track: Progress, step: int, world: int, goals: list[int], nodes: Ids
+        self, progress: Progress, step: int, world: int, goals: list[int], nodes: Ids
     ) -> Mapping[int, OffGraph]:
         """Put goals for which a step is no edge where they stand; return those off the graph."""
-        if not goals and not track.off:
+        if not goals and not progress.off:
             return _NOWHERE
-        off = dict(track.off)
+        off = dict(progress.off)
         for goal in {*goals, *off}:
-            nodes[goal] = self._jump(goal, int(nodes[goal]), step, track, world, off)
+            nodes[goal] = self._jump(goal, int(nodes[goal]), step, progress, world, off)
         return off or _NOWHERE
 
     def _jump(
-        self, goal: int, node: int, step: int, track: Progress, world: int, off: dict[int, OffGraph]
+        self,
+        goal: int,
+        node: int,
+        step: int,
+        progress: Progress,
+        world: int,
+        off: dict[int, OffGraph],
     ) -> int:
         """Return the node of a goal after a step that is no edge; ``off`` notes it has none."""
-        if node != self.joint.off:
-            moved = (track.world ^ world) & self._relevant[goal]
+        if node != self.combined.off:
+            moved = (progress.world ^ world) & self._relevant[goal]
             if not moved:
                 return node
             known = self._known.get((node, moved))
             if known is None:
                 known = self._known[node, moved] = self._find(goal, world)
-            if known == self.joint.off:
+            if known == self.combined.off:
                 off[goal] = OffGraph(world)
             return known
         found = self._find(goal, world)
-        if found != self.joint.off:
+        if found != self.combined.off:
             off.pop(goal, None)
             return found
-        off[goal] = self._follow_off(goal, off.get(goal) or OffGraph(track.world), step, world)
+        off[goal] = self._follow_off(goal, off.get(goal) or OffGraph(progress.world), step, world)
         return found
 
     def _find(self, goal: int, world: int) -> int:
         node = self.bank.node(goal, world)
-        return self.joint.off if node is None else int(self.joint.offsets[goal]) + node
+        return self.combined.off if node is None else int(self.combined.offsets[goal]) + node
 
     def _follow_off(self, goal: int, place: OffGraph, step: int, world: int) -> OffGraph:
         graph = place.graph
         if graph is None:
-            graph, _ = self.resolve(goal, place)
+            graph, _ = self.graph_of(goal, place)
         if not graph.n_nodes:
             return OffGraph(world)
         node = graph.next(place.node).get(step)

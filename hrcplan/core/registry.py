@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import os
 import sys
-import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
@@ -26,6 +25,7 @@ from inspect import isclass, isfunction
 from types import ModuleType
 from typing import Generic, ParamSpec, Protocol, TypeVar, cast
 
+from hrcplan.core.deprecation import current_name
 from hrcplan.core.text import nearest
 from hrcplan.errors import HrcplanError, UsageError
 
@@ -64,12 +64,7 @@ class PartNames:
 
     def canonical(self, name: str) -> str:
         """Return the present name of a part; a name of an earlier version gives a warning."""
-        if name not in self.aliases:
-            return name
-        new = self.aliases[name]
-        message = f"the {self.kind} '{name}' is called '{new}' now"
-        warnings.warn(message, DeprecationWarning, stacklevel=3)
-        return new
+        return current_name(self.kind, name, self.aliases)
 
     def _installed(self) -> Iterable[EntryPoint]:
         return entry_points(group=self.group)

@@ -1,4 +1,4 @@
-"""A human and a robot take turns: the human acts first, nobody speaks, and all is written down.
+"""Turn-taking episodes: the human acts first, then the robot, without a word; all is recorded.
 
 Time is counted in turns: every action of either agent takes one timestep, and so does waiting.
 """
@@ -8,14 +8,16 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Protocol, runtime_checkable
+from typing import Generic, Protocol, SupportsIndex, runtime_checkable
 
 import numpy as np
-from numpy.typing import NDArray
 
+from hrcplan.assistance.assistant import Assistant, inform
 from hrcplan.bank import Bank, StepTable
+from hrcplan.core.arrays import Floats
 from hrcplan.episodes.humans import Course, EpisodeHuman
 from hrcplan.errors import UsageError
+from hrcplan.inference.belief import S, n_declared
 from hrcplan.pddl.conventions import robots
 
 PATIENCE = 4  # an episode ends after that many times the steps that its goals need
@@ -89,36 +91,36 @@ class EpisodeRecord:
         return len(self.turns)
 
 
-EpisodeWatch = Callable[[EpisodeTurn, Any], None]
+EpisodeWatch = Callable[[EpisodeTurn, S], None]
 """Is called with every turn and the robot's state after it."""
 
 
 def play(
-    bank: Bank, human: EpisodeHuman, robot: Any, course: Course, world: TurnWorld | None = None,
-    watch: EpisodeWatch | None = None,
+    bank: Bank, human: EpisodeHuman, robot: Assistant[S], course: Course,
+    world: TurnWorld | None = None, watch: EpisodeWatch[S] | None = None,
 ) -> EpisodeRecord:  # fmt: skip
     """Return the record of one episode: turns until the human's last goal is reached.
 
     Args:
         bank: The plans; they decide what is needed.
         human: Who acts first.
-        robot: An assistant (see assistance/assistant.py); one with a method ``told`` is told the
-            human's goal after each of its turns.
+        robot: The assistant; one that `KnowsGoal` is told the human's goal after each of the
+            human's turns.
         course: What the human wants and when; the human was made from the same one.
         world: Where it happens; by default as the PDDL says.
         watch: Is told about every turn.
 
     Raises:
-        UsageError: if somebody's own human or robot chooses what is no step or cannot be done, or
-            believes what are no probabilities.
+        UsageError: if the human or the robot chooses an index that is no step, or a step that it
+            cannot do, or the robot's posterior has no probability for each goal.
     """
     return _Play(bank, human, robot, course, world or SimulatedTurns(bank), watch).run()
 
 
-class _Play:
+class _Play(Generic[S]):
     def __init__(
-        self, bank: Bank, human: EpisodeHuman, robot: Any, course: Course, world: TurnWorld,
-        watch: EpisodeWatch | None,
+        self, bank: Bank, human: EpisodeHuman, robot: Assistant[S], course: Course,
+        world: TurnWorld, watch: EpisodeWatch[S] | None,
     ) -> None:  # fmt: skip
         self.bank, self.human, self.robot = bank, human, robot
         self.course, self.world, self.watch = course, world, watch
@@ -172,8 +174,7 @@ class _Play:
         if move.step is not None:
             self.last = move.step
             self.belief = self.robot.observe(self.belief, move.step)
-        if hasattr(self.robot, "told"):
-            self.belief = self.robot.told(self.belief, goal)
+        self.belief = inform(self.robot, self.belief, goal)
         if move.step is None:
             self._note(EpisodeTurn(len(self.turns), True, None, goal, False))
             return
@@ -183,7 +184,7 @@ class _Play:
         self._note(
             EpisodeTurn(
                 len(self.turns), True, move.step, goal, needed, move.is_mistake,
-                int(posterior.argmax()), rank, int(getattr(self.belief, "n_declared", 0)),
+                int(posterior.argmax()), rank, n_declared(self.belief),
             )
         )  # fmt: skip
 
@@ -212,7 +213,7 @@ class _Play:
             self.watch(turn, self.belief)
 
 
-def _action(table: StepTable, state: int, step: Any, agents: frozenset[str]) -> int:
+def _action(table: StepTable, state: int, step: SupportsIndex, agents: frozenset[str]) -> int:
     if not isinstance(step, int | np.integer) or not 0 <= step < len(table):
         raise UsageError(f"{step!r} is no step", code="bad-step")
     action = table.doer(state, int(step), agents)
@@ -222,11 +223,11 @@ def _action(table: StepTable, state: int, step: Any, agents: frozenset[str]) -> 
     return action
 
 
-def _posterior(robot: Any, state: Any, n_goals: int) -> NDArray[np.float64]:
-    """Return what a robot believes, which must be a probability for each goal."""
+def _posterior(robot: Assistant[S], state: S, n_goals: int) -> Floats:
+    """Return the posterior of a robot, which must have a probability for each goal."""
     found = np.asarray(robot.posterior(state), dtype=object)
     try:
-        numbers = found.astype(np.float64)
+        numbers: Floats = found.astype(np.float64)
     except (TypeError, ValueError):
         numbers = np.zeros(0)
     is_one = numbers.shape == (n_goals,) and (numbers >= 0).all()

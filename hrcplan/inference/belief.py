@@ -1,23 +1,29 @@
-"""What every belief about a goal does: it takes in one observed step at a time."""
+"""The contract of beliefs: what every belief does, and what some can do in addition.
+
+A belief says how probable each of several goals of a human is, after every observed step. `Belief`
+is all that has to be written. The other protocols are capabilities: hrcplan uses one where a class
+has its methods, and does without where it has not. `hrcplan.testing.check_belief` tests them.
+"""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Protocol, TypeVar, runtime_checkable
 
-import numpy as np
+from hrcplan.bank import StepTable
+from hrcplan.bank.progress import Progress, ProgressTracker
+from hrcplan.core.arrays import Floats, Rows
 
-from hrcplan.core.arrays import Floats
+IMPOSSIBLE = "nobody can do this step here"
+UNEXPLAINED = "no goal explains this step"
 
-ROUNDED = 9  # decimals of log scores, so that equal evidence gives equal numbers
 
-
-class State(Protocol):
+class BeliefState(Protocol):
     """What a belief is after some observations; it never changes.
 
-    ``world`` is the state of the task, as bits. ``ignored`` says why the last observation told
-    nothing; None if it did.
+    ``world`` is the state of the task, as bits. ``ignored`` says why the last observation had no
+    effect on the posterior, such as `IMPOSSIBLE`; None if it had one.
     """
 
     @property
@@ -27,15 +33,17 @@ class State(Protocol):
     def ignored(self) -> str | None: ...  # noqa: D102
 
 
-S = TypeVar("S", bound=State)
+S = TypeVar("S", bound=BeliefState)
+S_contra = TypeVar("S_contra", bound=BeliefState, contravariant=True)
 
 
 @runtime_checkable
 class Belief(Protocol[S]):
-    """A belief about which of several goals someone has.
+    """A belief about which of several goals a human has.
 
-    Steps are those of a `StepTable`. Nothing is remembered outside the states, so a state can be
-    followed in several directions, and one observation at a time gives what all at once give.
+    A belief is made from a `Bank`, and a step is an index of ``bank.table``; only a class that is
+    `MadeFromGoals` has a step table of its own. All memory is in the states: a state can be
+    continued in several directions, and the same steps always lead to the same posterior.
     """
 
     @property
@@ -56,38 +64,109 @@ class Belief(Protocol[S]):
         ...
 
 
-def normalized(log_scores: Floats) -> Floats:
-    """Return probabilities in proportion to scores that are given as logarithms.
+@dataclass(frozen=True, slots=True)
+class GoalChange:
+    """A change of goal just before observation ``at`` (0-based), and how probable it is."""
 
-    >>> normalized(np.log([0.2, 0.2, 0.4])).round(6).tolist()
-    [0.25, 0.25, 0.5]
+    at: int
+    probability: float
+
+
+@runtime_checkable
+class DetectsChanges(Protocol[S_contra]):
+    """A belief that tells, looking back, when the goal has changed."""
+
+    def changes(self, states: Sequence[S_contra]) -> tuple[GoalChange, ...]:
+        """Return the probable changes, given the belief after each observation, in order."""
+        ...
+
+
+@runtime_checkable
+class DeclaresChanges(Protocol):
+    """The state of a belief that decides, at every step, whether the goal has changed."""
+
+    @property
+    def n_declared(self) -> int:
+        """How many changes of goal were declared so far."""
+        ...
+
+
+@runtime_checkable
+class Remarks(Protocol):
+    """A belief, or its state, with a remark for the user: what had to be done more cheaply."""
+
+    @property
+    def note(self) -> str | None:
+        """The remark; None if there is none."""
+        ...
+
+
+@runtime_checkable
+class TracksProgress(Protocol):
+    """A belief that follows the plan graphs; its states have ``progress``, to be shared."""
+
+    @property
+    def tracker(self) -> ProgressTracker:
+        """What follows the plan graphs."""
+        ...
+
+
+@runtime_checkable
+class HasProgress(Protocol):
+    """A state that knows where each goal is in its plan graph."""
+
+    @property
+    def progress(self) -> Progress:
+        """The progress of all goals."""
+        ...
+
+
+@runtime_checkable
+class SetBelief(Protocol):
+    """A belief about unordered sets of steps, such as a classifier.
+
+    A set is a row with one column per label (a step's name without its agent): 1 if it is done.
     """
-    highest = log_scores.max()
-    if highest == -math.inf:
-        return np.full(len(log_scores), 1 / len(log_scores))
-    weights = np.exp((log_scores - highest).round(ROUNDED))
-    found: Floats = weights / math.fsum(weights.tolist())
-    return found
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The goals' names, in order."""
+        ...
+
+    def posteriors(self, rows: Rows) -> Floats:
+        """Return (rows, goals) probabilities, for each row of done labels."""
+        ...
 
 
-def weights_to_posterior(weights: Floats) -> Floats:
-    """Return weights as probabilities, rounded like scores."""
-    with np.errstate(divide="ignore"):
-        return normalized(np.log(weights))
+@runtime_checkable
+class BatchBelief(Protocol[S_contra]):
+    """A belief that judges many continuations at once, which is faster than one by one."""
+
+    def posteriors_after(self, state: S_contra, sequences: Sequence[Sequence[int]]) -> Floats:
+        """Return (sequences, goals) probabilities: after each sequence of further steps."""
+        ...
 
 
-def weights_to_posteriors(weights: Floats) -> Floats:
-    """Return rows of weights, each as ``weights_to_posterior`` does it.
+@runtime_checkable
+class MadeFromGoals(Protocol):
+    """A class of beliefs that are made from `Goals`, not from a `Bank`; each has ``steps``."""
 
-    >>> weights_to_posteriors(np.array([[1.0, 3.0], [0.0, 0.0]])).round(6).tolist()
-    [[0.25, 0.75], [0.5, 0.5]]
-    """
-    with np.errstate(divide="ignore"):
-        logs = np.log(np.where(weights.any(axis=1, keepdims=True), weights, 1))
-    shares = np.exp((logs - logs.max(axis=1, keepdims=True)).round(ROUNDED))
-    totals = [math.fsum(row) for row in shares.tolist()]
-    found: Floats = shares / np.array(totals)[:, None]
-    return found
+    takes_goals: bool
+
+
+@runtime_checkable
+class HasSteps(Protocol):
+    """A belief with a step table of its own: observed steps are indices of it."""
+
+    @property
+    def steps(self) -> StepTable:
+        """The step table."""
+        ...
+
+
+def n_declared(state: BeliefState) -> int:
+    """Return how many changes of goal were declared; 0 if states of this kind declare none."""
+    return state.n_declared if isinstance(state, DeclaresChanges) else 0
 
 
 def batch(belief: Belief[S], steps: Sequence[int], robot: Sequence[bool] = ()) -> list[Floats]:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hrcplan.core.arrays import Floats
+from hrcplan.inference.belief import GoalChange
 
 # Tuned on kitchens made by chance, not on the shipped one (docs/reproduce.md).
 HAZARD = 0.1
@@ -18,14 +19,6 @@ DECLARED = 0.5
 SPREAD = 2  # a change is that sure within so many steps around its likeliest place
 
 _TINY = 1e-300
-
-
-@dataclass(frozen=True, slots=True)
-class GoalChange:
-    """A change of goal just before observation ``at`` (0-based), and how probable it is."""
-
-    at: int
-    probability: float
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,4 @@
-"""The exact posterior: how many of each goal's plans begin with what was seen."""
+"""The exact posterior: the share of each goal's plans that begin with the observed steps."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from hrcplan.bank import Bank
+from hrcplan.bank import Bank, StepTable
 from hrcplan.bank.progress import Evidence, Progress, ProgressTracker
 from hrcplan.core.arrays import Floats
-from hrcplan.inference.belief import normalized
+from hrcplan.inference.probabilities import normalized
 
 MISTAKE_RATE = 0.01
 UNEXPLAINED = "no goal explains this step"
@@ -19,28 +19,28 @@ IMPOSSIBLE = "nobody can do this step here"
 
 @dataclass(frozen=True, slots=True)
 class ExactState:
-    """The state of `ExactBelief`: where everything stands, and the log score of each goal."""
+    """The state of `ExactBelief`: the goals' progress, and the log score of each goal."""
 
-    track: Progress
+    progress: Progress
     scores: Floats
     ignored: str | None = None
 
     @property
     def world(self) -> int:
         """The state of the task, as bits."""
-        return self.track.world
+        return self.progress.world
 
 
 class ExactBelief:
     """Bayes over plans that are all equally likely, with a rate of mistakes.
 
-    A step that goes on with a share s of a goal's plans has likelihood (1 - p) s; a mistake p,
-    divided by the number of steps that could be done and that the goal does not need. If no goal
-    explains a step, the belief stays.
+    A step that a share s of a goal's remaining plans begins with has likelihood (1 - p) s. A
+    mistake has likelihood p, divided by the number of applicable steps that the goal does not need.
+    A step that no goal explains leaves the posterior as it is.
 
     >>> from hrcplan.bank import build_bank
     >>> belief = ExactBelief(build_bank("kitchen", only=["pasta-bean", "pasta-tomato"]))
-    >>> step = belief.tracker.bank.table.find(("get", "beans"))
+    >>> step = belief.steps.find(("get", "beans"))
     >>> belief.posterior(belief.observe(belief.start(), step)).round(3).tolist()
     [0.996, 0.004]
     """
@@ -49,8 +49,8 @@ class ExactBelief:
         self.tracker = ProgressTracker(bank)
         self.mistake_rate = mistake_rate
         self._right, self._wrong = math.log1p(-mistake_rate), math.log(mistake_rate)
-        n_most = self.tracker.joint.n_labels
-        # By the number of steps that would be a mistake; at least one is being seen.
+        n_most = self.tracker.combined.n_labels
+        # By the number of steps that would be mistakes; the observed one is at least one of them.
         self._mistakes = self._wrong - np.log(np.maximum(1, np.arange(n_most + 1)))
 
     @property
@@ -58,13 +58,18 @@ class ExactBelief:
         """The goals' names, in order."""
         return self.tracker.bank.names
 
+    @property
+    def steps(self) -> StepTable:
+        """The steps that can be observed."""
+        return self.tracker.bank.table
+
     def start(self) -> ExactState:
         """Return the uniform belief in the initial state."""
         return ExactState(self.tracker.start, np.zeros(len(self.names)))
 
     def observe(self, state: ExactState, step: int, *, robot: bool = False) -> ExactState:
         """Return the belief after one more step; the robot's own steps are no evidence."""
-        followed = self.tracker.follow(state.track, step)
+        followed = self.tracker.follow(state.progress, step)
         if followed is None:
             return replace(state, ignored=IMPOSSIBLE)
         moved, seen = followed

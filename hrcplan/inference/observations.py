@@ -1,12 +1,76 @@
-"""Observed words to steps: names that are declared twice, agents that are named or not."""
+"""Observed actions to steps: as text, tuples or a plan; with or without the agent named."""
 
 from __future__ import annotations
 
+import re
+from collections.abc import Hashable, Iterable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 from hrcplan.bank import Goals, StepTable
+from hrcplan.bank.ramirez_geffner import read_actions
 from hrcplan.core.text import nearest
+from hrcplan.errors import UsageError
 from hrcplan.pddl.conventions import robots
+from hrcplan.pddl.source import read_text
+from hrcplan.plans import Plan, PlannedAction
+
+_TIMES = re.compile(r"^\s*[\d.]+\s*:|\[[\d.]+\]", re.MULTILINE)
+
+ObservedWords = tuple[str, ...]
+"""An action's name and its objects, in lower case."""
+ObservedAction = str | PlannedAction | Sequence[str]
+"""An action as ``"(get human yogurt)"``, of a plan, or as ``("get", "human", "yogurt")``."""
+Observations = str | Path | Plan | Iterable[ObservedAction]
+"""Actions as text or a file's path (one a line), as a plan, or one after the other."""
+
+
+def observed_words(actions: Observations) -> tuple[ObservedWords, ...]:
+    r"""Return observed actions as words.
+
+    Args:
+        actions: Text has parentheses, or it is the path of a file.
+
+    Raises:
+        InputError: if a file cannot be read.
+        UsageError: if an element is no action.
+
+    >>> observed_words("(get yogurt)\n0.5: (GET glass) [1.0]")
+    (('get', 'yogurt'), ('get', 'glass'))
+    >>> observed_words(["(get yogurt)", ("get", "glass")])
+    (('get', 'yogurt'), ('get', 'glass'))
+    """
+    if isinstance(actions, Plan):
+        actions = actions.actions
+    if isinstance(actions, Path) or (isinstance(actions, str) and "(" not in actions):
+        actions = read_text(actions)
+    if isinstance(actions, str):
+        return _words_in(actions)
+    if not isinstance(actions, Iterable):
+        raise _no_action(actions, "a list of actions")
+    return tuple(_words_of(action) for action in actions)
+
+
+def _words_of(action: ObservedAction) -> ObservedWords:
+    if isinstance(action, PlannedAction):
+        return (action.name, *action.args)
+    if isinstance(action, str):
+        lines = _words_in(action)
+        if len(lines) != 1:
+            raise _no_action(action, "one action")
+        return lines[0]
+    if not isinstance(action, Sequence) or not all(isinstance(word, str) for word in action):
+        raise _no_action(action, "an action")
+    return tuple(word.lower() for word in action)
+
+
+def _words_in(text: str) -> tuple[ObservedWords, ...]:
+    return read_actions(_TIMES.sub(" ", text))
+
+
+def _no_action(value: Hashable, what: str) -> UsageError:
+    hint = "an action is '(get human yogurt)' or ('get', 'human', 'yogurt')"
+    return UsageError(f"{value!r:.80} is not {what}", code="bad-action", hint=hint)
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,11 +7,11 @@ from typing import Protocol
 
 import numpy as np
 
-from hrcplan.bank import Bank
+from hrcplan.bank import Bank, StepTable
 from hrcplan.bank.progress import Evidence, Progress, ProgressTracker
 from hrcplan.core.arrays import Floats
-from hrcplan.inference.belief import weights_to_posterior
-from hrcplan.inference.exact import IMPOSSIBLE
+from hrcplan.inference.belief import IMPOSSIBLE
+from hrcplan.inference.probabilities import weights_to_posterior
 
 STAY = 0.9
 EPSILON = 0.01
@@ -37,10 +37,10 @@ class Needed:
 
     def __call__(self, tracker: ProgressTracker, step: int, seen: Evidence) -> Floats:
         """Return the likelihood by goal."""
-        needs = tracker.joint.needs
+        needs = tracker.combined.needs
         sizes = needs.sum(axis=1)
-        rest = np.maximum(1, tracker.joint.n_labels - sizes)
-        helps = needs[:, tracker.joint.label[step]]
+        rest = np.maximum(1, tracker.combined.n_labels - sizes)
+        helps = needs[:, tracker.combined.label[step]]
         found: Floats = np.where(
             helps, (1 - self.epsilon) / np.maximum(1, sizes), self.epsilon / rest
         )
@@ -55,9 +55,9 @@ class Attractor:
 
     def __call__(self, tracker: ProgressTracker, step: int, seen: Evidence) -> Floats:
         """Return the likelihood by goal."""
-        needs = tracker.joint.needs
+        needs = tracker.combined.needs
         weights = np.where(needs, self.ratio, 1.0)
-        found: Floats = weights[:, tracker.joint.label[step]] / weights.sum(axis=1)
+        found: Floats = weights[:, tracker.combined.label[step]] / weights.sum(axis=1)
         return found
 
 
@@ -75,10 +75,10 @@ class Next:
 
 
 @dataclass(frozen=True, slots=True)
-class Weighted:
-    """The state of `RecursiveBelief`: where everything stands, and the probability of each goal."""
+class RecursiveState:
+    """The state of `RecursiveBelief`: the goals' progress, and the probability of each goal."""
 
-    track: Progress
+    progress: Progress
     weights: Floats
     n_human: int = 0
     ignored: str | None = None
@@ -86,7 +86,7 @@ class Weighted:
     @property
     def world(self) -> int:
         """The state of the task, as bits."""
-        return self.track.world
+        return self.progress.world
 
 
 class RecursiveBelief:
@@ -110,26 +110,31 @@ class RecursiveBelief:
         """The goals' names, in order."""
         return self.tracker.bank.names
 
-    def start(self) -> Weighted:
+    @property
+    def steps(self) -> StepTable:
+        """The steps that can be observed."""
+        return self.tracker.bank.table
+
+    def start(self) -> RecursiveState:
         """Return the uniform belief in the initial state."""
         n = len(self.names)
-        return Weighted(self.tracker.start, np.full(n, 1 / n))
+        return RecursiveState(self.tracker.start, np.full(n, 1 / n))
 
-    def observe(self, state: Weighted, step: int, *, robot: bool = False) -> Weighted:
+    def observe(self, state: RecursiveState, step: int, *, robot: bool = False) -> RecursiveState:
         """Return the belief after one more step; the robot's own steps are no evidence."""
-        followed = self.tracker.follow(state.track, step)
+        followed = self.tracker.follow(state.progress, step)
         if followed is None:
             return replace(state, ignored=IMPOSSIBLE)
         moved, seen = followed
         if robot:
-            return replace(state, track=moved, ignored=None)
+            return replace(state, progress=moved, ignored=None)
         weights = state.weights
         if state.n_human:
             others = (weights.sum() - weights) / max(1, len(weights) - 1)
             weights = self.stay * weights + (1 - self.stay) * others
         weights = weights * self.likelihood(self.tracker, step, seen)
-        return Weighted(moved, weights / weights.sum(), state.n_human + 1)
+        return RecursiveState(moved, weights / weights.sum(), state.n_human + 1)
 
-    def posterior(self, state: Weighted) -> Floats:
+    def posterior(self, state: RecursiveState) -> Floats:
         """Return the probability of each goal, in order."""
         return weights_to_posterior(state.weights)

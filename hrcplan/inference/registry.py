@@ -1,11 +1,12 @@
-"""Which methods there are, by name; each is a class that makes a belief from a bank or goals."""
+"""The methods of goal inference by name: each is a class of beliefs."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Hashable
 from typing import Any
 
 from hrcplan.core.registry import Registry
-from hrcplan.inference.belief import Belief
+from hrcplan.inference.belief import Belief, MadeFromGoals
 
 BANK_METHOD, GOALS_METHOD = "switching", "cost"
 METHODS: Registry[..., Belief[Any]] = Registry(
@@ -22,6 +23,7 @@ METHODS: Registry[..., Belief[Any]] = Registry(
 )
 
 
-def takes_goals(kind: Any) -> bool:
-    """Return whether a method is made from `Goals`, not from a `Bank`: its ``takes_goals`` says."""
-    return bool(getattr(kind, "takes_goals", False))
+def takes_goals(kind: Callable[..., Belief[Any]]) -> bool:
+    """Return whether a class of beliefs is made from `Goals`, not from a `Bank`."""
+    declared: Hashable = kind
+    return isinstance(declared, MadeFromGoals) and declared.takes_goals

@@ -2,31 +2,35 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol, runtime_checkable
 
 from hrcplan.bank import Bank, Goals, StepTable, build
-from hrcplan.bank.ramirez_geffner import OBSERVATIONS, is_folder, read_actions, read_instance
+from hrcplan.bank.ramirez_geffner import OBSERVATIONS, is_folder, read_instance
 from hrcplan.core import svg
+from hrcplan.core.deprecation import warn_old_name
 from hrcplan.core.text import cut, plural
-from hrcplan.errors import InputError, LimitError
-from hrcplan.inference.changes import GoalChange
-from hrcplan.inference.observations import Resolver
+from hrcplan.errors import InputError, LimitError, UsageError
+from hrcplan.inference.belief import (
+    Belief,
+    BeliefState,
+    DetectsChanges,
+    GoalChange,
+    HasSteps,
+    Remarks,
+    S,
+)
+from hrcplan.inference.observations import Observations, ObservedWords, Resolver, observed_words
 from hrcplan.inference.registry import BANK_METHOD, GOALS_METHOD, METHODS, takes_goals
-from hrcplan.pddl.source import read_text
 
 BUILD_S = 20.0  # for plan graphs of a folder that is no bank
-_TIMES = re.compile(r"^\s*[\d.]+\s*:|\[[\d.]+\]", re.MULTILINE)
-
-ObservedWords = tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class Ignored:
-    """An observation that told nothing, and why."""
+    """An observation without effect, and why."""
 
     at: int
     action: str
@@ -35,16 +39,16 @@ class Ignored:
 
 @dataclass(frozen=True)
 class Inference:
-    """What follows from observed actions.
+    """The posterior of the goals after each of several observed actions.
 
     Attributes:
         goals: The goals' names, in order.
         actions: The observed actions, one a line.
         posterior: The probability of each goal, before any observation and after each.
         changes: Where the goal probably changed.
-        ignored: The observations that told nothing; their row repeats the one before.
+        ignored: The observations without effect; their row repeats the one before.
         method: The name of the method.
-        note: What the method had to do more cheaply; None if nothing.
+        note: A remark of the method, such as that it used estimates; None if there is none.
     """
 
     goals: tuple[str, ...]
@@ -98,7 +102,7 @@ class Inference:
 
 def infer(
     source: str | Path | Bank | Goals,
-    actions: str | Path | Sequence[ObservedWords] | None = None,
+    actions: Observations | None = None,
     method: str | None = None,
     **options: Any,
 ) -> Inference:
@@ -106,8 +110,10 @@ def infer(
 
     Args:
         source: A bank (or its file), or goals (or a folder with ``template.pddl``, ``hyps.dat``).
-        actions: Observed actions as ``(name, *objects)``, or a file with one a line; by default
-            the folder's ``obs.dat``. Actions of the robot move the world, but are no evidence.
+        actions: Observed actions: a list whose elements are ``"(get human yogurt)"`` or
+            ``("get", "human", "yogurt")``, a `Plan`, text with one action a line, or the path of
+            such a file; by default the folder's ``obs.dat``. Actions of the robot change the world,
+            but they are no evidence.
         method: ``exact``, ``switching``, ``forest``, ``recursive``, ``cost``, one that another
             package has registered, or ``module:Class``. Default: ``switching`` for a bank, else
             ``cost``.
@@ -115,65 +121,97 @@ def infer(
 
     Raises:
         InputError: if a file is missing or has faults.
-        UsageError: if there is no such method.
+        UsageError: if there is no such method, or an argument is of a wrong type.
         LimitError: if a method needs plan graphs that do not fit.
+
+    >>> from hrcplan.bank import build_bank
+    >>> infer(build_bank("kitchen", only=["pasta-bean", "pasta-tomato"]), ["(get human beans)"])
+    <Inference by switching: 1 action, 0 changes, now 98% pasta-bean>
     """
-    loaded, beside = _load(source)
-    observed = _observed(actions, beside)
+    loaded, observed_in_folder = _load(source)
+    words = observed_in_folder if actions is None else observed_words(actions)
+    if words is None:
+        hint = "a file with one action a line"
+        raise InputError("no observed actions are given", code="no-actions", hint=hint)
     name = method or (BANK_METHOD if isinstance(loaded, Bank) else GOALS_METHOD)
     kind = METHODS.find(name)
-    belief = kind(_as_needed(kind, loaded), **options)
-    goals = loaded.goals if isinstance(loaded, Bank) else loaded
-    return run(belief, Resolver(belief_table(belief, goals), goals), observed, name)
+    if takes_goals(kind):
+        goals = loaded.goals if isinstance(loaded, Bank) else loaded
+        belief = METHODS.make(name, goals, **options)
+        return run(belief, Resolver(steps_of(belief, StepTable(goals.task)), goals), words, name)
+    bank = loaded if isinstance(loaded, Bank) else _built(loaded)
+    belief = METHODS.make(name, bank, **options)
+    return run(belief, Resolver(steps_of(belief, bank.table), bank.goals), words, name)
 
 
-def belief_table(belief: Any, goals: Goals) -> StepTable:
-    """Return the steps that a belief speaks of."""
-    table = getattr(belief, "table", None)
-    if isinstance(table, StepTable):
-        return table
-    tracker = getattr(belief, "tracker", None)
-    return StepTable(goals.task) if tracker is None else tracker.bank.table
+def steps_of(belief: Belief[S], default: StepTable) -> StepTable:
+    """Return the steps whose indices a belief observes: its own table if it has one."""
+    if isinstance(belief, HasSteps) and isinstance(belief.steps, StepTable):
+        return belief.steps
+    if isinstance(belief, _HasTable) and isinstance(belief.table, StepTable):
+        warn_old_name(f"attribute of {type(belief).__name__}", "table", "steps")
+        return belief.table
+    return default
+
+
+@runtime_checkable
+class _HasTable(Protocol):
+    """`HasSteps` as it was called in earlier versions."""
+
+    table: StepTable
 
 
 def run(
-    belief: Any, resolver: Resolver, observed: Sequence[ObservedWords], method: str
+    belief: Belief[S], resolver: Resolver, observed: Sequence[ObservedWords], method: str
 ) -> Inference:
-    """Return what a belief makes of observed actions, one after the other."""
+    """Return the posterior of a belief after each of several observed actions."""
     states = [belief.start()]
     ignored: list[Ignored] = []
     for at, words in enumerate(observed):
-        found = resolver.find(words, states[-1].world)
-        shown = f"({' '.join(words)})"
-        if isinstance(found, str):
+        resolved = resolver.find(words, states[-1].world)
+        action = f"({' '.join(words)})"
+        if isinstance(resolved, str):
             states.append(states[-1])
-            ignored.append(Ignored(at, shown, found))
+            ignored.append(Ignored(at, action, resolved))
             continue
-        states.append(belief.observe(states[-1], found.step, robot=found.robot))
+        states.append(belief.observe(states[-1], resolved.step, robot=resolved.robot))
         if states[-1].ignored is not None:
-            ignored.append(Ignored(at, shown, states[-1].ignored))
-    unresolved = {i.at for i in ignored}
-    changes = getattr(belief, "changes", None)
-    told = [(at, s) for at, s in enumerate(states[1:]) if at not in unresolved]
-    found_changes = changes([s for _, s in told]) if changes is not None else ()
+            ignored.append(Ignored(at, action, states[-1].ignored))
     return Inference(
         tuple(belief.names),
         tuple(f"({' '.join(words)})" for words in observed),
         tuple(tuple(belief.posterior(state).tolist()) for state in states),
-        tuple(GoalChange(told[c.at][0], c.probability) for c in found_changes),
+        _changes(belief, states, {i.at for i in ignored}),
         tuple(ignored),
         method,
-        getattr(states[-1], "note", None) or getattr(belief, "note", None),
+        _note(states[-1]) or _note(belief),
     )
+
+
+def _changes(belief: Belief[S], states: Sequence[S], ignored: Set[int]) -> tuple[GoalChange, ...]:
+    """Return the changes of goal among the observations that had an effect."""
+    if not isinstance(belief, DetectsChanges):
+        return ()
+    places = [at for at in range(len(states) - 1) if at not in ignored]
+    changes = belief.changes([states[at + 1] for at in places])
+    return tuple(GoalChange(places[change.at], change.probability) for change in changes)
+
+
+def _note(part: Belief[S] | BeliefState) -> str | None:
+    return part.note if isinstance(part, Remarks) else None
 
 
 def _load(
     source: str | Path | Bank | Goals,
 ) -> tuple[Bank | Goals, tuple[ObservedWords, ...] | None]:
-    """Return bank or goals, and the actions that are beside them."""
+    """Return bank or goals, and the observed actions of a folder of goals."""
     if isinstance(source, (Bank, Goals)):
         return source, None
-    path = Path(source)
+    try:
+        path = Path(source)
+    except TypeError:
+        message = f"goals are inferred from a bank, goals, or a path, not from {source!r:.80}"
+        raise UsageError(message) from None
     if path.is_dir():
         if not is_folder(path):
             message = f"'{source}' is a folder without template.pddl and hyps.dat"
@@ -186,27 +224,9 @@ def _load(
     return load(path), None
 
 
-def _observed(
-    actions: str | Path | Sequence[ObservedWords] | None, beside: tuple[ObservedWords, ...] | None
-) -> tuple[ObservedWords, ...]:
-    if actions is None:
-        if beside is None:
-            hint = "a file with one action a line"
-            raise InputError("no observed actions are given", code="no-actions", hint=hint)
-        return beside
-    if isinstance(actions, (str, Path)):
-        return read_actions(_TIMES.sub(" ", read_text(actions)))
-    return tuple(tuple(word.lower() for word in words) for words in actions)
-
-
-def _as_needed(kind: Any, loaded: Bank | Goals) -> Bank | Goals:
-    """Return goals for a method that does without plan graphs, else a bank."""
-    if takes_goals(kind):
-        return loaded.goals if isinstance(loaded, Bank) else loaded
-    if isinstance(loaded, Bank):
-        return loaded
+def _built(goals: Goals) -> Bank:
     try:
-        return build(loaded, timeout_s=BUILD_S)
+        return build(goals, timeout_s=BUILD_S)
     except LimitError as error:
         hint = f"--method {GOALS_METHOD} does without plan graphs"
         raise LimitError(error.message, code=error.code, hint=hint) from None

@@ -7,31 +7,30 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from hrcplan.bank import Bank
+from hrcplan.bank import Bank, StepTable
 from hrcplan.bank.progress import Evidence, Progress, ProgressTracker
 from hrcplan.core.arrays import Floats
-from hrcplan.inference.belief import weights_to_posterior
+from hrcplan.inference.belief import IMPOSSIBLE, GoalChange
 from hrcplan.inference.changes import (
     HAZARD,
     NEVER,
     SETTLES,
     ChangeFilter,
     FilterState,
-    GoalChange,
 )
-from hrcplan.inference.exact import IMPOSSIBLE
+from hrcplan.inference.probabilities import weights_to_posterior
 
 MISTAKE_RATES = (0.002, 0.1)
 
 
 @dataclass(frozen=True, slots=True)
 class SwitchingState:
-    """The state of `SwitchingBelief`: where everything stands, and the filter.
+    """The state of `SwitchingBelief`: the goals' progress, and the filter.
 
-    ``is_human`` says whether the last observation was a human step that told something.
+    ``is_human`` says whether the last observation was an applicable step of the human.
     """
 
-    track: Progress
+    progress: Progress
     filtered: FilterState
     is_human: bool = False
     ignored: str | None = None
@@ -39,7 +38,7 @@ class SwitchingState:
     @property
     def world(self) -> int:
         """The state of the task, as bits."""
-        return self.track.world
+        return self.progress.world
 
     @property
     def n_declared(self) -> int:
@@ -75,13 +74,18 @@ class SwitchingBelief:
         """The goals' names, in order."""
         return self.tracker.bank.names
 
+    @property
+    def steps(self) -> StepTable:
+        """The steps that can be observed."""
+        return self.tracker.bank.table
+
     def start(self) -> SwitchingState:
         """Return the uniform belief in the initial state."""
         return SwitchingState(self.tracker.start, self.filter.start())
 
     def observe(self, state: SwitchingState, step: int, *, robot: bool = False) -> SwitchingState:
         """Return the belief after one more step; the robot's own steps are no evidence."""
-        followed = self.tracker.follow(state.track, step)
+        followed = self.tracker.follow(state.progress, step)
         if followed is None:
             return replace(state, is_human=False, ignored=IMPOSSIBLE)
         moved, seen = followed
@@ -101,7 +105,7 @@ class SwitchingBelief:
         return weights_to_posterior(self.filter.goals(state.filtered))
 
     def changes(self, states: Sequence[SwitchingState]) -> tuple[GoalChange, ...]:
-        """Return the changes that are probable once everything was seen.
+        """Return the changes that are probable given all observations.
 
         Args:
             states: The belief after each observation, in order.

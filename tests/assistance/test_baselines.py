@@ -103,8 +103,8 @@ def test_who_did_it_does_not_matter_to_a_field(hall):
     hers = [step for step in range(len(table)) if table[step].words[1] == "ann"]
     can = table.applicable(robot.start().world)
     state = robot.observe(robot.start(), next(step for step in hers if step in can))
-    needs = robot.tracker.joint.needs
-    label = robot.tracker.joint.label
+    needs = robot.tracker.combined.needs
+    label = robot.tracker.combined.label
     mine = np.where(needs[:, label[state.last]], 1, -1)
     options = robot.options(state)
     for step, value in zip(options.steps, options.values, strict=True):
@@ -166,14 +166,14 @@ def test_no_plans_are_made_for_what_may_never_happen(workshop, monkeypatch):
     """Sealed too early, the red box is lost to three goals; the tree leaves it at that."""
     robot = ExpectedHelp(workshop)
     state = after(robot, ("unfold", "red"))
-    look = Lookahead(robot.outlook)
+    look = Lookahead(robot.step_values)
     monkeypatch.setattr(Bank, "reroot", None)
     place = look.after(look.root(state), workshop.table.find(("seal", "red")))
-    lost = set(np.flatnonzero(place.track.nodes == robot.tracker.joint.off).tolist())
+    lost = set(np.flatnonzero(place.progress.nodes == robot.tracker.combined.off).tolist())
     assert lost
-    assert not lost & set(place.wanted.goals.tolist())
+    assert not lost & set(place.next_steps.goals.tolist())
     again = look.after(place, workshop.table.find(("cut", "wire")))
-    assert not lost & set(again.wanted.goals.tolist())
+    assert not lost & set(again.next_steps.goals.tolist())
 
 
 class Plain:
@@ -189,11 +189,11 @@ class Quick(Plain):
 
     def __init__(self, forest):
         super().__init__(forest)
-        self.label, self.n_branches = ProgressTracker(forest.bank).joint.label, 0
+        self.label, self.n_branches = ProgressTracker(forest.bank).combined.label, 0
 
-    def extended(self, row, extensions):
-        self.n_branches += len(extensions)
-        return np.array([self.one(row.copy(), steps) for steps in extensions])
+    def posteriors_after(self, state, sequences):
+        self.n_branches += len(sequences)
+        return np.array([self.one(state.row.copy(), steps) for steps in sequences])
 
     def one(self, row, steps):
         row[[self.label[step] for step in steps]] = 1
@@ -293,7 +293,7 @@ def test_information_lost_counts_against_a_branch(desk):
 @pytest.mark.parametrize("kind", [DecisionPoints, InformationGain])
 def test_a_forest_is_the_belief_by_default(desk, kind, monkeypatch):
     small = functools.partial(ForestBelief, seed=0, n_samples=100, n_trees=2)
-    monkeypatch.setattr(f"{kind.__module__}.ForestBelief", small)
+    monkeypatch.setattr("hrcplan.assistance.lookahead.ForestBelief", small)
     assert isinstance(kind(desk).belief, ForestBelief)
 
 

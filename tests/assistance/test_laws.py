@@ -10,8 +10,10 @@ from hrcplan.assistance import ASSISTANTS
 from hrcplan.assistance.expected_help import ExpectedHelp
 from hrcplan.assistance.step_values import StepValues
 from hrcplan.bank.progress import ProgressTracker
+from hrcplan.core.deprecation import OldNameWarning
 from hrcplan.inference.classifier.forest import ForestBelief
-from hrcplan.testing import check_assistant
+from hrcplan.inference.exact import ExactBelief
+from hrcplan.testing import check_assistant, check_belief
 
 NAMES = ["recursive", "recursive-best", "cdp", "infogain", "hrcplan", "oracle"]
 
@@ -59,12 +61,14 @@ def test_what_a_step_is_worth_does_not_depend_on_what_was_asked_before(request, 
     bank = request.getfixturevalue(world)
     even = np.ones(len(bank.names))
 
-    def worth(outlook, steps):
-        track = outlook.tracker.start
+    def worth(step_values, steps):
+        progress = step_values.tracker.start
         for step in steps:
-            track, _ = outlook.tracker.follow(track, step)
-        can = bank.table.applicable(track.world)
-        return outlook.help(track, outlook.wanted(track), can, even)[0].tolist()
+            progress, _ = step_values.tracker.follow(progress, step)
+        can = bank.table.applicable(progress.world)
+        return step_values.expected_saving(progress, step_values.next_steps(progress), can, even)[
+            0
+        ].tolist()
 
     used = StepValues(ProgressTracker(bank))
     for seed in range(40):
@@ -219,3 +223,32 @@ def test_steps_that_have_become_impossible_are_left_out(workshop):
     """The robot packs or seals meanwhile; the human's script does not break."""
     seal, unfold = (workshop.table.find((word, "red")) for word in ("seal", "unfold"))
     check_assistant(Broken(workshop), workshop, [(unfold, seal, unfold, seal)])
+
+
+def test_what_is_no_belief(workshop):
+    with pytest.raises(AssertionError, match="Loose has no names, start, observe, posterior"):
+        check_belief(Loose(None, 0), [])
+    with pytest.raises(AssertionError, match="has no choose"):
+        check_assistant(ExactBelief(workshop), workshop, [])
+
+
+class Told(Broken):
+    """Written for version 0.1, where ``inform`` was called ``told``."""
+
+    def told(self, state, goal):
+        return Loose(state.inner, state.world, [*state.notes, goal])
+
+
+def test_an_assistant_of_an_earlier_version_still_works(workshop, walk):
+    with pytest.warns(OldNameWarning, match="'told' is deprecated; its name is 'inform'"):
+        check_assistant(Told(workshop), workshop, [walk(workshop, 1, 3)])
+
+
+def test_names_of_an_earlier_version_still_work(workshop):
+    robot = ExpectedHelp(workshop)
+    state = robot.start()
+    with pytest.warns(OldNameWarning) as warned:
+        following = robot.outlook.wanted(state.track)
+    assert {str(w.message).rpartition(" ")[2] for w in warned} == {
+        "'step_values'", "'next_steps'", "'progress'"}  # fmt: skip
+    assert following.steps.tolist() == robot.step_values.next_steps(state.progress).steps.tolist()

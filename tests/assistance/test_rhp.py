@@ -16,8 +16,8 @@ from hrcplan.assistance.rhp.tree import RecedingHorizonTree, TreeRoot
 from hrcplan.bank import Bank, build
 from hrcplan.core.bits import positions
 from hrcplan.errors import UsageError
+from hrcplan.inference.belief import IMPOSSIBLE
 from hrcplan.inference.classifier.forest import ForestBelief, ForestState
-from hrcplan.inference.exact import IMPOSSIBLE
 from hrcplan.inference.switching import SwitchingBelief
 from hrcplan.pddl.conventions import people, robots
 from tests.worlds import world
@@ -239,22 +239,22 @@ def test_a_belief_may_follow_all_steps_by_itself(workshop):
 
 def _in_full(tree, root):
     """Return costs of first steps, with every branch grown and costed as the equations say."""
-    people, own = tree.people, tree.outlook.agents
-    level = [((s,), tree.ahead.begin(root.track)) for s in
-             tree.children(root, tree.ahead.begin(root.track), root.last, own)]  # fmt: skip
+    people, own = tree.people, tree.step_values.agents
+    level = [((s,), tree.imagined.begin(root.progress)) for s in
+             tree.next_steps(root, tree.imagined.begin(root.progress), root.last, own)]  # fmt: skip
     costs = {path: [-field[tree.label[path[0]]] for field in root.fields] for path, _ in level}
     closed = {}
     for _ in range(1, tree.n_levels):
         every = [*costs.values(), *closed.values()]
         least = [min(c) for c in zip(*every, strict=True)] if every else []
         grown, after = [], {}
-        for path, track in level:
-            then = tree.ahead.after(track, path[-1])
+        for path, progress in level:
+            then = tree.imagined.after(progress, path[-1])
             longer = [
                 ((*path, answer, step), later)
-                for answer in tree.children(root, then, path[-1], people)
-                for later in [tree.ahead.after(then, answer)]
-                for step in tree.children(root, later, answer, own) or [None]
+                for answer in tree.next_steps(root, then, path[-1], people)
+                for later in [tree.imagined.after(then, answer)]
+                for step in tree.next_steps(root, later, answer, own) or [None]
             ]
             if not longer:
                 closed[path] = costs[path]
@@ -279,12 +279,12 @@ def _in_full(tree, root):
 def test_costs_are_those_of_trees_in_full(data, rhp):
     state, _ = data.draw(_turns(rhp, 5))
     n_trees = data.draw(st.integers(1, 3))
-    width = max(rhp.tracker.joint.label) + 1
+    width = max(rhp.tracker.combined.label) + 1
     field = st.lists(st.integers(0, 3), min_size=width, max_size=width)
     fields = tuple(data.draw(field) for _ in range(n_trees))
-    root = TreeRoot(state.track, state.last, fields, (), lambda: rhp.posterior(state))
+    root = TreeRoot(state.progress, state.last, fields, (), lambda: rhp.posterior(state))
     branching, depth = data.draw(st.integers(1, 4)), data.draw(st.integers(1, 5))
-    tree = RecedingHorizonTree(rhp.outlook, rhp.tree.bigrams, rhp.tree.people, branching, depth)
+    tree = RecedingHorizonTree(rhp.step_values, rhp.tree.bigrams, rhp.tree.people, branching, depth)
     assert tree.costs(root) == _in_full(tree, root)
 
 
@@ -296,8 +296,8 @@ def test_branches_that_end_early_count_too(hall):
     rng = np.random.default_rng(0)
     for _ in range(60):
         fields = tuple(rng.integers(0, 4, (3, len(hall.table))).tolist())
-        root = TreeRoot(state.track, state.last, fields, (), lambda: rhp.posterior(state))
-        tree = RecedingHorizonTree(rhp.outlook, rhp.tree.bigrams, rhp.tree.people, 4, 7)
+        root = TreeRoot(state.progress, state.last, fields, (), lambda: rhp.posterior(state))
+        tree = RecedingHorizonTree(rhp.step_values, rhp.tree.bigrams, rhp.tree.people, 4, 7)
         assert tree.costs(root) == _in_full(tree, root)
 
 
@@ -306,19 +306,19 @@ def test_branches_that_end_early_count_too(hall):
 def test_looking_ahead_is_what_would_follow(data, rhp):
     """Imagined steps lead where real ones do, as far as goals stay on their graphs."""
     state, _ = data.draw(_turns(rhp, 4))
-    ahead, real = rhp.tree.ahead, state.track
-    track = ahead.begin(real)
+    ahead, real = rhp.tree.imagined, state.progress
+    progress = ahead.begin(real)
     for _ in range(3):
         can = rhp.bank.table.applicable(real.world)
         if not can:
             return
         step = data.draw(st.sampled_from(can))
-        track, real = ahead.after(track, step), rhp.tracker.follow(real, step)[0]
-        assert track.world == real.world
-        on_graph = track.nodes != rhp.tracker.joint.off
-        assert (track.nodes[on_graph] == real.nodes[on_graph]).all()
+        progress, real = ahead.after(progress, step), rhp.tracker.follow(real, step)[0]
+        assert progress.world == real.world
+        on_graph = progress.nodes != rhp.tracker.combined.off
+        assert (progress.nodes[on_graph] == real.nodes[on_graph]).all()
         lost = set(np.flatnonzero(~on_graph).tolist())
-        assert lost == set(np.flatnonzero(real.nodes == rhp.tracker.joint.off).tolist())
+        assert lost == set(np.flatnonzero(real.nodes == rhp.tracker.combined.off).tolist())
 
 
 def test_early_attraction_comes_first(of_meals):
@@ -329,8 +329,10 @@ def test_early_attraction_comes_first(of_meals):
     field = [0] * len(bank.table)
     field[bowl], field[lid], field[fork], field[wash] = 3, 3, 2, 9
     state = of_meals.start()
-    root = TreeRoot(state.track, None, (field,), (), lambda: of_meals.posterior(state))
-    tree = RecedingHorizonTree(of_meals.outlook, of_meals.tree.bigrams, of_meals.tree.people, 9, 3)
+    root = TreeRoot(state.progress, None, (field,), (), lambda: of_meals.posterior(state))
+    tree = RecedingHorizonTree(
+        of_meals.step_values, of_meals.tree.bigrams, of_meals.tree.people, 9, 3
+    )
     costs = tree.costs(root)
     assert costs[fork] == -2
     assert costs[bowl] == costs[lid] == -12
@@ -342,9 +344,9 @@ def test_trees_of_several_sequences_add_up(of_meals):
     one, two = [0] * len(bank.table), [0] * len(bank.table)
     one[bowl], two[lid], two[bowl] = 4, 5, 1
     state = of_meals.start()
-    root = TreeRoot(state.track, None, (one, two), (), lambda: of_meals.posterior(state))
+    root = TreeRoot(state.progress, None, (one, two), (), lambda: of_meals.posterior(state))
     costs = RecedingHorizonTree(
-        of_meals.outlook, of_meals.tree.bigrams, of_meals.tree.people, 9, 1
+        of_meals.step_values, of_meals.tree.bigrams, of_meals.tree.people, 9, 1
     ).costs(root)
     assert (costs[bowl], costs[lid]) == (-5, -5)
     assert of_meals.field(5) == [
@@ -402,14 +404,16 @@ def test_without_bigrams_the_belief_prunes(of_meals):
     """After the mat nothing was ever seen; what the likeliest goals want is tried first."""
     mat = _step(of_meals.bank, "lay", "mat")
     state = _watch(of_meals, mat)
-    root = TreeRoot(state.track, mat, ([0] * len(of_meals.bank.table),), (), lambda: belief)
-    tree = RecedingHorizonTree(of_meals.outlook, of_meals.tree.bigrams, of_meals.tree.people, 2, 3)
+    root = TreeRoot(state.progress, mat, ([0] * len(of_meals.bank.table),), (), lambda: belief)
+    tree = RecedingHorizonTree(
+        of_meals.step_values, of_meals.tree.bigrams, of_meals.tree.people, 2, 3
+    )
     bowl, fork, lid = (_step(of_meals.bank, "lay", x) for x in ("bowl", "fork", "lid"))
     belief = np.array([0.1, 0.2, 0.7])
-    assert tree.children(root, state.track, mat, tree.people) == [bowl, fork]
+    assert tree.next_steps(root, state.progress, mat, tree.people) == [bowl, fork]
     belief = np.array([0.8, 0.1, 0.1])
-    assert tree.children(root, state.track, mat, tree.people) == [bowl, lid]
-    assert tree.children(root, state.track, None, tree.people) == [bowl, lid]
+    assert tree.next_steps(root, state.progress, mat, tree.people) == [bowl, lid]
+    assert tree.next_steps(root, state.progress, None, tree.people) == [bowl, lid]
 
 
 def test_plausible_bigrams_try_nothing_else_first(workshop):
@@ -426,7 +430,7 @@ def test_plausible_bigrams_try_nothing_else_first(workshop):
 
 def test_it_is_the_method_of_the_paper():
     assert ASSISTANTS.find("rhp") is RecedingHorizonPlanner
-    with pytest.warns(DeprecationWarning, match="'paper' is called 'rhp' now"):
+    with pytest.warns(DeprecationWarning, match="'paper' is deprecated"):
         assert ASSISTANTS.find("paper") is RecedingHorizonPlanner
 
 

@@ -141,7 +141,7 @@ def test_an_earlier_name_still_works_and_says_so() -> None:
     registry: Registry[[], str] = Registry(
         "text", {"new": "builtins:str"}, "-", str, aliases={"old": "new"}
     )
-    with pytest.warns(DeprecationWarning, match="the text 'old' is called 'new' now"):
+    with pytest.warns(DeprecationWarning, match="text 'old' is deprecated; its name is 'new'"):
         assert registry.make("old") == ""
     assert registry.names() == ["new"]
 

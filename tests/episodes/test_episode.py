@@ -49,7 +49,7 @@ class Scripted:
     def observe(self, state, step, *, robot=False):
         return (*state, (step, robot))
 
-    def told(self, state, goal):
+    def inform(self, state, goal):
         self.told_goals.append(goal)
         return state
 

@@ -52,12 +52,12 @@ def bank(request):
 def test_beliefs_about_a_bank_share_its_graphs_as_long_as_there_is_one(workshop):
     bank = build(workshop.goals.only(["rope-red", "wire-red"]))
     first, second = ExactBelief(bank), RecursiveBelief(bank)
-    assert first.tracker.joint is second.tracker.joint
-    assert ExactBelief(build(bank.goals)).tracker.joint is not first.tracker.joint
-    shared = ref(first.tracker.joint)
+    assert first.tracker.combined is second.tracker.combined
+    assert ExactBelief(build(bank.goals)).tracker.combined is not first.tracker.combined
+    shared = ref(first.tracker.combined)
     del first
     gc.collect()
-    assert shared() is second.tracker.joint
+    assert shared() is second.tracker.combined
     del second
     gc.collect()
     assert shared() is None
@@ -101,7 +101,7 @@ def test_the_share_of_plans_decides(workshop):
     plans = enumerated_beliefs.optimal_plans(workshop, goal, workshop.initial)
     first = plans[0][0]
     belief = ExactBelief(workshop)
-    seen = belief.tracker.follow(belief.start().track, first)
+    seen = belief.tracker.follow(belief.start().progress, first)
     assert seen is not None
     share = sum(plan[0] == first for plan in plans) / len(plans)
     place = seen[1].goals.tolist().index(goal)

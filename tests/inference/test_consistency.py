@@ -177,7 +177,7 @@ def test_presence_weighs_beginnings_and_forgives(kitchen):
     rows[:2, list(plan[:12])] = 1
     others = sorted(set(range(len(kitchen.table))) - kitchen.graphs[3].used_steps)
     rows[1, others[0]] = 1
-    found = presence.many(rows)
+    found = presence.posteriors(rows)
     assert found.sum(axis=1) == pytest.approx(1)
     assert found[:2].argmax(axis=1).tolist() == [3, 3]
     assert found[2] == pytest.approx(1 / 30)
@@ -191,7 +191,7 @@ def test_presence_is_the_ceiling_on_beginnings(workshop):
         row[0, list(plan)] = 1
         weights = presence._ceiling.weights(plan)
         known = weights > 0
-        found = presence.many(row)[0]
+        found = presence.posteriors(row)[0]
         assert found[known] / found[goal] == pytest.approx(weights[known] / weights[goal])
 
 

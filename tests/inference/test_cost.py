@@ -142,13 +142,13 @@ def test_unobserved_actions_are_put_in_between(instances):
     instance = read_instance(instances / LOGISTICS)
     some = instance.observed[1::2]
     belief = CostBelief(instance.goals, timeout_s=10)
-    found = run(belief, Resolver(belief.table, instance.goals), some, "cost")
+    found = run(belief, Resolver(belief.steps, instance.goals), some, "cost")
     assert found.ignored == ()
     order = sorted(range(len(instance.goals)), key=lambda goal: -found.posterior[-1][goal])
     assert instance.true_goal in order[:3]
     state = belief.start()
     for words in some:
-        step = belief.table.find(words)
+        step = belief.steps.find(words)
         assert step is not None
         state = belief.observe(state, step)
     assert state.n_bridged > 0
@@ -160,15 +160,15 @@ def test_action_names_that_are_declared_twice(instances):
     aliases = instance.goals.aliases
     assert aliases
     belief = CostBelief(instance.goals, timeout_s=5)
-    resolver = Resolver(belief.table, instance.goals)
+    resolver = Resolver(belief.steps, instance.goals)
     name = next(iter(aliases))
-    steps = [belief.table.find((alias,)) for alias in aliases[name]]
+    steps = [belief.steps.find((alias,)) for alias in aliases[name]]
     worlds = [value for step in steps for value in [belief.goals.task.actions[step].tests[0][1]]
               if step is not None]  # fmt: skip
     for step, world in zip(steps, worlds, strict=True):
         found = resolver.find((name,), world)
         assert not isinstance(found, str)
-        assert belief.table.successor(world, found.step) is not None
+        assert belief.steps.successor(world, found.step) is not None
         assert found.step <= step
 
 

@@ -46,7 +46,7 @@ def small(request):
     bank = request.getfixturevalue(request.param)
     rows, goals = prefixes(bank, 1500, np.random.default_rng(8))
     classifier = RandomForestClassifier(30, min_samples_leaf=2, random_state=3).fit(rows, goals)
-    return bank, classifier, FlatForest.of(classifier)
+    return bank, classifier, FlatForest.from_sklearn(classifier)
 
 
 def test_rows_through_arrays_are_what_scikit_learn_says(small):
@@ -75,7 +75,7 @@ def test_a_forest_of_bare_roots():
 
     rows = np.zeros((4, 2), dtype=np.uint8)
     classifier = RandomForestClassifier(3, random_state=0).fit(rows, [0, 1, 1, 1])
-    flat = FlatForest.of(classifier)
+    flat = FlatForest.from_sklearn(classifier)
     assert flat.predict_proba(rows) == pytest.approx(classifier.predict_proba(rows))
 
 
@@ -92,22 +92,24 @@ def test_extensions_are_observations_one_after_the_other(some, forest, walk):
             later = forest.observe(later, steps[-1])
         after[tuple(steps)] = forest.posterior(later).tolist()
     fresh = ForestBelief(some, seed=1, n_samples=SAMPLES, n_trees=40)
-    assert fresh.extended(state.row, list(after)).tolist() == list(after.values())
-    assert fresh.extended(state.row, []).shape == (0, MEALS)
-    assert not state.row[some.table.labels[list(after)[-1]]].all()  # the row itself stays
+    assert fresh.posteriors_after(state, list(after)).tolist() == list(after.values())
+    assert fresh.posteriors_after(state, []).shape == (0, MEALS)
+    assert not state.row[
+        [some.table.labels[step] for step in list(after)[-1]]
+    ].all()  # the row itself stays
 
 
 def test_many_rows_are_posteriors_and_only_some_are_remembered(forest):
     rows = np.random.default_rng(7).integers(0, 2, (MAX_KNOWN + 300, forest.n_labels), np.uint8)
     rows[1], rows[2] = rows[0], 0
-    found = forest.many(rows)
+    found = forest.posteriors(rows)
     assert found[0].tolist() == found[1].tolist()
     assert found[2].tolist() == [1 / MEALS] * MEALS
     assert len(forest._known) == MAX_KNOWN
     assert found.sum(axis=1) == pytest.approx(np.ones(len(rows)))
-    assert forest.many(rows).tolist() == found.tolist()
+    assert forest.posteriors(rows).tolist() == found.tolist()
     with pytest.raises(UsageError, match="labels"):
-        forest.many(rows[:, 1:])
+        forest.posteriors(rows[:, 1:])
 
 
 def test_no_plans_no_forest(some):
@@ -151,9 +153,9 @@ def test_same_seed_same_forest_whatever_the_jobs(some):
         for seed, n_jobs in ((5, 1), (5, 2), (6, 1))
     )
     rows, _ = prefixes(some, 100, np.random.default_rng(4))
-    assert one.many(rows).tolist() == two.many(rows).tolist()
+    assert one.posteriors(rows).tolist() == two.posteriors(rows).tolist()
     assert one.training.accuracy == two.training.accuracy
-    assert np.abs(one.many(rows) - other.many(rows)).max() > 0.01
+    assert np.abs(one.posteriors(rows) - other.posteriors(rows)).max() > 0.01
 
 
 def test_any_classifier_can_be_plugged_in(some, begun):

@@ -53,7 +53,11 @@ def test_the_second_forest_is_the_first(two, rows, tmp_path, untrainable):
     save(two, tmp_path / "b.bank")
     for bank in (two, load(tmp_path / "b.bank")):
         again = ForestBelief(bank, **SMALL, cache=tmp_path / "deep" / "down", n_jobs=-1)
-        assert again.many(rows).tolist() == first.many(rows).tolist() == bare.many(rows).tolist()
+        assert (
+            again.posteriors(rows).tolist()
+            == first.posteriors(rows).tolist()
+            == bare.posteriors(rows).tolist()
+        )
         assert again.training == first.training
         assert "kept since" in again.note
     assert "kept since" not in first.note
@@ -102,16 +106,16 @@ def test_a_spoiled_file_is_made_anew_and_says_why(two, rows, tmp_path, untrainab
     anew = ForestBelief(two, **SMALL, cache=tmp_path)
     assert "trained anew" in anew.note
     assert REASONS[how] in anew.note
-    assert anew.many(rows).tolist() == first.many(rows).tolist()
+    assert anew.posteriors(rows).tolist() == first.posteriors(rows).tolist()
     untrainable()
     assert "trained anew" not in ForestBelief(two, **SMALL, cache=tmp_path).note
 
 
 def test_where_nothing_can_be_kept_the_forest_is_made_all_the_same(two, rows, tmp_path):
-    expected = ForestBelief(two, **SMALL, cache=False).many(rows).tolist()
+    expected = ForestBelief(two, **SMALL, cache=False).posteriors(rows).tolist()
     (tmp_path / "file").write_text("in the way")
     found = ForestBelief(two, **SMALL, cache=tmp_path / "file" / "folder")
-    assert found.many(rows).tolist() == expected
+    assert found.posteriors(rows).tolist() == expected
     assert (tmp_path / "file").read_text() == "in the way"
 
     ForestBelief(two, **SMALL, cache=tmp_path)
@@ -119,7 +123,7 @@ def test_where_nothing_can_be_kept_the_forest_is_made_all_the_same(two, rows, tm
     file.unlink()
     file.mkdir()
     found = ForestBelief(two, **SMALL, cache=tmp_path)
-    assert found.many(rows).tolist() == expected
+    assert found.posteriors(rows).tolist() == expected
     assert "cannot read" in found.note
 
 
@@ -140,7 +144,7 @@ def test_without_locks_nothing_is_written(two, rows, tmp_path, monkeypatch):
     monkeypatch.setattr(kept.fcntl, "flock", no_locks)
     found = ForestBelief(two, **SMALL, cache=tmp_path)
     assert files(tmp_path) == []
-    assert found.many(rows).shape == (len(rows), 2)
+    assert found.posteriors(rows).shape == (len(rows), 2)
 
 
 PROBE = """
@@ -176,15 +180,15 @@ def probed(n, bank, folder):
 
 def test_of_several_processes_one_trains_and_all_have_the_same(two, tmp_path):
     found = probed(3, two, tmp_path)
-    assert sorted(is_kept for is_kept, *_ in found) == ["False", "True", "True"]
+    assert sorted(is_from_cache for is_from_cache, *_ in found) == ["False", "True", "True"]
     assert len({posterior for _, posterior, _ in found}) == 1
     assert len(files(tmp_path / "cache")) == 1
 
 
 def test_a_kept_forest_needs_no_scikit_learn(two, tmp_path):
     first = ForestBelief(two, **SMALL, cache=tmp_path / "cache")
-    ((is_kept, posterior, loaded),) = probed(1, two, tmp_path)
-    assert is_kept == "True"
+    ((is_from_cache, posterior, loaded),) = probed(1, two, tmp_path)
+    assert is_from_cache == "True"
     assert posterior == str(first.posterior(first.observe(first.start(), 1)).tolist())
     assert "'numpy'" in loaded
     assert "'sklearn'" not in loaded

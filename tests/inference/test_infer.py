@@ -1,6 +1,7 @@
 """``hrcplan infer`` as a user calls it."""
 
 import json
+import re
 
 import pytest
 from click.testing import CliRunner
@@ -9,7 +10,9 @@ from hrcplan import infer
 from hrcplan.bank import build
 from hrcplan.bank.store import save
 from hrcplan.cli import main
+from hrcplan.core.deprecation import OldNameWarning
 from hrcplan.errors import UsageError
+from hrcplan.plans import Plan, PlannedAction
 
 KEYS = {"goals", "posterior", "changes", "ignored", "method", "note"}
 ACTIONS = """\
@@ -130,7 +133,7 @@ def test_a_belief_from_elsewhere(kitchen, monkeypatch, tmp_path):
     monkeypatch.syspath_prepend(str(tmp_path))
     found = infer(kitchen, [("get", "human", "lentils")], method="elsewhere:Last")
     assert [row[-1] for row in found.posterior] == [1.0, 1.0]
-    with pytest.raises(UsageError, match="cannot load"):
+    with pytest.raises(UsageError, match="has no 'First'"):
         infer(kitchen, [], method="elsewhere:First")
 
 
@@ -141,3 +144,57 @@ def test_actions_without_agents_where_agents_matter(hall):
     assert found.posterior[-1][0] > 0.4
     named = infer(hall, [("go", "ann", "b", "a"), ("take", "ann", "cup", "a")], method="exact")
     assert named.posterior == found.posterior
+
+
+def test_actions_in_every_form(kitchen, tmp_path):
+    words = ("get", "human", "yogurt"), ("get", "human", "mango")
+    text = "(get human yogurt)\n(GET human mango)"
+    (tmp_path / "actions.txt").write_text(text)
+    plan = Plan(tuple(PlannedAction(name, tuple(args)) for name, *args in words))
+    expected = infer(kitchen, words)
+    assert expected.ignored == ()
+    path, mixed = tmp_path / "actions.txt", ["(get human yogurt)", words[1]]
+    for actions in (text, text.splitlines(), plan, plan.actions, path, str(path), mixed):
+        assert infer(kitchen, actions) == expected
+
+
+@pytest.mark.parametrize(
+    ("actions", "message"),
+    [
+        ([3], "3 is not an action"),
+        ([("get", 3)], "is not an action"),
+        (["(get human yogurt) (get human mango)\n(wait)"], "is not one action"),
+        ([""], "'' is not one action"),
+        (7, "7 is not a list of actions"),
+        ([None], "None is not an action"),
+    ],
+)
+def test_what_is_no_action(kitchen, actions, message):
+    with pytest.raises(UsageError, match=re.escape(message)) as error:
+        infer(kitchen, actions)
+    assert error.value.code == "bad-action"
+
+
+def test_what_is_no_source_of_goals():
+    with pytest.raises(UsageError, match="from a bank, goals, or a path"):
+        infer(3, ["(get human yogurt)"])
+
+
+def test_a_belief_from_goals_of_an_earlier_version(kitchen, monkeypatch, tmp_path):
+    (tmp_path / "earlier.py").write_text(
+        "from hrcplan.inference.recognition.cost import CostBelief\n"
+        "class Earlier:\n"
+        "    takes_goals = True\n"
+        "    def __init__(self, goals):\n"
+        "        inner = CostBelief(goals)\n"
+        "        self.names, self.table, self.start = inner.names, inner.steps, inner.start\n"
+        "        self.observe, self.posterior = inner.observe, inner.posterior\n"
+        "    def start(self): pass\n"
+        "    def observe(self): pass\n"
+        "    def posterior(self): pass\n"
+    )
+    monkeypatch.syspath_prepend(str(tmp_path))
+    some = kitchen.goals.only(["stew-lentil", "pasta-bean"])
+    with pytest.warns(OldNameWarning, match="'table' is deprecated; its name is 'steps'"):
+        found = infer(some, ["(get human lentils)"], method="earlier:Earlier")
+    assert found.posterior == infer(some, ["(get human lentils)"], method="cost").posterior

@@ -25,6 +25,7 @@ from growth import exponent
 from rows import Row
 
 from hrcplan.assistance import ASSISTANTS
+from hrcplan.assistance.assistant import needs_training
 from hrcplan.bank import Bank
 from hrcplan.core.files import cache_folder
 from hrcplan.episodes.episode import play
@@ -159,7 +160,7 @@ def _robot(method: str, bank: Bank, has_forest: bool, **changes: Any) -> Any:
 
 
 def _name(method: str, has_forest: bool) -> str:
-    if not getattr(ASSISTANTS.find(method), "learns", False):
+    if not needs_training(ASSISTANTS.find(method)):
         return method
     return f"{method}, {'forest' if has_forest else 'exact belief'}"
 

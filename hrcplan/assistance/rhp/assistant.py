@@ -1,4 +1,4 @@
-"""The paper's assistant: candidate sequences, declared changes of goal, receding-horizon trees.
+"""The assistant of the changed-mind paper: candidate sequences, declared changes, trees.
 
 Ghose, Gitelson et al., "I've Changed My Mind" (RA-L 2025), sections III and IV-C, as printed; what
 the text leaves open is decided where it stands below.
@@ -12,27 +12,29 @@ from typing import Any
 
 import numpy as np
 
-from hrcplan.assistance.assistant import StepChoice
+from hrcplan.assistance.assistant import ValueAssistant
 from hrcplan.assistance.bigrams import BANK, N_PLANS, PLAUSIBLE, Bigrams
-from hrcplan.assistance.children import BRANCHING
+from hrcplan.assistance.explanation import StepChoice
+from hrcplan.assistance.imagined_steps import BRANCHING
 from hrcplan.assistance.rhp.consistency import Consistency, Subset
 from hrcplan.assistance.rhp.sampled import Sampled
 from hrcplan.assistance.rhp.set_posterior import SetPosterior
 from hrcplan.assistance.rhp.subsequence import Subsequence
 from hrcplan.assistance.rhp.tree import DEPTH, Field, RecedingHorizonTree, TreeRoot
-from hrcplan.assistance.step_values import StepValues
 from hrcplan.bank import Bank
-from hrcplan.bank.progress import Progress, ProgressTracker
+from hrcplan.bank.progress import Progress
 from hrcplan.core.arrays import Floats, Rows
 from hrcplan.core.bits import positions
+from hrcplan.core.deprecation import Renamed
 from hrcplan.errors import UsageError
-from hrcplan.inference.belief import weights_to_posterior
-from hrcplan.inference.classifier.forest import ForestBelief, ForestState
-from hrcplan.inference.exact import IMPOSSIBLE
+from hrcplan.inference.belief import IMPOSSIBLE, Belief, BeliefState, SetBelief, TracksProgress
+from hrcplan.inference.classifier.forest import ForestBelief
+from hrcplan.inference.probabilities import weights_to_posterior
 from hrcplan.pddl.conventions import people
 
 N_SEQUENCES = 3
 MAX_REMEMBERED = 20_000
+GoalBelief = Belief[Any] | SetBelief
 NO_WAITING = -np.inf  # what it is worth to wait: "neither agent can wait" (section VI)
 
 
@@ -41,7 +43,7 @@ class RhpState:
     """The state of `RecedingHorizonPlanner`.
 
     Attributes:
-        track: Where every goal stands.
+        progress: Where every goal stands.
         sequences: The candidate sequences C_h: what the human may have done for its goal.
         plausible: For each of them the goals that it is consistent with, as bits.
         human: All that the human has done.
@@ -51,99 +53,90 @@ class RhpState:
         ignored: Why the last observation told nothing; None if it did.
     """
 
-    track: Progress
+    progress: Progress
     sequences: tuple[tuple[int, ...], ...]
     plausible: tuple[int, ...]
     human: tuple[int, ...] = ()
     robot: tuple[int, ...] = ()
     n_declared: int = 0
-    belief: Any = None
+    belief: BeliefState | None = None
     ignored: str | None = None
 
     @property
     def world(self) -> int:
         """The state of the task, as bits."""
-        return self.track.world
+        return self.progress.world
 
     @property
     def last(self) -> int | None:
         """The last step of the human."""
         return self.human[-1] if self.human else None
 
+    track = Renamed("progress")
 
-class RecedingHorizonPlanner:
-    """Guesses from what fits some plan, and steers the human to what tells its goal.
+
+class RecedingHorizonPlanner(ValueAssistant[RhpState]):
+    """Infers the goal from consistent sequences of steps, and plans a few steps ahead.
 
     Args:
         bank: The plans.
-        belief: What guesses the goal. One that looks at sets of steps (it has ``many``, or is a
-            `ForestBelief`) sees each candidate sequence with the robot's steps, and the guess is
-            their mean; ``presence`` is the exact one. Any other follows all steps by itself. By
-            default the paper's forest, which takes a minute to train.
-        n_sequences: Candidate sequences that are kept after a change (j).
-        branching: Steps that are tried at each depth of a tree (b).
-        depth: Of a tree (d).
-        consistency: ``subset``, ``subsequence``, ``sampled``, or an object; see
-            inference/consistency.py.
+        belief: The goal belief. A `SetBelief` is evaluated once for each candidate sequence
+            together with the robot's steps, and the posteriors are averaged; ``"presence"`` is the
+            exact one. Any other belief is updated step by step. By default the forest of the
+            changed-mind paper, which takes a minute to train.
+        n_sequences: The number of candidate sequences after a change (j).
+        branching: The number of steps tried at each depth of a tree (b).
+        depth: The depth of a tree (d).
+        consistency: ``subset``, ``subsequence``, ``sampled``, or an object (see consistency.py).
         bigrams: Whose plans the 2-grams count: ``bank`` for all, ``plausible`` for the goals that
             the sequences are consistent with.
-        n_sampled: Plans that are sampled for each goal.
-        seed: Of all samples.
+        n_sampled: The number of plans sampled for each goal.
+        seed: The seed of all samples.
 
     Raises:
-        UsageError: if an option is none of its words.
+        UsageError: if an option has an unknown value, or ``belief`` is no belief.
     """
 
-    learns = True  # its belief is trained, unless another one is given
+    needs_training = True
 
     def __init__(
-        self, bank: Bank, belief: Any = None, *, n_sequences: int = N_SEQUENCES,
+        self, bank: Bank, belief: GoalBelief | str | None = None, *, n_sequences: int = N_SEQUENCES,
         branching: int = BRANCHING, depth: int = DEPTH,
         consistency: str | Consistency = "subset", bigrams: str = BANK,
         n_sampled: int = N_PLANS, seed: int = 0,
     ) -> None:  # fmt: skip
         if bigrams not in (BANK, PLAUSIBLE):
             raise UsageError(f"there are no 2-grams '{bigrams}'", hint=f"{BANK} or {PLAUSIBLE}")
-        self.bank, self.n_sequences = bank, n_sequences
+        self.belief = _belief(bank, belief, seed)
+        shared = self.belief.tracker if isinstance(self.belief, TracksProgress) else None
+        super().__init__(bank, shared)
+        self.n_sequences = n_sequences
         self.consistency = _consistency(bank, consistency, n_sampled, seed)
-        if belief is None:
-            belief = ForestBelief(bank, seed)
-        self.belief: Any = SetPosterior(bank) if belief == "presence" else belief
-        self._looks_at_sets = isinstance(self.belief, ForestBelief) or hasattr(self.belief, "many")
-        self.tracker: ProgressTracker = getattr(self.belief, "tracker", None) or ProgressTracker(
-            bank
-        )
-        self.outlook = StepValues(self.tracker)
         grams = Bigrams(bank, n_sampled, seed)
         self.tree = RecedingHorizonTree(
-            self.outlook, grams, people(bank.goals.problem), branching, depth
+            self.step_values, grams, people(bank.goals.problem), branching, depth
         )
         self._by_plausible = bigrams == PLAUSIBLE
-        self._label = self.tracker.joint.label
+        self._label = self.tracker.combined.label
         # How many goals have a step in their plans: its generality (III-D1).
-        self.generality: list[int] = self.tracker.joint.needs.sum(axis=0).tolist()
+        self.generality: list[int] = self.tracker.combined.needs.sum(axis=0).tolist()
         self._fields: dict[int, Field] = {}
         self._predicted: dict[bytes, Floats] = {}
 
-    @property
-    def names(self) -> tuple[str, ...]:
-        """The goals' names, in order."""
-        return self.bank.names
-
     def start(self) -> RhpState:
         """Return the state before anything was done: one empty sequence, any goal."""
-        belief = None if self._looks_at_sets else self.belief.start()
+        belief = None if isinstance(self.belief, SetBelief) else self.belief.start()
         return RhpState(self.tracker.start, ((),), (self.consistency.everything,), belief=belief)
 
     def observe(self, state: RhpState, step: int, *, robot: bool = False) -> RhpState:
         """Return the state after one more step, done by the human or by the robot."""
-        followed = self.tracker.follow(state.track, step)
+        followed = self.tracker.follow(state.progress, step)
         if followed is None:
             return replace(state, ignored=IMPOSSIBLE)
         belief = state.belief
-        if not self._looks_at_sets:
+        if not isinstance(self.belief, SetBelief):
             belief = self.belief.observe(belief, step, robot=robot)
-        moved = replace(state, track=followed[0], belief=belief, ignored=None)
+        moved = replace(state, progress=followed[0], belief=belief, ignored=None)
         if robot:
             return replace(moved, robot=(*state.robot, step))
         return self._watch(moved, step)
@@ -179,30 +172,30 @@ class RecedingHorizonPlanner:
 
     def posterior(self, state: RhpState) -> Floats:
         """Return the probability of each goal, in order: the mean over the sequences."""
-        if not self._looks_at_sets:
-            found: Floats = self.belief.posterior(state.belief)
-            return found
+        if not isinstance(self.belief, SetBelief):
+            return self.belief.posterior(state.belief)
         rows = np.zeros((len(state.sequences), max(self._label, default=-1) + 1), dtype=np.uint8)
         for row, sequence in zip(rows, state.sequences, strict=True):
             row[[self._label[step] for step in (*sequence, *state.robot)]] = 1
-        by_sequence = self._predict(rows)
+        by_sequence = self._predict(self.belief, rows)
         return weights_to_posterior(by_sequence.mean(axis=0))
 
-    def _predict(self, rows: Rows) -> Floats:
+    def _predict(self, belief: SetBelief, rows: Rows) -> Floats:
+        """Return the posterior of each row; those of earlier calls are remembered."""
         keys = [row.tobytes() for row in rows]
         new = [i for i, key in enumerate(keys) if key not in self._predicted]
         if new:
             if len(self._predicted) >= MAX_REMEMBERED:
                 self._predicted.clear()
                 new = list(range(len(rows)))
-            for i, found in zip(new, _many(self.belief, rows[new]), strict=True):
+            for i, found in zip(new, belief.posteriors(rows[new]), strict=True):
                 self._predicted[keys[i]] = found
         return np.stack([self._predicted[key] for key in keys])
 
     def options(self, state: RhpState) -> StepChoice:
         """Return the steps that the robot could do now; the worth of one is its branch's cost."""
         root = TreeRoot(
-            state.track,
+            state.progress,
             state.last,
             tuple(self.field(goals) for goals in state.plausible),
             state.plausible if self._by_plausible else (),
@@ -213,38 +206,37 @@ class RecedingHorizonPlanner:
             tuple(step for step, _ in costs), tuple(float(-cost) for _, cost in costs), NO_WAITING
         )
 
-    def choose(self, state: RhpState) -> int | None:
-        """Return the first step of the cheapest branch; None if there is nothing to do."""
-        return self.options(state).best
-
     def field(self, goals: int) -> Field:
         """Return the sum of the attractor fields of goals, given as bits (III-B2)."""
         known = self._fields.get(goals)
         if known is None:
             if len(self._fields) >= MAX_REMEMBERED:
                 self._fields.clear()
-            known = self.tracker.joint.needs[list(positions(goals))].sum(axis=0).tolist()
+            known = self.tracker.combined.needs[list(positions(goals))].sum(axis=0).tolist()
             self._fields[goals] = known
         return known
 
 
-def _consistency(bank: Bank, wanted: str | Consistency, n_plans: int, seed: int) -> Consistency:
-    if not isinstance(wanted, str):
-        return wanted
+def _consistency(bank: Bank, kind: str | Consistency, n_plans: int, seed: int) -> Consistency:
+    if not isinstance(kind, str):
+        return kind
     makers: dict[str, Callable[[], Consistency]] = {
         "subset": lambda: Subset(bank),
         "subsequence": lambda: Subsequence(bank),
         "sampled": lambda: Sampled(bank, n_plans, seed),
     }
-    if wanted not in makers:
+    if kind not in makers:
         known = ", ".join(makers)
-        raise UsageError(f"there is no consistency '{wanted}'", hint=f"one of {known}")
-    return makers[wanted]()
+        raise UsageError(f"there is no consistency '{kind}'", hint=f"one of {known}")
+    return makers[kind]()
 
 
-def _many(belief: Any, rows: Rows) -> Floats:
-    """Return what a belief about sets of steps says of several, each a row of labels."""
-    if hasattr(belief, "many"):
-        found: Floats = belief.many(rows)
-        return found
-    return np.stack([belief.posterior(ForestState(belief.bank.initial, row)) for row in rows])
+def _belief(bank: Bank, belief: GoalBelief | str | None, seed: int) -> GoalBelief:
+    if belief is None:
+        return ForestBelief(bank, seed)
+    if belief == "presence":
+        return SetPosterior(bank)
+    if isinstance(belief, (SetBelief, Belief)):
+        return belief
+    hint = "a name ('presence'), a Belief, or a SetBelief: see hrcplan/inference/belief.py"
+    raise UsageError(f"{belief!r} is no belief", code="not-a-belief", hint=hint)

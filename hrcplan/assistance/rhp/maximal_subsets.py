@@ -26,7 +26,7 @@ def largest_first(
         earlier: The history, without its latest step.
         latest: The latest step.
         worth: What each step of the history is worth.
-        n: How many are wanted.
+        n: How many to return.
         fits: Whether a sequence fits.
     """
     seen = set(covers)

@@ -120,7 +120,7 @@ class Plans:
             last: The latest label.
             worth: What each is worth.
             part: The places that are looked at; all labels there occur in plans.
-            n: How many are wanted.
+            n: How many to return.
         """
         places = list(positions(part))
         total = sum(worth[i] for i in places)

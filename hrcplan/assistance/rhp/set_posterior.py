@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from hrcplan.bank import Bank
 from hrcplan.core.arrays import Floats
-from hrcplan.inference.belief import weights_to_posterior
+from hrcplan.inference.probabilities import weights_to_posterior
 
 ERROR = 0.01  # probability of a step that a goal has no use for
 
@@ -85,7 +85,7 @@ class SetPosterior:
         """The goals' names, in order."""
         return self.bank.names
 
-    def many(self, rows: NDArray[np.uint8]) -> Floats:
+    def posteriors(self, rows: NDArray[np.uint8]) -> Floats:
         """Return the probability of each goal for each row of done labels."""
         found = np.zeros((len(rows), len(self.names)))
         for place, row in enumerate(rows):

@@ -9,9 +9,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence, Set
 from dataclasses import dataclass
 
-from hrcplan.assistance.ahead import ImaginedSteps
 from hrcplan.assistance.bigrams import Bigrams
-from hrcplan.assistance.children import BRANCHING, Branching
+from hrcplan.assistance.imagined_steps import BRANCHING, Branching, ImaginedSteps
 from hrcplan.assistance.step_values import StepValues
 from hrcplan.bank.progress import Progress
 from hrcplan.core.arrays import Floats
@@ -27,7 +26,7 @@ class TreeRoot:
     """Where a tree begins.
 
     Attributes:
-        track: Where everything stands.
+        progress: Where everything stands.
         last: The last step; None if nothing was done yet.
         fields: The summed attractor field of each candidate sequence.
         plausible: The goals that each sequence is consistent with, as bits; they weight the
@@ -35,7 +34,7 @@ class TreeRoot:
         belief: Returns the posterior of the goals; only asked where no 2-gram tells.
     """
 
-    track: Progress
+    progress: Progress
     last: int | None
     fields: tuple[Field, ...]
     plausible: tuple[int, ...]
@@ -47,7 +46,7 @@ class TreeBranch:
     """Steps in turn, the last one by the robot: what was before it, and the cost in each tree."""
 
     first: int
-    track: Progress
+    progress: Progress
     step: int
     costs: tuple[int, ...]
 
@@ -56,7 +55,7 @@ class RecedingHorizonTree:
     """Grows branches of the steps that are most likely to follow, and costs them.
 
     Args:
-        outlook: Knows what goals have next; its agents are the robots.
+        step_values: Knows what goals have next; its agents are the robots.
         bigrams: Which steps follow which.
         people: The agents that are not robots.
         branching: How many steps are tried at each depth.
@@ -64,12 +63,15 @@ class RecedingHorizonTree:
     """
 
     def __init__(
-        self, outlook: StepValues, bigrams: Bigrams, people: Set[str],
+        self, step_values: StepValues, bigrams: Bigrams, people: Set[str],
         branching: int = BRANCHING, depth: int = DEPTH,
     ) -> None:  # fmt: skip
-        self.outlook, self.bigrams, self.people = outlook, bigrams, people
-        self._children, self.n_levels = Branching(outlook, bigrams, branching), (depth + 1) // 2
-        self.ahead, self.label = ImaginedSteps(outlook), outlook.tracker.joint.label
+        self.step_values, self.bigrams, self.people = step_values, bigrams, people
+        self._branching, self.n_levels = (
+            Branching(step_values, bigrams, branching),
+            (depth + 1) // 2,
+        )
+        self.imagined, self.label = ImaginedSteps(step_values), step_values.tracker.combined.label
 
     def costs(self, root: TreeRoot) -> dict[int, int]:
         """Return for each step that the robot may do first the cost of its cheapest branch.
@@ -80,10 +82,10 @@ class RecedingHorizonTree:
         """
         found: dict[int, int] = {}
         ended: list[TreeBranch] = []
-        now = self.ahead.begin(root.track)
+        now = self.imagined.begin(root.progress)
         level = [
             TreeBranch(s, now, s, tuple(-field[self.label[s]] for field in root.fields))
-            for s in self.children(root, now, root.last, self.outlook.agents)
+            for s in self.next_steps(root, now, root.last, self.step_values.agents)
         ]
         for _ in range(1, self.n_levels):
             if not level:
@@ -106,13 +108,13 @@ class RecedingHorizonTree:
         ended: list[TreeBranch],
     ) -> None:  # fmt: skip
         """Add a human and a robot step to a branch, in all ways; where there is none, it ends."""
-        after = self.ahead.after(branch.track, branch.step)
-        answers = self.children(root, after, branch.step, self.people)
+        after = self.imagined.after(branch.progress, branch.step)
+        answers = self.next_steps(root, after, branch.step, self.people)
         if not answers:
             ended.append(branch)
         for answer in answers:
-            track = self.ahead.after(after, answer)
-            steps = self.children(root, track, answer, self.outlook.agents)
+            progress = self.imagined.after(after, answer)
+            steps = self.next_steps(root, progress, answer, self.step_values.agents)
             if not steps:
                 ended.append(branch)
             for step in steps:
@@ -121,14 +123,16 @@ class RecedingHorizonTree:
                     cost - field[label] if lower else cost
                     for cost, field, lower in zip(branch.costs, root.fields, lowers, strict=True)
                 )
-                grown.append(TreeBranch(branch.first, track, step, costs))
+                grown.append(TreeBranch(branch.first, progress, step, costs))
 
-    def children(
-        self, root: TreeRoot, track: Progress, last: int | None, agents: Set[str]
+    def next_steps(
+        self, root: TreeRoot, progress: Progress, last: int | None, agents: Set[str]
     ) -> list[int]:
         """Return the steps that are tried after a step, the likeliest first."""
-        wanted = self.ahead.wanted(track)
-        return self._children.of(track, wanted, last, agents, root.belief, root.plausible)
+        next_steps = self.imagined.next_steps(progress)
+        return self._branching.expand(
+            progress, next_steps, last, agents, root.belief, root.plausible
+        )
 
 
 def _note(found: dict[int, int], branch: TreeBranch) -> None:

@@ -49,7 +49,7 @@ def key_of(bank: Bank, seed: int, n_samples: int, n_trees: int) -> Key:
     }  # fmt: skip
 
 
-def kept(folder: Path, key: Key, make: Callable[[], Trained]) -> Trained:
+def load_or_train(folder: Path, key: Key, make: Callable[[], Trained]) -> Trained:
     """Return the forest of a key: from its file, or made and put there.
 
     A file that is damaged or of something else is replaced. Where nothing can be written, nothing
@@ -75,7 +75,7 @@ def kept(folder: Path, key: Key, make: Callable[[], Trained]) -> Trained:
             made = _look(path, key)[0] or made
         else:
             _unsaved[path] = made
-        return replace(made, is_kept=False, fault=fault)
+        return replace(made, is_from_cache=False, fault=fault)
 
 
 def path_of(folder: Path, key: Key) -> Path:
@@ -99,7 +99,7 @@ def load(path: Path, key: Key) -> Trained:
             **{name: array(body, header[name], kind) for name, kind in _ARRAYS.items()}
         )
         classes = np.array(header["classes"], dtype=np.int64)
-        return Trained(model, classes, Training(**header["training"]), is_kept=True)
+        return Trained(model, classes, Training(**header["training"]), is_from_cache=True)
     except HEADER_FAULTS as error:
         message = f"'{path}' has a header that makes no sense: {error!r}"
         raise InputError(message, code="not-a-forest", path=str(path)) from None

@@ -36,7 +36,7 @@ class FlatForest:
     roots: SmallIds
 
     @classmethod
-    def of(cls, forest: Any) -> FlatForest:
+    def from_sklearn(cls, forest: Any) -> FlatForest:
         """Return a scikit-learn forest, flattened."""
         trees = [tree.tree_ for tree in forest.estimators_]
         is_leaf = np.concatenate([tree.children_left < 0 for tree in trees])

@@ -17,8 +17,8 @@ from hrcplan.bank import Bank
 from hrcplan.core.arrays import Floats, Rows
 from hrcplan.core.files import cache_folder
 from hrcplan.errors import UsageError
-from hrcplan.inference.belief import weights_to_posteriors
-from hrcplan.inference.classifier.cache import kept, key_of
+from hrcplan.inference.belief import IMPOSSIBLE
+from hrcplan.inference.classifier.cache import key_of, load_or_train
 from hrcplan.inference.classifier.training import (
     N_SAMPLES,
     N_TREES,
@@ -28,7 +28,7 @@ from hrcplan.inference.classifier.training import (
     forest,
     train,
 )  # fmt: skip
-from hrcplan.inference.exact import IMPOSSIBLE
+from hrcplan.inference.probabilities import weights_to_posteriors
 
 MAX_KNOWN = 4096  # rows whose posterior is remembered: someone who looks ahead asks again
 
@@ -62,7 +62,7 @@ class ForestBelief:
         self, bank: Bank, seed: int = 0, n_samples: int = N_SAMPLES, n_trees: int = N_TREES,
         classifier: Classifier | None = None, n_jobs: int = 1, cache: Path | bool = True,
     ) -> None:  # fmt: skip
-        self.bank, self.table = bank, bank.table
+        self.bank, self.steps = bank, bank.table
         self._column = np.array(bank.table.labels, dtype=np.int64)
         self.n_labels = bank.table.n_labels
 
@@ -74,7 +74,7 @@ class ForestBelief:
         if folder is None or classifier is not None:
             self._trained = make()
         else:
-            self._trained = kept(folder, key_of(bank, seed, n_samples, n_trees), make)
+            self._trained = load_or_train(folder, key_of(bank, seed, n_samples, n_trees), make)
         self._known: dict[bytes, Floats] = {}
 
     @property
@@ -93,7 +93,7 @@ class ForestBelief:
         t, found = self.training, self._trained
         text = (
             f"trained on {t.n_train} beginnings of plans in {t.train_s:.0f} s"
-            f"{', and kept since' if found.is_kept else ''}; "
+            f"{', and kept since' if found.is_from_cache else ''}; "
             f"right on {100 * t.accuracy:.1f} % of {t.n_held_out} held out"
         )
         return text if found.fault is None else f"{text}; trained anew, since {found.fault}"
@@ -104,7 +104,7 @@ class ForestBelief:
 
     def observe(self, state: ForestState, step: int, *, robot: bool = False) -> ForestState:
         """Return the belief after one more step, whoever did it."""
-        world = self.table.successor(state.world, step)
+        world = self.steps.successor(state.world, step)
         if world is None:
             return replace(state, ignored=IMPOSSIBLE)
         row = state.row.copy()
@@ -113,26 +113,21 @@ class ForestBelief:
 
     def posterior(self, state: ForestState) -> Floats:
         """Return the probability of each goal, in order; uniform before any step."""
-        found: Floats = self.many(state.row[None])[0]
+        found: Floats = self.posteriors(state.row[None])[0]
         return found
 
-    def extended(self, row: Rows, extensions: Sequence[Sequence[int]]) -> Floats:
-        """Return the posterior after each of several continuations.
+    def posteriors_after(self, state: ForestState, sequences: Sequence[Sequence[int]]) -> Floats:
+        """Return (sequences, goals) probabilities: after each sequence of further steps.
 
-        Args:
-            row: The labels that were done, as in the state.
-            extensions: Steps that are done in addition; whether they can be is not looked at.
-
-        Returns:
-            (extensions, goals) probabilities.
+        Whether the steps are applicable is not checked.
         """
-        rows = np.repeat(row[None], len(extensions), axis=0)
-        steps = np.fromiter(chain.from_iterable(extensions), dtype=np.int64)
-        which = np.repeat(np.arange(len(extensions)), [len(more) for more in extensions])
+        rows = np.repeat(state.row[None], len(sequences), axis=0)
+        steps = np.fromiter(chain.from_iterable(sequences), dtype=np.int64)
+        which = np.repeat(np.arange(len(sequences)), [len(more) for more in sequences])
         rows[which, self._column[steps]] = 1
-        return self.many(rows)
+        return self.posteriors(rows)
 
-    def many(self, rows: Rows) -> Floats:
+    def posteriors(self, rows: Rows) -> Floats:
         """Return (rows, goals) posteriors; equal rows and those of before cost nothing.
 
         Raises:

@@ -61,7 +61,7 @@ class Trained:
     model: Predictor
     classes: Ids
     training: Training
-    is_kept: bool = False
+    is_from_cache: bool = False
     fault: str | None = None
 
 
@@ -115,7 +115,7 @@ def train(bank: Bank, seed: int, n_samples: int, classifier: Classifier) -> Trai
     classifier.fit(rows[n_test:], goals[n_test:])
     train_s = time.monotonic() - began
     is_forest = isinstance(classifier, RandomForestClassifier)
-    model: Predictor = FlatForest.of(classifier) if is_forest else classifier
+    model: Predictor = FlatForest.from_sklearn(classifier) if is_forest else classifier
     classes = np.asarray(getattr(classifier, "classes_", np.arange(len(bank.names))))
     right = classes[model.predict_proba(rows[:n_test]).argmax(axis=1)] == goals[:n_test]
     return Trained(

@@ -16,9 +16,9 @@ import numpy as np
 
 from hrcplan.bank import Goals, StepTable
 from hrcplan.core.arrays import Floats
-from hrcplan.inference.belief import normalized
-from hrcplan.inference.changes import NEVER, ChangeFilter, FilterState, GoalChange
-from hrcplan.inference.exact import IMPOSSIBLE
+from hrcplan.inference.belief import IMPOSSIBLE, GoalChange
+from hrcplan.inference.changes import NEVER, ChangeFilter, FilterState
+from hrcplan.inference.probabilities import normalized
 from hrcplan.inference.recognition.optimal import FastDownwardProver
 from hrcplan.search.distances import Distances, GoalDistance
 from hrcplan.task.steps import STEPS, TASK
@@ -68,12 +68,12 @@ class CostBelief:
         never: float = NEVER,
     ) -> None:  # fmt: skip
         self.goals = goals
-        self.table = StepTable(goals.task, _cost_kind(goals))
-        self.ops = self.table.ops
+        self.steps = StepTable(goals.task, _cost_kind(goals))
+        self.ops = self.steps.ops
         self.distances = Distances(self.ops, goals.tests, timeout_s, FastDownwardProver(self.ops))
         self.unit = sum(op.cost for op in self.ops) / max(1, len(self.ops)) or 1.0
         self.filter = ChangeFilter(len(goals), 1, hazard, never)
-        self._ops_of: list[list[int]] = [[] for _ in range(len(self.table))]
+        self._ops_of: list[list[int]] = [[] for _ in range(len(self.steps))]
         for i, op in enumerate(self.ops):
             self._ops_of[op.step].append(i)
         self._first: tuple[GoalDistance, ...] | None = None
@@ -170,7 +170,7 @@ class CostBelief:
         return normalized(scores + PROGRESS * np.array(progress))
 
     def changes(self, states: Sequence[CostState]) -> tuple[GoalChange, ...]:
-        """Return the changes that are probable once everything was seen."""
+        """Return the changes that are probable given all observations."""
         return self.filter.changes([(i, s.filtered) for i, s in enumerate(states) if s.is_human])
 
     def _note(self, places: Sequence[GoalDistance]) -> str | None:

@@ -9,7 +9,8 @@ from itertools import permutations
 from pathlib import Path
 from typing import Any
 
-from hrcplan.assistance import ASSISTANTS
+from hrcplan.assistance import ASSISTANTS, Assistant
+from hrcplan.assistance.assistant import needs_training
 from hrcplan.bank import Bank, Goals, build, read_goals
 from hrcplan.core.text import nearest
 from hrcplan.episodes.episode import TurnWorld
@@ -148,7 +149,7 @@ def human(name: str, bank: Bank, course: Course, options: StudyOptions) -> Episo
 
 
 @lru_cache(maxsize=32)
-def robot(name: str, domain: str, goals: str) -> Any:
+def robot(name: str, domain: str, goals: str) -> Assistant[Any]:
     """Return an assistant: one of the study's methods, or a part of that name."""
     changes = dict(data()["methods"].get(name, {}))
     bank = bank_of(domain, goals)
@@ -180,7 +181,7 @@ def _learns(method: str) -> bool:
     changes = data()["methods"].get(method, {})
     if "belief" in changes:
         return changes["belief"] in data()["methods"] and _learns(changes["belief"])
-    return bool(getattr(ASSISTANTS.find(changes.get("part", method)), "learns", False))
+    return needs_training(ASSISTANTS.find(changes.get("part", method)))
 
 
 @lru_cache(maxsize=4)

@@ -11,12 +11,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from hrcplan.assistance import ASSISTANTS, Explanation, explain
+from hrcplan.assistance import ASSISTANTS, Assistant, Explains, Explanation
 from hrcplan.bank import Bank
 from hrcplan.core.text import nearest
 from hrcplan.episodes.episode import EpisodeTurn, play
 from hrcplan.episodes.humans import Course, Scripted
 from hrcplan.errors import InputError
+from hrcplan.inference.belief import S, n_declared
 from hrcplan.studies.changed_mind import scenario
 from hrcplan.studies.study import present_name
 
@@ -128,24 +129,25 @@ def _step(bank: Bank, text: str) -> int:
 
 
 def _played(
-    name: str, robot: Any, bank: Bank, course: Course, steps: Sequence[int]
+    name: str, robot: Assistant[S], bank: Bank, course: Course, steps: Sequence[int]
 ) -> NarratedEpisode:
-    told: list[NarratedTurn] = []
+    turns: list[NarratedTurn] = []
     state = robot.start()
 
-    def watch(turn: EpisodeTurn, after: Any) -> None:
+    def watch(turn: EpisodeTurn, after: S) -> None:
         nonlocal state
-        # A robot that is told the goal has no reasons of its own.
-        can_say = not turn.is_human and hasattr(robot, "options")
-        told.append(_told(turn, robot, bank, after, explain(robot, state) if can_say else None))
+        reasons = None
+        if not turn.is_human and isinstance(robot, Explains):
+            reasons = robot.explain(state)
+        turns.append(_narrated(turn, robot, bank, after, reasons))
         state = after
 
     record = play(bank, Scripted(bank, course, steps), robot, course, watch=watch)
-    return NarratedEpisode(name, tuple(told), record.ending)
+    return NarratedEpisode(name, tuple(turns), record.ending)
 
 
-def _told(
-    turn: EpisodeTurn, robot: Any, bank: Bank, state: Any, reasons: Explanation | None
+def _narrated(
+    turn: EpisodeTurn, robot: Assistant[S], bank: Bank, state: S, reasons: Explanation | None
 ) -> NarratedTurn:
     posterior = robot.posterior(state)
     order = sorted(range(len(posterior)), key=lambda goal: -posterior[goal])[:TOP]
@@ -156,7 +158,7 @@ def _told(
         bank.names[turn.goal],
         turn.is_needed,
         tuple((bank.names[goal], float(posterior[goal])) for goal in order),
-        int(getattr(state, "n_declared", 0)),
+        n_declared(state),
         reasons,
     )
 

@@ -1,0 +1,17 @@
+"""Laws that every part of a kind must keep, as functions: call them in your own tests.
+
+Each function raises an AssertionError that names the broken law.
+"""
+
+from hrcplan.testing.beliefs import check_assistant, check_belief
+from hrcplan.testing.episodes import check_human, check_world
+from hrcplan.testing.planners import check_plan, check_planner
+
+__all__ = [
+    "check_assistant",
+    "check_belief",
+    "check_human",
+    "check_plan",
+    "check_planner",
+    "check_world",
+]
