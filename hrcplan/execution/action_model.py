@@ -81,9 +81,16 @@ class ActionModel:
         """Return the facts of a state that some action could change."""
         return frozenset(state.facts) - self.static
 
-    def state(self, changing: frozenset[Fact], numbers: Mapping[FluentKey, Number]) -> LiftedState:
-        """Return the state with these changing facts and numbers."""
-        return LiftedState(changing | self.static, numbers)
+    def absent(self, state: LiftedState) -> frozenset[Fact]:
+        """Return the facts that no action changes and that do not hold in a state any more."""
+        return self.static - frozenset(state.facts)
+
+    def state(
+        self, changing: frozenset[Fact], numbers: Mapping[FluentKey, Number],
+        absent: frozenset[Fact] = frozenset(),
+    ) -> LiftedState:  # fmt: skip
+        """Return the state with these changing facts and numbers, without the absent facts."""
+        return LiftedState(changing | (self.static - absent), numbers)
 
     def is_goal(self, state: LiftedState) -> bool:
         """Return whether the goal holds."""

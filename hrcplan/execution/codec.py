@@ -15,6 +15,8 @@ from hrcplan.execution.events import Command, Event
 from hrcplan.pddl.model import Fact, FluentKey
 from hrcplan.plans import Plan, format_plan, parse_plan
 
+ABSENT = "absent"  # is left out where it is empty, as in journals of earlier versions
+
 _KINDS: Mapping[str, type] = {
     kind.__name__.lower(): kind
     for kind in (ev.Ended, ev.Overdue, ev.Observed, ev.Sensed, ev.Settled, ev.Planned, ev.StopAsked,
@@ -31,7 +33,9 @@ def to_json(item: Event | Command) -> dict[str, Any]:
     """
     document: dict[str, Any] = {"kind": type(item).__name__.lower()}
     for field in fields(item):
-        document[field.name] = _encoded(getattr(item, field.name))
+        value = getattr(item, field.name)
+        if value or field.name != ABSENT:
+            document[field.name] = _encoded(value)
     return document
 
 
@@ -98,7 +102,7 @@ def _plan(lines: list[str] | None) -> Plan | None:
 
 def _decoded(name: str, value: Any) -> Any:
     match name:
-        case "facts":
+        case "facts" | "absent":
             return _facts(value)
         case "numbers" | "values":
             return _numbers(value)

@@ -82,12 +82,10 @@ class Decider:
 
     def _ask_plan(self, run: Run) -> RunStep:
         run = replace(run, phase=Phase.PLANNING, n_reasons_asked=len(run.reasons))
-        return run, (
-            ev.AskPlan(
-                run.t, self.actions.changing(run.state), run.state.values, self.planner_values(run),
-                tuple(f"{r.kind}: {r.text}" for r in run.reasons),
-            ),
-        )  # fmt: skip
+        reasons = tuple(f"{r.kind}: {r.text}" for r in run.reasons)
+        facts, absent = self.actions.changing(run.state), self.actions.absent(run.state)
+        values = self.planner_values(run)
+        return run, (ev.AskPlan(run.t, facts, run.state.values, values, reasons, absent),)
 
     def consider_plan(self, run: Run, event: ev.Planned) -> RunStep:
         """Return what follows from the answer of a planner: adopt, confirm, ask again, or end."""

@@ -42,11 +42,15 @@ class Overdue:
 
 @dataclass(frozen=True, slots=True)
 class Observed:
-    """The changing facts, and changing numbers, as they are now."""
+    """The changing facts, and changing numbers, as they are now.
+
+    ``absent``: facts of the problem that no action changes, and that do not hold any more.
+    """
 
     t: float
     facts: frozenset[Fact]
     numbers: Mapping[FluentKey, Number] | None = None
+    absent: frozenset[Fact] = frozenset()
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,13 +95,17 @@ RANK: Mapping[type, int] = {Ended: 0, Overdue: 0, Observed: 1, Sensed: 2, Planne
 
 @dataclass(frozen=True, slots=True)
 class AskPlan:
-    """Wanted: a plan from these facts and numbers, with these agent-state values."""
+    """Wanted: a plan from these facts and numbers, with these agent-state values.
+
+    ``absent``: as in `Observed`.
+    """
 
     t: float
     facts: frozenset[Fact]
     numbers: Mapping[FluentKey, Number]
     values: Mapping[FluentKey, Number]
     reasons: tuple[str, ...] = ()
+    absent: frozenset[Fact] = frozenset()
 
 
 @dataclass(frozen=True, slots=True)

@@ -160,7 +160,7 @@ def _planners(planner: str | Planner) -> tuple[str | Planner, ...]:
     """
     if isinstance(planner, Planner):
         return (planner,)
-    _check_type("planner", planner, str)
+    _check_type("planner", planner, str, Planner)
     names = tuple(planner.split(",")) if not planner.startswith("cmd:") else (planner,)
     for name in names:
         if name != "auto":

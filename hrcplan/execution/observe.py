@@ -102,7 +102,7 @@ class Observer:
     def state(self, run: Run, event: ev.Observed) -> Run:
         """Return the run with an observed state, to be compared once the instant has settled."""
         numbers = run.state.values if event.numbers is None else event.numbers
-        return replace(run, observation=self.actions.state(event.facts, numbers))
+        return replace(run, observation=self.actions.state(event.facts, numbers, event.absent))
 
     def sensed_values(self, run: Run, event: ev.Sensed) -> RunStep:
         """Return the run with valid sensed values; an invalid one is reported and not used."""

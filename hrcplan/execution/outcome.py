@@ -1,8 +1,8 @@
-"""What a run comes to: one typed row, and the percentages of Table I made of it.
+"""The outcome of a run: how it ended, what was counted, and measures in percent.
 
-The paper's percentages are means over runs of each run's own percentage, and "assigned" counts
-all actions of all plans of a run, the replanned ones too: read so, rows 1a and 2a of its Table I
-come out to the last digit (see the tests).
+The percentages are those of Table I of the failure-anticipation paper: means over runs of each
+run's own percentage. "Assigned" counts all actions of all plans of a run, also of replans. With
+this reading, rows 1a and 2a of that table come out to the last digit (see the tests).
 """
 
 from __future__ import annotations
@@ -22,9 +22,10 @@ MEASURES = (
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """One run. Humans are all agents that take no commands; actions without agent are the robot's.
+    """What one run came to.
 
-    ``executed`` counts actions that ended well. ``makespan_s`` is the end of the last action.
+    Humans are all agents that take no commands; actions without an agent count for the robot.
+    ``executed`` counts actions that succeeded. ``makespan_s`` is the end of the last action.
     """
 
     success: bool
@@ -71,13 +72,19 @@ class Outcome:
             float(self.interactions),
         ), strict=True))  # fmt: skip
 
+    def __repr__(self) -> str:
+        n_done = self.executed_human + self.executed_robot
+        n_failed = self.failed_human + self.failed_robot
+        actions = f"{n_done} actions done, {n_failed} failed"
+        return f"Outcome({self.ending}, {self.makespan_s:g} s, {self.replans} replans, {actions})"
+
     def to_json(self) -> dict[str, Any]:
-        """Return the row as a JSON object."""
+        """Return the outcome as a JSON object; its keys are the fields."""
         return asdict(self)
 
 
 def outcome_of(run: Run, robots: frozenset[str]) -> Outcome:
-    """Return the row of a run; of an unfinished one as far as it has come."""
+    """Return the outcome of a run; of an unfinished one so far."""
     counts = run.counts
 
     def split(by_agent: Mapping[str, int]) -> tuple[int, int]:

@@ -48,7 +48,7 @@ class Replanner:
     def answer(self, ask: ev.AskPlan) -> ev.Planned:
         """Return a checked plan for what was asked, or none with the reason."""
         values = tuple(sorted(ask.values.items()))
-        key = (ask.facts, values, tuple(sorted(ask.numbers.items())))
+        key = (ask.facts, ask.absent, values, tuple(sorted(ask.numbers.items())))
         answer = self._answers.get(key)
         if answer is None:
             begin = time.perf_counter()
@@ -99,7 +99,7 @@ class Replanner:
 
     def _from_now(self, ask: ev.AskPlan) -> tuple[Problem, Task | None]:
         """Return the problem from here on, and its grounding if bits can hold it."""
-        state = self.model.actions.state(ask.facts, ask.numbers)
+        state = self.model.actions.state(ask.facts, ask.numbers, ask.absent)
         values = {**ask.numbers, **ask.values}
         priced = self.model.priced_problem.with_values(values)
         problem = replace(priced, facts=frozenset(state.facts))

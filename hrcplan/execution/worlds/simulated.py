@@ -241,4 +241,5 @@ class SimulatedWorld:
         return [ev.Sensed(t, values)] if values else []
 
     def _observation(self) -> ev.Observed:
-        return ev.Observed(self._now, self.actions.changing(self.state), self.state.values)
+        facts, absent = self.actions.changing(self.state), self.actions.absent(self.state)
+        return ev.Observed(self._now, facts, self.state.values, absent)
