@@ -6,9 +6,8 @@ A profile is data (``profiles.toml``, or a file of the user's); this module only
 from __future__ import annotations
 
 import math
-import tomllib
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, fields, replace
+from dataclasses import MISSING, asdict, dataclass, fields, replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -18,7 +17,8 @@ from hrcplan.agents.memory import Memory
 from hrcplan.agents.state import AgentModel
 from hrcplan.core.deprecation import current_name, warn_old_name
 from hrcplan.core.numbers import Number, exact
-from hrcplan.core.text import nearest
+from hrcplan.core.text import nearest, quote
+from hrcplan.core.toml import read_toml
 from hrcplan.errors import InputError, UsageError
 from hrcplan.pddl.model import FluentKey
 
@@ -29,6 +29,8 @@ _ALONE = 2  # the length of an element that depends on its agent alone
 _SURE = 1e-9  # probabilities that differ by less are the same
 _PLACES = 100  # function values are rounded to hundredths: planners scale costs to integers
 Experience = Memory | AgentStateEstimate
+_LARGEST = 1e9  # of scale and cap: far beyond any excess
+_KINDS = {str: "a text", bool: "true or false", int: "a whole number", float: "a number"}
 _CHOICES = {
     "values": ("sensed", "log"),
     "replan": ("change", "worse"),
@@ -56,6 +58,12 @@ class Profile:
         Raises:
             InputError: naming the first key with a value that is not known.
         """
+        for one in fields(self):
+            value = getattr(self, one.name)
+            kind = str if one.default is MISSING else type(one.default)
+            if not _is_of(value, kind):
+                message = f"profile '{self.name}': {one.name} is {_KINDS[kind]}, not {value!r}"
+                raise InputError(message, code="bad-profile")
         for key, choices in _CHOICES.items():
             if getattr(self, key) not in choices:
                 message = f"profile '{self.name}': {key} must be {' or '.join(choices)}"
@@ -123,6 +131,13 @@ class Profile:
         return self if replan_limit is None else replace(self, replan_limit=replan_limit)
 
 
+def _is_of(value: object, kind: type) -> bool:
+    """Whether a value has the type of a key; a whole number stands for a float, too."""
+    if kind is float:
+        return type(value) in (int, float) and abs(value) < _LARGEST  # type: ignore[arg-type]
+    return type(value) is kind
+
+
 def _rounded(value: Fraction) -> Number:
     return exact(Fraction(round(value * _PLACES), _PLACES))
 
@@ -184,7 +199,9 @@ def profile_from_table(table: Mapping[str, Any], path: str | None = None) -> Pro
 
 
 def _read(path: Path) -> dict[str, dict[str, Any]]:
-    try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise InputError(f"cannot read profiles: {error}", code="no-file", path=str(path)) from None
+    tables = read_toml(path, "bad-profile")
+    for name, table in tables.items():
+        if not isinstance(table, dict):
+            message, hint = f"{quote(name)} is no profile", f"a profile is a table: [{name}]"
+            raise InputError(message, code="bad-profile", path=str(path), hint=hint)
+    return tables

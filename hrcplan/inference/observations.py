@@ -15,7 +15,7 @@ from hrcplan.pddl.conventions import robots
 from hrcplan.pddl.source import read_text
 from hrcplan.plans import Plan, PlannedAction
 
-_TIMES = re.compile(r"^\s*[\d.]+\s*:|\[[\d.]+\]", re.MULTILINE)
+_TIMES = re.compile(r"^[^\S\n]*+[\d.]++[^\S\n]*+:|\[[\d.]++\]", re.MULTILINE)
 
 ObservedWords = tuple[str, ...]
 """An action's name and its objects, in lower case."""

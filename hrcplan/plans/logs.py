@@ -22,7 +22,7 @@ _NUMBER = re.compile(r"(?:step\b\s*)?\d+\s*:\s*")
 _WORDS = re.compile(r"[^\s()\[\]:;,]+(?:\s+[^\s()\[\]:;,]+)*")
 _PRICE = re.compile(r"\s\(\d+\)$")  # "go a b (1)" of Fast Downward
 # What ENHSP prints between actions, and the last action that FF adds to a plan.
-_NO_ACTION = re.compile(r"-{2,}\s*waiting\s*-{2,}|\breach-goal\b")
+_NO_ACTION = re.compile(r"(?<!-)-{2,}+\s*+waiting\s*+--|\breach-goal\b")
 
 
 def find_plans(text: str, problem: Problem) -> Iterator[Plan]:

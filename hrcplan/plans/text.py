@@ -21,7 +21,7 @@ HINT = "actions look like (move human wp1 wp2) or 0.000: (move human wp1 wp2) [5
 _TOKEN = re.compile(
     r"""(?P<space>\s+|;[^\n]*|,)
       | (?P<action>\([^()]*\))
-      | \[\s*(?:d\s*:)?\s*(?P<duration>[^\s;\[\]]+)(?:\s*;[^\[\]\n]*)?\s*\]\)?
+      | \[\s*+(?:d\s*+:)?\s*+(?P<duration>[^\s;\[\]]++)(?:\s*+;[^\[\]\n]*+)?\s*+\]\)?
       | (?P<start>[^\s:;,.()\[\]]+(?:\.[^\s:;,()\[\]]+)?)\s*:(?!:)
       | (?P<bullet>\d+[.)](?=\s*[a-z_(])|\d+(?=\s+\()|[-*•](?=\s))
       | (?P<name>[a-z_][^\s(),;:\[\]]*)(?P<args>\([^()]*\))

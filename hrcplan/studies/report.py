@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from hrcplan.core.files import write_atomically
+from hrcplan.core.text import cut
 from hrcplan.errors import InputError, UsageError
 from hrcplan.studies import page
 from hrcplan.studies.estimate import MeanEstimate, estimate, estimate_by
 from hrcplan.studies.store import FILE, Store
-from hrcplan.studies.study import STUDIES, Cell, Study, StudyRow
+from hrcplan.studies.study import STUDIES, Cell, Findings, Study, StudyOptions, StudyRow
 
 JSON_FILE, PAGE_FILE = "report.json", "report.html"
 
@@ -35,10 +37,34 @@ def report_study(folder: str | Path, study_name: str | None = None) -> dict[str,
         study = _study(about, folder, study_name)
         options = {key: study.present_name(key, value) for key, value in about["options"].items()}
         rows = {t.name: study.present_rows(t, store.rows(t)) for t in study.tables}
+    with _rows_of(folder):
+        document, findings = _document(study, about, options, rows)
+    text = json.dumps(document, indent=2, ensure_ascii=False) + "\n"
+    write_atomically(folder / JSON_FILE, text)
+    text = page.html(study.title, about, document["n_rows"], findings)
+    write_atomically(folder / PAGE_FILE, text)
+    return document
+
+
+@contextmanager
+def _rows_of(folder: Path) -> Iterator[None]:
+    """Say of rows in which nothing can be counted that they are damaged."""
+    try:
+        yield
+    except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError) as error:
+        what = cut(f"{type(error).__name__}: {error}", 160)
+        message = f"the rows in {folder / FILE} make no sense: {what}"
+        raise InputError(message, code="bad-rows", path=str(folder / FILE)) from error
+
+
+def _document(
+    study: Study, about: dict[str, Any], options: StudyOptions, rows: dict[str, list[StudyRow]]
+) -> tuple[dict[str, Any], Findings]:
+    """Return the report as a JSON object, and the findings in it."""
     main = study.tables[0]
     findings = study.findings(options, rows)
     by_cell = cells_of(rows[main.name], main.keys, main.cells(options))
-    document: dict[str, Any] = {
+    document = {
         "study": study.name,
         "n_rows": len(rows[main.name]),
         "rows": [_summary(study, cell, found) for cell, found in by_cell.items() if found],
@@ -47,11 +73,7 @@ def report_study(folder: str | Path, study_name: str | None = None) -> dict[str,
         ],
         "about": about,
     }
-    text = json.dumps(document, indent=2, ensure_ascii=False) + "\n"
-    write_atomically(folder / JSON_FILE, text)
-    text = page.html(study.title, about, document["n_rows"], findings)
-    write_atomically(folder / PAGE_FILE, text)
-    return document
+    return document, findings
 
 
 def _study(about: dict[str, Any], folder: Path, name: str | None) -> Study:

@@ -11,6 +11,7 @@ from itertools import groupby
 from pathlib import Path
 
 from hrcplan import __version__
+from hrcplan.core.safe_path import safe_path
 from hrcplan.errors import UsageError
 from hrcplan.studies.store import Store
 from hrcplan.studies.study import Episode, Say, Seed, Study, StudyOptions, StudyRow, episodes, find
@@ -86,7 +87,8 @@ def _results(
 
     workers = Parallel(n_jobs=jobs, return_as="generator", batch_size=1,
                        initializer=_end_with, initargs=(os.getpid(),))  # fmt: skip
-    yield from workers(delayed(_rows)(name, options, seed, chunk) for chunk in chunks)
+    with safe_path():
+        yield from workers(delayed(_rows)(name, options, seed, chunk) for chunk in chunks)
 
 
 def _end_with(parent: int) -> None:

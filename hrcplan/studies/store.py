@@ -17,10 +17,13 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
+from hrcplan.core.text import cut, harmless
 from hrcplan.errors import InputError, UsageError
 from hrcplan.studies.study import Episode, StudyRow, StudyTable
 
 FILE, CLOCK = "rows.sqlite", "clock.sqlite"
+MAX_VALUE = 1e15  # of a number in a row
+MAX_REASON = 160  # characters of a fault that a message repeats
 _ABOUT = "about"
 _GROWN, _COMPACT = 0, 1  # the file's user_version
 
@@ -135,7 +138,18 @@ class Store:
         except sqlite3.DatabaseError as error:
             path = str(self.folder / FILE)
             raise InputError(f"not a file of rows: {error}", code="bad-rows", path=path) from None
-        return {key: json.loads(value) for key, value in pairs}
+        try:
+            about = {key: json.loads(value) for key, value in pairs}
+        except (ValueError, TypeError, RecursionError) as error:
+            raise self._damaged(f"what they depend on is no JSON: {error}") from None
+        if fault := _about_fault(about):
+            raise self._damaged(fault)
+        return about
+
+    def _damaged(self, reason: str) -> InputError:
+        shown = harmless(str(self.folder / FILE))
+        message = f"the rows in {shown} are damaged: {cut(harmless(reason), MAX_REASON)}"
+        return InputError(message, code="bad-rows", path=shown)
 
     def missing(self, tables: Iterable[StudyTable], wanted: Iterable[Episode]) -> list[Episode]:
         """Return the episodes that have no row yet, in their order."""
@@ -168,7 +182,13 @@ class Store:
             return []  # written before the study had this table
         cursor = self._connection.execute(f"select * from main.{table.name}{more}")
         names = [column[0] for column in cursor.description]
-        return [dict(zip(names, row, strict=True)) for row in cursor]
+        if missing := {*table.keys, "run", *table.columns} - set(names):
+            raise self._damaged(f"{table.name} has no column {min(missing)}")
+        found = [dict(zip(names, row, strict=True)) for row in cursor]
+        for row in found:
+            if wrong := next((n for n, value in row.items() if not _is_value(value)), None):
+                raise self._damaged(f"{table.name} holds {wrong} = {row[wrong]!r}")
+        return found
 
     @property
     def is_compact(self) -> bool:
@@ -197,6 +217,24 @@ class Store:
             self._open_clock()
         for stray in self.folder.glob(f"{FILE}-mj*"):  # what a kill left of a commit to two files
             stray.unlink()
+
+
+def _about_fault(about: dict[str, Any]) -> str | None:
+    """Return what is wrong with the entries that every study has, if they are there."""
+    options = about.get("options", {})
+    values = options.values() if isinstance(options, dict) else [0]
+    if any(type(value) not in (str, type(None)) for value in values):
+        return "options are texts by name"
+    kinds = {"study": str, "version": str, "seed": int, "inputs_sha256": str}
+    wrong = (k for k, kind in kinds.items() if k in about and type(about[k]) is not kind)
+    return next((f"{key} is {about[key]!r}" for key in wrong), None)
+
+
+def _is_value(value: object) -> bool:
+    """Whether a value is one that rows hold: text, nothing, or a number of sensible size."""
+    if isinstance(value, (int, float)):
+        return abs(value) < MAX_VALUE  # not so of nan
+    return value is None or isinstance(value, str)
 
 
 @contextmanager

@@ -102,9 +102,9 @@ def test_profile_of_the_user(tmp_path: Path) -> None:
     [
         ('[a]\nvalue = "log"', "has no 'value'"),
         ('[a]\nvalues = "cubic"', "values must be sensed or log"),
-        ('[a]\nreplan_limit = "many"', "bad profile"),
+        ('[a]\nreplan_limit = "many"', "a whole number"),
         ("[a]\nreplan_limit = -1", "positive"),
-        ("nonsense", "cannot read"),
+        ("nonsense", "is no TOML"),
         ("", "no .profile"),
     ],
 )

@@ -5,7 +5,6 @@ A script is a TOML file; ``golden.toml`` beside this file is one, with comments.
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,6 +13,7 @@ from typing import Any
 from hrcplan.assistance import ASSISTANTS, Assistant, Explains, Explanation
 from hrcplan.bank import Bank
 from hrcplan.core.text import nearest
+from hrcplan.core.toml import read_toml
 from hrcplan.episodes.episode import EpisodeTurn, play
 from hrcplan.episodes.humans import Course, Scripted
 from hrcplan.errors import InputError
@@ -24,6 +24,7 @@ from hrcplan.studies.study import present_name
 SHIPPED = ("golden",)
 TOP = 3
 _LISTS = {"wanted": str, "change_turns": int, "human": str, "methods": str}
+_TEXTS = ("title", "domain", "goals")
 _NEEDED = ("domain", *_LISTS)
 
 
@@ -62,12 +63,10 @@ def read(name: str) -> Mapping[str, Any]:
     """
     path = scenario.HERE / f"{name}.toml" if name in SHIPPED else Path(name)
     try:
-        found = tomllib.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        message, hint = f"cannot read '{name}': {error.strerror}", f"shipped: {', '.join(SHIPPED)}"
-        raise InputError(message, code="no-file", path=name, hint=hint) from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputError(f"not TOML: {error}", code="bad-script", path=name) from None
+        found = read_toml(path, "bad-script")
+    except InputError as error:
+        error.hint = error.hint or f"shipped: {', '.join(SHIPPED)}"
+        raise
     if missing := [key for key in _NEEDED if key not in found]:
         raise InputError(f"the script lacks '{missing[0]}'", code="bad-script", path=name)
     if fault := _fault(found):
@@ -81,6 +80,9 @@ def _fault(script: Mapping[str, Any]) -> str | None:
         value = script[key]
         if not isinstance(value, list) or any(type(one) is not kind for one in value):
             return f"{key} is a list of {'numbers' if kind is int else 'texts'}"
+    for key in _TEXTS:
+        if not isinstance(script.get(key, ""), str):
+            return f"{key} is a text"
     turns = script["change_turns"]
     if len(script["wanted"]) != len(turns) + 1:
         return "change_turns has one number less than wanted has goals"
