@@ -51,8 +51,9 @@ def _sense(problem: Problem) -> str | None:
 
 
 def _steps(problem: Problem, found: Result) -> list[dict[str, Any]]:
-    if found.plan is None or found.report is None:
+    if found.plan is None:
         return []
+    costs = found.report.step_costs if found.report else (None,) * len(found.plan.actions)
     return [
         {
             "start_s": number(action.start_s),
@@ -62,7 +63,7 @@ def _steps(problem: Problem, found: Result) -> list[dict[str, Any]]:
             "args": list(action.args),
             "cost": number(cost),
         }
-        for action, cost in zip(found.plan.actions, found.report.step_costs, strict=True)
+        for action, cost in zip(found.plan.actions, costs, strict=True)
     ]
 
 
@@ -71,7 +72,7 @@ def as_text(problem: Problem, found: Result) -> str:
     head = f"{problem.domain.name}/{problem.name}: {VERDICT[found.status]}"
     by = f" ({found.planner}, {found.wall_s:.2f} s)" if found.planner != "auto" else ""
     tried = _tried(found)
-    if found.plan is None or found.report is None:
+    if found.plan is None:
         return f"{head}{by}{tried}"
     plan = "\n".join(_table(problem, found.plan))
     return f"{head}{by}{tried}\n\n{plan}\n\n{_figures(problem, found)}"
@@ -86,8 +87,9 @@ def _tried(found: Result) -> str:
 
 def _figures(problem: Problem, found: Result) -> str:
     report = found.report
-    assert report is not None
     assert found.plan is not None
+    if report is None:
+        return "valid     not judged"
     lines: list[str] = []
     if report.metric is not None:
         lines.append(f"metric    {_short(report.metric)}   {_sense(problem)} {problem.metric}")

@@ -11,6 +11,7 @@ TIMED = "timed initial literals"
 PREFERENCES = "preferences"
 START_CONDITIONS = "effects at the end with a condition at the start"
 CONTINUOUS = "processes, events or continuous effects"
+ALL = frozenset([AXIOMS, TIMED, PREFERENCES, START_CONDITIONS, CONTINUOUS])
 
 
 def constructs(problem: Problem) -> Iterator[str]:

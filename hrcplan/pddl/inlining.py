@@ -43,6 +43,18 @@ def plain(problem: Problem) -> Problem:
     return without_axioms(problem) if problem.domain.axioms else problem
 
 
+def remaining(problem: Problem) -> frozenset[str]:
+    """Return the constructs of a problem that cannot be compiled away, by name."""
+    found = frozenset(constructs(problem))
+    if found == {AXIOMS}:
+        try:
+            without_axioms(problem)
+        except UnsupportedError:
+            return found
+        return frozenset()
+    return found
+
+
 def without_axioms(problem: Problem) -> Problem:
     """Return a problem that means the same and has no derived predicates.
 

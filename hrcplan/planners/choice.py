@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from hrcplan.errors import LimitError, MissingPlannerError, UnsupportedError, UsageError
+from hrcplan.pddl.inlining import remaining
 from hrcplan.pddl.model import TOTAL_COST
 from hrcplan.planners import registry
 from hrcplan.planners.contract import Capabilities, Planner, Request
@@ -78,6 +79,9 @@ def unable(card: Capabilities, request: Request) -> str | None:
         return "it plans without time"
     if not domain.is_temporal and not card.classical:
         return "it plans with time only"
+    beyond = sorted(remaining(request.problem) - card.constructs)
+    if beyond:
+        return f"it does not know {' and '.join(beyond)}"
     if not card.numeric and _is_numeric(request):
         return "it holds no numbers that actions change"
     return None

@@ -15,6 +15,7 @@ from tempfile import NamedTemporaryFile, TemporaryDirectory
 
 from hrcplan.core.numbers import Number
 from hrcplan.errors import MissingPlannerError, PlannerError, UsageError
+from hrcplan.pddl.constructs import ALL
 from hrcplan.pddl.model import Problem
 from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
@@ -42,6 +43,7 @@ class CommandPlanner:
             "a program of your own",
             temporal=True,
             numeric=True,
+            constructs=ALL,
             metric="none",
             needs=self._words[0],
             licence="the program's own",

@@ -35,7 +35,8 @@ class Capabilities:
     ``metric``: which metrics its plans are good for: ``none``, ``cost``, ``cost+time``.
     ``proves``: it can prove optimality for that metric. ``limits``: it keeps the time limit by
     itself (hrcplan enforces it anyway). ``own``: it is a search of hrcplan's own, with exact
-    numbers, so "unsolvable" is believed from it alone. ``needs``: what to install, in words.
+    numbers, so "unsolvable" is believed from it alone. ``constructs``: what it knows of
+    `hrcplan.pddl.constructs`. ``needs``: what to install, in words.
     """
 
     name: str
@@ -47,6 +48,7 @@ class Capabilities:
     proves: bool = False
     limits: bool = False
     own: bool = False
+    constructs: frozenset[str] = frozenset()
     needs: str = "nothing"
     licence: str = "Apache-2.0"
 

@@ -7,14 +7,22 @@ from __future__ import annotations
 
 import re
 import sys
+from collections.abc import Callable
+from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from hrcplan.errors import MissingPlannerError, PlannerError, UnsupportedError
+from hrcplan.pddl.constructs import AXIOMS
+from hrcplan.pddl.dialect import without_numbers
+from hrcplan.pddl.inlining import remaining
+from hrcplan.pddl.model import TOTAL_COST, Function
+from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
 from hrcplan.planners.lowering import NO_SEQUENCE, Lowered, lower
 from hrcplan.planners.process import FinishedProcess, ProcessEnd, ProcessLimits, run
+from hrcplan.plans import parse_plan
 
 # One supervised program instead of two: translate, then search.
 _SCRIPT = """
@@ -43,6 +51,7 @@ class FastDownward:
             "fast-downward",
             "A* with LM-cut: proven cheapest sequential plans",
             metric="cost",
+            constructs=frozenset([AXIOMS]),
             proves=True,
             needs="pip install up-fast-downward",
             licence="GPL-3.0 (run as a child process)",
@@ -67,6 +76,8 @@ class FastDownward:
         missing, binary = self.missing(), find_binary()
         if missing is not None or binary is None:
             raise MissingPlannerError(f"fast-downward cannot run here: {missing}")
+        if remaining(request.problem) == {AXIOMS}:
+            return _solve_lifted(request, binary)
         lowered = lower(request.task)
         if not lowered.fits_32_bits:
             message = f"costs in whole numbers (times {lowered.scale}) exceed 32-bit integers"
@@ -74,16 +85,48 @@ class FastDownward:
         if request.task.is_goal(request.task.initial):  # an empty goal becomes an axiom in there
             return _solved(request, lowered, "; cost = 0")
         search = _FIRST if request.any_plan else _proof(lowered, len(request.task.goal))
-        with TemporaryDirectory(prefix="hrcplan-") as folder:
-            cwd = Path(folder)
-            (cwd / "domain.pddl").write_text(lowered.domain_text)
-            (cwd / "problem.pddl").write_text(lowered.problem_text)
-            limits = ProcessLimits(request.time_left_s, request.memory_bytes)
-            argv = ["/bin/sh", "-c", _SCRIPT, sys.executable, str(binary), search]
-            finished = run(argv, cwd=cwd, limits=limits)
-            plan = cwd / "plan"
-            text = plan.read_text() if plan.exists() else None
-        return _answer(request, lowered, finished, text)
+        texts = lowered.domain_text, lowered.problem_text
+        return _searched(request, texts, search, binary, partial(_solved, request, lowered))
+
+
+def _solve_lifted(request: Request, binary: Path) -> Answer:
+    """Return the answer for a task with derived predicates, which is handed over as it is."""
+    problem, counts = request.problem, TOTAL_COST in request.problem.domain.functions
+    priced = problem.metric == Function(TOTAL_COST) and not problem.maximize
+    whole = all(isinstance(value, int) and value >= 0 for value in problem.values.values())
+    exact_for_metric = whole and (priced if counts else problem.metric is None)
+    if not exact_for_metric:
+        problem = without_numbers(problem)
+    search = _FIRST if request.any_plan else "astar(blind())"  # no other is admissible with axioms
+    texts = domain_text(problem.domain), problem_text(problem)
+
+    def solved(text: str) -> Answer:
+        proven = exact_for_metric and not request.any_plan
+        cost = _cost(text) if exact_for_metric else None
+        status = Status.OPTIMAL if proven else Status.SOLVED
+        return Answer(status, parse_plan(text), cost)
+
+    return _searched(request, texts, search, binary, solved)
+
+
+def _searched(
+    request: Request,
+    texts: tuple[str, str],
+    search: str,
+    binary: Path,
+    solved: Callable[[str], Answer],
+) -> Answer:
+    """Return what the translator and one search say; ``solved`` reads a plan's text."""
+    with TemporaryDirectory(prefix="hrcplan-") as folder:
+        cwd = Path(folder)
+        (cwd / "domain.pddl").write_text(texts[0])
+        (cwd / "problem.pddl").write_text(texts[1])
+        limits = ProcessLimits(request.time_left_s, request.memory_bytes)
+        argv = ["/bin/sh", "-c", _SCRIPT, sys.executable, str(binary), search]
+        finished = run(argv, cwd=cwd, limits=limits)
+        plan = cwd / "plan"
+        text = plan.read_text() if plan.exists() else None
+    return _answer(request, solved, finished, text)
 
 
 def find_binary() -> Path | None:
@@ -103,14 +146,17 @@ def _proof(lowered: Lowered, n_goals: int) -> str:
 
 
 def _answer(
-    request: Request, lowered: Lowered, finished: FinishedProcess, text: str | None
+    request: Request,
+    solved: Callable[[str], Answer],
+    finished: FinishedProcess,
+    text: str | None,
 ) -> Answer:
     """Return what the exit code means (fast-downward.org, "Exit codes")."""
     if finished.ended is not ProcessEnd.EXITED:
         return Answer(Status.UNSOLVED, note=f"stopped: {finished.ended.value}")
     code = finished.code
     if code in (0, 1, 2, 3) and text is not None:
-        return _solved(request, lowered, text)
+        return solved(text)
     if code in (10, 11):
         if request.problem.domain.is_temporal:
             return Answer(Status.UNSOLVED, note=NO_SEQUENCE)
@@ -124,8 +170,7 @@ def _answer(
 
 
 def _solved(request: Request, lowered: Lowered, text: str) -> Answer:
-    found = re.search(r"; cost = (\d+)", text)
-    cost = int(found[1]) if found else None
+    cost = _cost(text)
     # No expanded node has a larger g, and no generated one is more than an action above it.
     safe = cost is not None and cost + max(lowered.costs, default=0) < _MAX_INT
     temporal = request.problem.domain.is_temporal
@@ -136,3 +181,9 @@ def _solved(request: Request, lowered: Lowered, text: str) -> Answer:
         None if cost is None else lowered.objective(cost),
         "" if lowered.exact_for_metric else "cheapest sequence of actions, time not weighed",
     )
+
+
+def _cost(text: str) -> int | None:
+    """Return the cost that stands below a plan."""
+    found = re.search(r"; cost = (\d+)", text)
+    return int(found[1]) if found else None

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 from hrcplan.core.numbers import Number
 from hrcplan.errors import LimitError, MissingPlannerError, PlannerError, UnsupportedError
+from hrcplan.pddl.constructs import ALL
 from hrcplan.pddl.model import TOTAL_COST, Function
 from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
@@ -48,6 +49,7 @@ class Kairos:
             "anytime portfolio for temporal, numeric and weighted problems",
             temporal=True,
             numeric=True,
+            constructs=ALL,
             metric="cost+time",
             limits=True,
             needs="pip install kairos-planner",
@@ -139,7 +141,10 @@ class _Portfolio:
     def _take(self, found: kairos.Plan) -> None:
         """Validate a plan and keep it if it is the best so far."""
         text = str(found)
-        plan = self.lowered.plan(text) if self.lowered is not None else parse_plan(text)
+        plan = self.lowered.plan(text) if self.lowered is not None else _parsed(text)
+        if self.request.problem.domain.is_continuous:
+            self.best = 0, plan, None  # hrcplan cannot judge it
+            return
         report = validate(self.request.problem, plan)
         if not report.valid:
             self.invalid = report
@@ -218,6 +223,11 @@ class _Portfolio:
             note = "it says unsolvable, but counts in floating point"
             return Answer(Status.UNSOLVED, note=note)
         return Answer(Status.UNSOLVABLE)
+
+
+def _parsed(text: str) -> Plan:
+    """Return a plan; the line that says when a plan of PDDL+ ends is no action."""
+    return parse_plan("\n".join(line for line in text.splitlines() if "@" not in line))
 
 
 def _lowered(request: Request) -> Lowered | None:

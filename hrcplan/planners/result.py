@@ -8,7 +8,8 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from hrcplan.core.numbers import Number, exact, number_text
-from hrcplan.errors import CostGuardError, MissingPlannerError, PlannerError
+from hrcplan.errors import CostGuardError, MissingPlannerError, PlannerError, UnsupportedError
+from hrcplan.pddl.inlining import remaining
 from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, Problem
 from hrcplan.pddl.semantics import Undefined, evaluate
 from hrcplan.planners.contract import Answer, Capabilities, Planner, Request, Status
@@ -90,6 +91,10 @@ def ask(planner: Planner, request: Request, lanes: bool, why: str) -> Result:
     missing = planner.missing()
     if missing is not None:
         raise MissingPlannerError(f"planner '{planner.card.name}' cannot run here: {missing}")
+    beyond = sorted(remaining(request.problem) - planner.card.constructs)
+    if beyond:
+        message = f"planner '{planner.card.name}' does not know {' and '.join(beyond)}"
+        raise UnsupportedError(message, hint="kairos knows them" if planner.card.own else None)
     begun = time.monotonic()
     answer = planner.solve(request)
     found = checked(planner.card, request.problem, answer, lanes, why)
@@ -121,6 +126,9 @@ def checked(card: Capabilities, problem: Problem, answer: Answer, lanes: bool, w
     if answer.plan is None:
         sure = answer.status is not Status.UNSOLVABLE or card.own
         return found if sure else replace(found, status=Status.UNSOLVED)
+    if problem.domain.is_continuous:
+        note = "hrcplan cannot judge plans where numbers change while time passes"
+        return replace(found, plan=answer.plan, status=Status.SOLVED, bound=None, mismatch=note)
     plan = with_durations(problem, answer.plan)
     report = validate(problem, plan)
     _demand_valid(card, report)
