@@ -20,6 +20,7 @@ from hrcplan.core.bits import common, holders, positions, union
 from hrcplan.core.numbers import Number, number_text
 from hrcplan.errors import LimitError, UnsupportedError
 from hrcplan.pddl.model import TOTAL_COST, TRUE, fact_text
+from hrcplan.search.reachable_pairs import DurativeMasks
 from hrcplan.task import GroundAction, Task
 from hrcplan.task.conditions import Test
 
@@ -28,30 +29,23 @@ HINT = "kairos plans such tasks, without a proof"
 
 
 @dataclass(frozen=True)
-class StaticMasks:
+class StaticMasks(DurativeMasks):
     """What does not depend on costs: tuples with one entry per ground action.
 
     ``tests`` are conditions at start and over all, ``over`` those over all; ``ticks`` are
-    durations in units of ``tick_s`` seconds. ``needs`` are facts that must hold in every
-    alternative of the tests, ``shuns`` facts that must be false in some, ``avoids`` in all.
-    ``late`` are facts that are deleted at the end. ``overlap.py`` sees to it that nobody looks at
+    durations in units of ``tick_s`` seconds. ``shuns`` are facts that must be false in some
+    alternative of the tests, ``over_shuns`` in some of those over all.
+    ``late`` are facts that are deleted at the end. ``overlap.py`` checks that no action looks at
     them before, so they are among the ``deletes`` of the start, too.
     ``dependent`` holds, as bits, the actions whose starts do not commute with this one's.
     """
 
-    n_facts: int
     agents: tuple[str, ...]
     tests: tuple[tuple[Test, ...], ...]
     over: tuple[tuple[Test, ...], ...]
-    deletes: tuple[int, ...]
-    late: tuple[int, ...]
-    adds: tuple[int, ...]
     ticks: tuple[int, ...]
     tick_s: Fraction
-    needs: tuple[int, ...]
     shuns: tuple[int, ...]
-    avoids: tuple[int, ...]
-    over_needs: tuple[int, ...]
     over_shuns: tuple[int, ...]
     dependent: tuple[int, ...]
 

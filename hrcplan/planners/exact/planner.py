@@ -11,10 +11,11 @@ from hrcplan.planners.contract import Answer, Capabilities, Request, Status
 from hrcplan.planners.exact.frame import StaticMasks, frame
 from hrcplan.planners.exact.gaps import Gaps
 from hrcplan.planners.exact.graph import FAR, Graph
-from hrcplan.planners.exact.overlap import Overlap, check_overlap, held
+from hrcplan.planners.exact.overlap import check_overlap, held
 from hrcplan.planners.exact.search import WAIT, Search
 from hrcplan.planners.exact.weights import Metric, metric, weights
 from hrcplan.plans import Plan
+from hrcplan.search.reachable_pairs import ReachablePairs
 from hrcplan.task import Task
 from hrcplan.task.conditions import Test, meets
 
@@ -28,7 +29,7 @@ class _Kept:
     def __init__(self, task: Task) -> None:
         self.structure = task.structure
         self.frame: StaticMasks = frame(task)
-        self.overlap = Overlap(self.frame)
+        self.pairs = ReachablePairs(self.frame)
         self.held: tuple[tuple[str, ...], ...] = ()
         self.graph = Graph()
         self.gaps = Gaps()
@@ -39,9 +40,9 @@ class _Kept:
     def admit(self, task: Task) -> None:
         """Check what can follow the initial state of ``task``, unless that is known already."""
         if task.initial not in self.graph.index:
-            self.overlap.admit(task.initial)
-            check_overlap(task, self.overlap)
-            self.held = held(task, self.overlap)
+            self.pairs.admit(task.initial)
+            check_overlap(task, self.pairs, self.frame)
+            self.held = held(task, self.pairs, self.frame)
 
     def goals(self, task: Task) -> list[int]:
         """Return the states of the graph, as indices, in which the goal of ``task`` holds."""
