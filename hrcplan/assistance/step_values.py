@@ -37,7 +37,7 @@ class StepValues:
         self.tracker, self.bank = tracker, tracker.bank
         self.agents = robots(self.bank.goals.problem) if agents is None else agents
         self._all_goals = np.arange(len(self.bank.names))
-        self._matters = [self.bank.matters(g) | graph.relevant
+        self._matters = [self.bank.relevant_facts(g) | graph.relevant_facts
                          for g, graph in enumerate(self.bank.graphs)]  # fmt: skip
         self._known: dict[tuple[int, int], float] = {}
 
@@ -103,7 +103,7 @@ class StepValues:
     def _change(self, progress: Progress, goal: int, step: int) -> float:
         """Return by how many steps a step that is not next in any plan brings a goal nearer."""
         world = self.bank.table.successor(progress.world, step)
-        if world is None or not (progress.world ^ world) & self.bank.graphs[goal].relevant:
+        if world is None or not (progress.world ^ world) & self.bank.graphs[goal].relevant_facts:
             return 0.0
         key = goal, world & self._matters[goal]
         if key not in self._known and self._still_works(goal, progress, world):

@@ -9,7 +9,8 @@ from hrcplan.bank.goals import Goals, from_problems
 from hrcplan.bank.graph import PlanGraph
 from hrcplan.bank.search import BuildLimits
 from hrcplan.bank.sources import read_goals
-from hrcplan.bank.store import load, save, verify
+from hrcplan.bank.store import find_fault, load, save
+from hrcplan.core.deprecation import warn_old_name
 from hrcplan.task.steps import Step, StepTable
 
 __all__ = [
@@ -22,9 +23,16 @@ __all__ = [
     "StepTable",
     "build",
     "build_bank",
+    "find_fault",
     "from_problems",
     "load",
     "read_goals",
     "save",
-    "verify",
 ]  # fmt: skip
+
+
+def __getattr__(name: str) -> object:
+    if name == "verify":
+        warn_old_name("function", "hrcplan.bank.verify", "hrcplan.bank.find_fault")
+        return find_fault
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

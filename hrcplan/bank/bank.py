@@ -20,7 +20,7 @@ from hrcplan.core.text import plural
 from hrcplan.errors import UsageError
 from hrcplan.pddl.conventions import robots
 from hrcplan.plans import Plan, PlannedAction
-from hrcplan.search.relevance import fleeting, relevant
+from hrcplan.search.relevance import overwritten_facts, relevant
 from hrcplan.task.steps import STEPS, Operator, StepTable
 
 OPTIMAL = Fraction(1)
@@ -103,13 +103,13 @@ class Bank:
             raise UsageError(f"the bank has no goal '{name}'", code="unknown-goal", hint=hint)
         return self.names.index(name)
 
-    def reroot(self, goal: int, state: int, limits: BuildLimits = NO_LIMITS) -> PlanGraph:
-        """Return the graph of all optimal plans of a goal from another state; it is remembered.
+    def graph_from(self, goal: int, state: int, limits: BuildLimits = NO_LIMITS) -> PlanGraph:
+        """Return the graph of all optimal plans of a goal from another state; the bank caches it.
 
         Raises:
             LimitError: if time or memory runs out.
         """
-        key = (goal, state & self.matters(goal))
+        key = (goal, state & self.relevant_facts(goal))
         known = self._rerooted.get(key)
         if known is None:
             known = self._rerooted[key] = optimal_graph(
@@ -133,19 +133,19 @@ class Bank:
         node = self.node(goal, state)
         if node is not None:
             return self.graphs[goal], node
-        other = self.reroot(goal, state, limits)
+        other = self.graph_from(goal, state, limits)
         return other, 0 if other.n_nodes else None
 
     def node(self, goal: int, state: int) -> int | None:
         """Return the node of a goal's own graph that a state is at; None if it is off the graph."""
         graph = self.graphs[goal]
         node = graph.node_of(state)
-        if node is None and self._fleeting[goal] and not self.goals.is_reached(goal, state):
-            found = map(graph.node_of, _variants(state, self._fleeting[goal]))
+        if node is None and self._overwritten[goal] and not self.goals.is_reached(goal, state):
+            found = map(graph.node_of, _variants(state, self._overwritten[goal]))
             node = next((n for n in found if n is not None and not graph.is_goal[n]), None)
         return node
 
-    def matters(self, goal: int) -> int:
+    def relevant_facts(self, goal: int) -> int:
         """Return the facts that matter to any plan of a goal, from any state, as bits."""
         return self._relevant[goal][1]
 
@@ -156,8 +156,8 @@ class Bank:
         return [(ops, needed.facts) for ops, needed in found]
 
     @cached_property
-    def _fleeting(self) -> list[int]:
-        return [fleeting(ops) & facts for ops, facts in self._relevant]
+    def _overwritten(self) -> list[int]:
+        return [overwritten_facts(ops) & facts for ops, facts in self._relevant]
 
     # Plans.
 

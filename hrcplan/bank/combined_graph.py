@@ -101,7 +101,7 @@ class CombinedGraph:
 
     @cached_property
     def _relevant(self) -> list[int]:
-        return [graph.relevant for graph in self.bank.graphs]
+        return [graph.relevant_facts for graph in self.bank.graphs]
 
     @cached_property
     def needs(self) -> Bools:
@@ -207,9 +207,9 @@ def _shares(graph: PlanGraph) -> tuple[Floats, Floats]:
     """Return for each edge the share of its node's plans that go along it, and its logarithm."""
     sources = np.repeat(np.arange(graph.n_nodes), np.diff(graph.first))
     try:
-        counts = graph.to_go.astype(np.float64)
+        counts = graph.n_paths_to_goal.astype(np.float64)
     except OverflowError:  # beyond what a float holds, and so may be the shares
-        logs = np.array([math.log(count) for count in graph.to_go])
+        logs = np.array([math.log(count) for count in graph.n_paths_to_goal])
         of_edges: Floats = logs[graph.targets] - logs[sources]
         return np.exp(of_edges), of_edges
     shares: Floats = counts[graph.targets] / counts[sources]

@@ -74,7 +74,7 @@ def optimal_with_price(
                 return empty_graph(name, packing), None
             bound = max(found.next_bound, bound + min(op.cost for op in ops))
     graph = assemble(table, found, packing, name)
-    return narrowed(graph, table, goal), found.cost
+    return merge_equivalent_nodes(graph, table, goal), found.cost
 
 
 def _useful(
@@ -160,13 +160,13 @@ def _by_source(
     return first, steps[once], targets[once].astype(np.int32)
 
 
-def narrowed(graph: PlanGraph, table: StepTable, goal: Tests) -> PlanGraph:
+def merge_equivalent_nodes(graph: PlanGraph, table: StepTable, goal: Tests) -> PlanGraph:
     """Return a graph of optimal plans over fewer facts: what its steps and the goal look at.
 
     States that agree on these and have paid the same go on alike, so they become one node.
     """
     used = (op for step in graph.used_steps for op in table.ways(step))
-    packing = FactPacking.of_facts(read_by(used, goal) & graph.relevant)
+    packing = FactPacking.of_facts(read_by(used, goal) & graph.relevant_facts)
     if packing.positions == graph.packing.positions or not graph.n_nodes:
         return graph
     rows = _selected(graph.rows, graph.packing, packing)

@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from hrcplan.bank.construct import assemble, empty_graph, narrowed
+from hrcplan.bank.construct import assemble, empty_graph, merge_equivalent_nodes
 from hrcplan.bank.goals import Goals
 from hrcplan.bank.graph import PlanGraph
 from hrcplan.bank.search import BuildLimits, Explored
@@ -87,7 +87,7 @@ def graph_of_plans(
             state, paid = after, paid + op.cost
     root = (0, goals.task.initial & needed.facts)
     graph = assemble(table, _explored(packing, root, edges, tests), packing, name)
-    return narrowed(graph, table, tests)
+    return merge_equivalent_nodes(graph, table, tests)
 
 
 def _explored(

@@ -71,7 +71,7 @@ class PlanGraph:
         return len(self.steps)
 
     @property
-    def relevant(self) -> int:
+    def relevant_facts(self) -> int:
         """The facts that the nodes hold, as bits of the task: what matters to this goal."""
         return self.packing.mask
 
@@ -91,7 +91,7 @@ class PlanGraph:
 
     def node_of(self, state: int) -> int | None:
         """Return the cheapest node of a state of the task, or None if it is off the graph."""
-        return self._nodes.get(state & self.relevant)
+        return self._nodes.get(state & self.relevant_facts)
 
     def state(self, node: int) -> int:
         """Return the facts of a node, as bits of the task."""
@@ -128,16 +128,16 @@ class PlanGraph:
         return np.repeat(np.arange(len(self.layers), dtype=np.int32), np.diff(starts))
 
     @cached_property
-    def to_go(self) -> PathCounts:
-        """How many ways lead from each node to a goal: int64, or Python integers where large."""
+    def n_paths_to_goal(self) -> PathCounts:
+        """How many paths lead from each node to a goal: int64, or Python integers where large."""
         with np.errstate(over="ignore"):
-            rough = self._count_to_go(np.float64)
+            rough = self._count_paths(np.float64)
         large = self.n_nodes and rough.max() >= BIG
-        return self._count_to_go(np.object_ if large else np.int64)
+        return self._count_paths(np.object_ if large else np.int64)
 
-    def _count_to_go(self, kind: type[np.generic]) -> PathCounts:
-        counts = np.zeros(self.n_nodes, dtype=kind)
-        if kind is np.object_:
+    def _count_paths(self, dtype: type[np.generic]) -> PathCounts:
+        counts = np.zeros(self.n_nodes, dtype=dtype)
+        if dtype is np.object_:
             counts[:] = 0
         counts[self.is_goal] = 1
         for begin, end in reversed(self._spans):
@@ -149,11 +149,11 @@ class PlanGraph:
         return counts
 
     @cached_property
-    def so_far(self) -> PathCounts:
-        """How many ways lead from the root to each node."""
-        kind = self.to_go.dtype.type
-        counts = np.zeros(self.n_nodes, dtype=kind)
-        if kind is np.object_:
+    def n_paths_from_root(self) -> PathCounts:
+        """How many paths lead from the root to each node."""
+        dtype = self.n_paths_to_goal.dtype.type
+        counts = np.zeros(self.n_nodes, dtype=dtype)
+        if dtype is np.object_:
             counts[:] = 0
         if self.n_nodes:
             counts[0] = 1
@@ -166,12 +166,12 @@ class PlanGraph:
         return list(pairwise([*(first for _, first in self.layers), self.n_nodes]))
 
     def plans_from(self, node: int) -> int:
-        """Return how many ways lead from a node to a goal."""
-        return int(self.to_go[node])
+        """Return how many paths lead from a node to a goal."""
+        return int(self.n_paths_to_goal[node])
 
     def ways_to(self, node: int) -> int:
-        """Return how many ways lead from the root to a node."""
-        return int(self.so_far[node])
+        """Return how many paths lead from the root to a node."""
+        return int(self.n_paths_from_root[node])
 
     def plans_with_prefix(self, steps: Sequence[int]) -> int:
         """Return how many plans begin with steps."""

@@ -155,7 +155,7 @@ def order_of(graph: PlanGraph, layout: Layout, kind: Multiset) -> KindOrder:
     }
     # What comes next in the graph can do so in the order. If no more can, they are the same.
     possible = sum(np.count_nonzero((left & (b | 1 << i)) == 1 << i) for i, b in before.items())
-    n_plans = ways.n_plans(graph.to_go.dtype.type)
+    n_plans = ways.n_plans(graph.n_paths_to_goal.dtype.type)
     return KindOrder(mask, before, n_plans, bool(possible == len(done)))
 
 

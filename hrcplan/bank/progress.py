@@ -65,7 +65,7 @@ class ProgressTracker:
         self.bank = bank
         self.combined = combined_graph_of(bank)
         self._doable = ApplicableSteps(self.combined)
-        self._relevant = [graph.relevant for graph in bank.graphs]
+        self._relevant = [graph.relevant_facts for graph in bank.graphs]
         self._known: dict[tuple[int, int], int] = {}
         self._matters: dict[int, int] = {}
         world = bank.initial
@@ -127,7 +127,7 @@ class ProgressTracker:
             self._matters[goal] = relevant(bank.table.ops, bank.goals.tests[goal])[1].facts
         state = place.state & self._matters[goal]
         try:
-            graph = self.bank.reroot(goal, state, BuildLimits(REROOT_MIB))
+            graph = self.bank.graph_from(goal, state, BuildLimits(REROOT_MIB))
         except LimitError:  # nothing is known about how this goal goes on
             from hrcplan.bank.construct import empty_graph
 

@@ -57,7 +57,7 @@ def dumps(bank: Bank, folder: Path = Path()) -> bytes:
         "goals": graphs,
         "names": list(bank.names),
     }
-    return _FORMAT.packed(header, arrays)
+    return _FORMAT.encode(header, arrays)
 
 
 def digest(bank: Bank) -> str:
@@ -97,7 +97,7 @@ def load(path: str | Path) -> Bank:
             PDDL it was made from has changed.
     """
     shown = str(path)
-    header, body = _FORMAT.unpacked(read_bytes(path, limit=None), shown)
+    header, body = _FORMAT.decode(read_bytes(path, limit=None), shown)
     try:
         folder = Path(os.path.realpath(path)).parent
         files = tuple(_source(entry, folder, shown) for entry in header["sources"])
@@ -135,7 +135,7 @@ def _seconds(value: Any) -> float:
     return float(value)
 
 
-def verify(path: str | Path) -> str | None:
+def find_fault(path: str | Path) -> str | None:
     """Return what is wrong with a bank, or None if all is well.
 
     Beyond what ``load`` looks at: every edge is a step that can be done in its node and leads to

@@ -75,7 +75,7 @@ class Sampler:
         degrees = np.diff(graph.first)
         sources = np.repeat(np.arange(graph.n_nodes), degrees)
         # Of Python integers, which may be too large for a float, the quotient is one.
-        shares = graph.to_go[graph.targets] / graph.to_go[sources]
+        shares = graph.n_paths_to_goal[graph.targets] / graph.n_paths_to_goal[sources]
         total = np.cumsum(shares.astype(np.float64))
         before = np.concatenate([[0.0], total])[graph.first[:-1]]
         self._last = graph.first[1:] - 1

@@ -216,7 +216,7 @@ def sample(bank: str, goal: str, n: int, seed: int, loop_free: bool, irredundant
 @output.common_options
 def verify(bank: str) -> int:
     """Check a BANK: file, checksum, PDDL it came from, every node and edge; exit 1 if not sound."""
-    from hrcplan.bank import verify as find_fault
+    from hrcplan.bank import find_fault
 
     fault = find_fault(bank)
     if output.JSON:

@@ -51,16 +51,16 @@ class Arrays:
         self.parts: list[bytes] = []
         self.n_bytes = 0
 
-    def add(self, array: NDArray[Any], kind: str) -> dict[str, Any]:
-        """Take in an array and return where it is."""
-        data = np.ascontiguousarray(array, dtype=kind).tobytes()
+    def add(self, array: NDArray[Any], dtype: str) -> dict[str, Any]:
+        """Append an array and return its entry: where it begins, and its shape."""
+        data = np.ascontiguousarray(array, dtype=dtype).tobytes()
         entry = {"at": self.n_bytes, "shape": list(array.shape)}
         self.parts.append(data + b"\0" * (-len(data) % _ALIGN))
         self.n_bytes += len(self.parts[-1])
         return entry
 
 
-def array(body: memoryview, entry: Mapping[str, Any], kind: str) -> NDArray[Any]:
+def array(body: memoryview, entry: Mapping[str, Any], dtype: str) -> NDArray[Any]:
     """Return an array that was taken in, without a copy.
 
     Raises:
@@ -70,11 +70,11 @@ def array(body: memoryview, entry: Mapping[str, Any], kind: str) -> NDArray[Any]
     if any(type(n) is not int or n < 0 for n in (at, *shape)) or at % _ALIGN:
         raise ValueError(f"no array is at {at!r} with shape {shape!r}")
     size = math.prod(shape)  # of Python integers: it cannot overflow
-    if at + size * np.dtype(kind).itemsize > len(body):
+    if at + size * np.dtype(dtype).itemsize > len(body):
         raise ValueError(f"the array at {at} with shape {shape} goes beyond the end")
     if not size:
-        return np.zeros(shape, dtype=kind)
-    return np.frombuffer(body, dtype=kind, count=size, offset=at).reshape(shape)
+        return np.zeros(shape, dtype=dtype)
+    return np.frombuffer(body, dtype=dtype, count=size, offset=at).reshape(shape)
 
 
 def mapped(path: Path) -> memoryview:
@@ -93,12 +93,12 @@ def mapped(path: Path) -> memoryview:
 
 @dataclass(frozen=True, slots=True)
 class Format:
-    """One kind of such files; ``noun`` and ``title`` say in errors what it is, ``hint`` how to.
+    """A file format; ``noun``, ``title`` and ``hint`` say in errors what it is and how to get one.
 
     >>> toys = Format(b"TOYSTOYS", 1, "toy", "box of toys", "buy one")
-    >>> toys.unpacked(toys.packed({"n": 2}, Arrays()), "a file")[0]
+    >>> toys.decode(toys.encode({"n": 2}, Arrays()), "a file")[0]
     {'n': 2}
-    >>> toys.unpacked(b"TOY", "a file")
+    >>> toys.decode(b"TOY", "a file")
     Traceback (most recent call last):
     ...
     hrcplan.errors.InputError: 'a file' is no box of toys
@@ -110,7 +110,7 @@ class Format:
     title: str
     hint: str
 
-    def packed(self, header: Mapping[str, Any], arrays: Arrays) -> bytes:
+    def encode(self, header: Mapping[str, Any], arrays: Arrays) -> bytes:
         """Return header and arrays as the bytes of a file."""
         head = json.dumps(header, ensure_ascii=False, separators=(",", ":")).encode()
         head += b" " * (-len(head) % _ALIGN)
@@ -118,15 +118,15 @@ class Format:
         prefix = _PREFIX.pack(self.magic, self.version, 0, len(head), len(body))
         return prefix + hashlib.sha256(prefix + head + body).digest() + head + body
 
-    def unpacked(self, data: bytes | memoryview, shown: str) -> tuple[dict[str, Any], memoryview]:
-        """Return header and arrays, once everything that can be checked here is.
+    def decode(self, data: bytes | memoryview, shown: str) -> tuple[dict[str, Any], memoryview]:
+        """Return header and arrays of a file, checked as far as the format allows.
 
         Args:
             data: The bytes of a file.
             shown: What errors call it.
 
         Raises:
-            InputError: if it is none of this kind, of another version, cut short or damaged.
+            InputError: if it has another format, is of another version, cut short or damaged.
         """
         view, begin = memoryview(data), _PREFIX.size + _HASH
         if view[: len(self.magic)] != self.magic:

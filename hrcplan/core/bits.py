@@ -47,8 +47,8 @@ def holders(sets: Sequence[int], size: int) -> list[int]:
     >>> holders([0b01, 0b11], 2)
     [3, 2]
     """
-    found = [0] * size
+    by_bit = [0] * size
     for i, bits in enumerate(sets):
         for position in positions(bits):
-            found[position] |= 1 << i
-    return found
+            by_bit[position] |= 1 << i
+    return by_bit

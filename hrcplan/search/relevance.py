@@ -23,25 +23,25 @@ class Literals:
     true: int = 0
     false: int = 0
 
-    def take(self, tests: Iterable[Test]) -> None:
-        """Take in what tests look at."""
+    def add_tests(self, tests: Iterable[Test]) -> None:
+        """Add the literals that tests look at."""
         for mask, value in tests:
             self.true |= value
             self.false |= mask & ~value
 
-    def take_negated(self, tests: Iterable[Test]) -> None:
-        """Take in what keeps tests from holding."""
+    def add_negated_tests(self, tests: Iterable[Test]) -> None:
+        """Add the literals that keep tests from holding."""
         for mask, value in tests:
             self.true |= mask & ~value
             self.false |= value
 
-    def wants(self, change: BitEffect) -> bool:
-        """Whether a change makes a needed literal true."""
-        return bool(change.adds & self.true or change.deletes & self.false)
+    def helped_by(self, effect: BitEffect) -> bool:
+        """Whether an effect makes a needed literal true."""
+        return bool(effect.adds & self.true or effect.deletes & self.false)
 
-    def fears(self, change: BitEffect) -> bool:
-        """Whether a change makes a needed literal false."""
-        return bool(change.adds & self.false or change.deletes & self.true)
+    def hurt_by(self, effect: BitEffect) -> bool:
+        """Whether an effect makes a needed literal false."""
+        return bool(effect.adds & self.false or effect.deletes & self.true)
 
     @property
     def facts(self) -> int:
@@ -52,41 +52,41 @@ class Literals:
 def relevant(ops: Sequence[Operator], goal: Tests) -> tuple[tuple[Operator, ...], Literals]:
     """Return the ops that can help to reach a goal, in order, and the literals that matter."""
     needed = Literals()
-    needed.take(goal)
+    needed.add_tests(goal)
     useful: set[int] = set()
     before = (-1, -1)
     while before != (needed.true, needed.false):
         before = (needed.true, needed.false)
         for i, op in enumerate(ops):
-            if i in useful or any(needed.wants(change) for change in op.effects):
+            if i in useful or any(needed.helped_by(effect) for effect in op.effects):
                 useful.add(i)
-                _take_op(needed, op)
+                _add_operator(needed, op)
     return tuple(op for i, op in enumerate(ops) if i in useful), needed
 
 
-def _take_op(needed: Literals, op: Operator) -> None:
-    needed.take(op.tests)
-    for change in op.effects:
-        if change.tests == ALWAYS:
+def _add_operator(needed: Literals, op: Operator) -> None:
+    needed.add_tests(op.tests)
+    for effect in op.effects:
+        if effect.tests == ALWAYS:
             continue
-        if needed.wants(change):
-            needed.take(change.tests)
-        if needed.fears(change):
-            needed.take_negated(change.tests)
+        if needed.helped_by(effect):
+            needed.add_tests(effect.tests)
+        if needed.hurt_by(effect):
+            needed.add_negated_tests(effect.tests)
 
 
 def read_by(ops: Iterable[Operator], goal: Tests) -> int:
     """Return the facts that conditions of ``ops`` and a goal look at, as bits."""
     found = Literals()
-    found.take(goal)
+    found.add_tests(goal)
     for op in ops:
-        found.take(op.tests)
-        for change in op.effects:
-            found.take(change.tests)
+        found.add_tests(op.tests)
+        for effect in op.effects:
+            found.add_tests(effect.tests)
     return found.facts
 
 
-def fleeting(ops: Sequence[Operator]) -> int:
+def overwritten_facts(ops: Sequence[Operator]) -> int:
     """Return the facts that every op sets, whatever the state, and that none looks at, as bits.
 
     States that differ in these alone have the same plans, unless one of them is a goal state: such
@@ -94,6 +94,6 @@ def fleeting(ops: Sequence[Operator]) -> int:
     """
     found = -1
     for op in ops:
-        sure = (change for change in op.effects if change.tests == ALWAYS)
-        found &= reduce(or_, (change.touched for change in sure), 0)
+        sure = (effect for effect in op.effects if effect.tests == ALWAYS)
+        found &= reduce(or_, (effect.touched for effect in sure), 0)
     return found & ~read_by(ops, ()) if ops else 0

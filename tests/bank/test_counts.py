@@ -112,7 +112,7 @@ def test_graphs_hold_exactly_the_plans_of_every_sequence(recipe, world, read_wor
     assert costs == sorted(costs)
     assert graph.optimal_cost == (min(costs) if costs else None)
     assert graph.n_steps == min((len(p) for p in found if wanted[p] == costs[0]), default=0)
-    assert sum(int(n) for n in graph.so_far[graph.is_goal]) == graph.plans
+    assert sum(int(n) for n in graph.n_paths_from_root[graph.is_goal]) == graph.plans
 
 
 @settings(max_examples=60)
@@ -161,7 +161,7 @@ def test_a_graph_from_another_state_goes_on_from_there(world, data, read_world, 
     slow = type(brute(bank))(task, brute(bank).labels, brute(bank).costs)
     best = slow.optimum()
     wanted = set() if best is None else slow.plans(best).keys()
-    assert set(words(bank, plans(bank.reroot(0, state)))) == wanted
+    assert set(words(bank, plans(bank.graph_from(0, state)))) == wanted
     graph, node = bank.locate(0, state)
     if graph is not bank.graphs[0]:
         assert (0 if node is None else graph.plans_from(node)) == len(wanted)

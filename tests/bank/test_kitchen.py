@@ -139,7 +139,7 @@ def test_serving_too_early_is_no_change_of_place(kitchen):
     for goal, graph in enumerate(kitchen.graphs):
         assert graph.node_of(state) is None
         assert kitchen.locate(goal, state) == (graph, 0)
-        rerooted = kitchen.reroot(goal, state)
+        rerooted = kitchen.graph_from(goal, state)
         assert rerooted.plans == graph.plans
         assert rerooted.next(0).keys() == graph.next(0).keys()
         if goal == 2:

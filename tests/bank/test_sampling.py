@@ -93,7 +93,7 @@ def test_counts_beyond_64_bits_are_exact(chains):
     graph = chains.graphs[0]
     expected = factorial(66) // factorial(22) ** 3
     assert graph.plans == expected > 2**64
-    assert graph.so_far[-1] == expected
+    assert graph.n_paths_from_root[-1] == expected
     assert graph.n_nodes == 23**3
     middle = graph.after(first_plans(graph, 1)[0][:33])
     assert graph.ways_to(middle) * graph.plans_from(middle) < expected
@@ -151,7 +151,7 @@ def test_limits_name_what_to_lower(kitchen):
             build(kitchen.goals, recipe, timeout_s=0)
         assert caught.value.code == "timeout"
     with pytest.raises(LimitError):
-        kitchen.reroot(0, kitchen.initial, BuildLimits(mib=0))
+        kitchen.graph_from(0, kitchen.initial, BuildLimits(mib=0))
 
 
 def test_a_kitchen_of_two_goals_and_more_than_optimal_plans():
@@ -162,7 +162,7 @@ def test_a_kitchen_of_two_goals_and_more_than_optimal_plans():
     assert graph.final_costs == (17, 18)
     optimal = build_bank("kitchen", only=["parfait-nut"]).graphs[0]
     ends = graph.is_goal & (graph.layer_of == graph.final_layers[0])
-    assert sum(graph.so_far[ends].tolist()) == optimal.plans
+    assert sum(graph.n_paths_from_root[ends].tolist()) == optimal.plans
     # One more step: 153 others could come before most of the 17, so many more plans than 100 times.
     assert graph.plans > 100 * optimal.plans
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from hrcplan.bank import BuildOptions, build_bank, load, save, verify
+from hrcplan.bank import BuildOptions, build_bank, find_fault, load, save
 from hrcplan.bank.audit import fault
 from hrcplan.bank.store import MAGIC, dumps
 from hrcplan.bank.walk import plans
@@ -49,7 +49,7 @@ def test_what_goes_in_comes_out(recipe, tmp_path, instances):
     for old, new in zip(bank.graphs, again.graphs, strict=True):
         assert list(plans(old)) == list(plans(new)) != []
         assert (old.layers, old.relevant, old.plans) == (new.layers, new.relevant, new.plans)
-    assert verify(tmp_path / "b.bank") is None
+    assert find_fault(tmp_path / "b.bank") is None
     assert dumps(again, tmp_path) == (tmp_path / "b.bank").read_bytes()
 
 
@@ -67,7 +67,7 @@ def test_every_flipped_byte_is_noticed(world):
         with pytest.raises(InputError) as caught:
             load(world / "bad.bank")
         assert caught.value.code in ("not-a-bank", "bank-version", "bank-truncated", "bank-damaged")
-        assert verify(world / "bad.bank") is not None
+        assert find_fault(world / "bad.bank") is not None
 
 
 @pytest.mark.parametrize("keep", [0, 7, 8, 31, 63, 64, 1000, -8, -1])
@@ -103,20 +103,20 @@ def test_changed_pddl_is_noticed_and_missing_pddl_is_not_needed(world, name):
         load(world / "two.bank")
     assert caught.value.code == "bank-outdated"
     assert name.rpartition("/")[2] in caught.value.message
-    assert "another version" in str(verify(world / "two.bank"))
+    assert "another version" in str(find_fault(world / "two.bank"))
     source.unlink()
     assert load(world / "two.bank").graphs[0].plans == 6647155200
     source.write_text(text)
-    assert verify(world / "two.bank") is None
+    assert find_fault(world / "two.bank") is None
 
 
 def test_a_folder_can_be_moved_with_its_bank(world, tmp_path_factory):
     target = tmp_path_factory.mktemp("moved") / "here"
     shutil.move(world, target)
-    assert verify(target / "two.bank") is None
+    assert find_fault(target / "two.bank") is None
     with (target / "kitchen.pddl").open("a") as file:
         file.write("\n")
-    assert verify(target / "two.bank") is not None
+    assert find_fault(target / "two.bank") is not None
 
 
 def test_verify_looks_at_every_node_and_edge(world):
@@ -238,10 +238,16 @@ def test_a_right_checksum_over_wrong_content_is_no_bank(world):
 def test_the_same_content_packed_again_is_a_bank(world):
     data = repacked((world / "two.bank").read_bytes(), lambda head: head)
     (world / "again.bank").write_bytes(data)
-    assert verify(world / "again.bank") is None
+    assert find_fault(world / "again.bank") is None
 
 
 def test_a_source_with_an_impossible_path_is_one_that_is_not_there(world):
     change = changed(("sources", 0, "path"), "x" * 300)
     (world / "far.bank").write_bytes(repacked((world / "two.bank").read_bytes(), change))
-    assert verify(world / "far.bank") is None
+    assert find_fault(world / "far.bank") is None
+
+
+def test_the_old_name_of_find_fault_still_works() -> None:
+    with pytest.deprecated_call(match="find_fault"):
+        from hrcplan.bank import verify
+    assert verify is find_fault

@@ -27,7 +27,7 @@ ARRAYS = st.lists(
 def test_what_goes_in_comes_out(given_arrays: list[np.ndarray]) -> None:
     arrays = Arrays()
     entries = [arrays.add(one, one.dtype.str) for one in given_arrays]
-    header, body = TOYS.unpacked(TOYS.packed({"all": entries}, arrays), "file")
+    header, body = TOYS.decode(TOYS.encode({"all": entries}, arrays), "file")
     for entry, one in zip(header["all"], given_arrays, strict=True):
         found = array(body, entry, one.dtype.str)
         assert found.shape == one.shape
@@ -37,28 +37,28 @@ def test_what_goes_in_comes_out(given_arrays: list[np.ndarray]) -> None:
 def test_every_flipped_byte_and_every_cut_is_noticed() -> None:
     arrays = Arrays()
     entry = arrays.add(np.arange(5), "<i4")
-    data = TOYS.packed({"numbers": entry}, arrays)
+    data = TOYS.encode({"numbers": entry}, arrays)
     codes = {"not-a-toy", "toy-version", "toy-truncated", "toy-damaged"}
     met = set()
     for place in range(len(data)):
         flipped = data[:place] + bytes([data[place] ^ 1]) + data[place + 1 :]
         for spoiled in (flipped, data[:place]):
             with pytest.raises(InputError) as caught:
-                TOYS.unpacked(spoiled, "file")
+                TOYS.decode(spoiled, "file")
             met.add(caught.value.code)
     assert met == codes
     assert caught.value.hint == "buy one"
     newer = Format(TOYS.magic, 4, "toy", "", "").packed({}, Arrays())
     with pytest.raises(InputError, match="format 4; this hrcplan reads 3"):
-        TOYS.unpacked(newer, "file")
+        TOYS.decode(newer, "file")
     assert struct.unpack_from("<I", newer, 8) == (4,)
 
 
 def test_files_are_mapped_and_arrays_of_them_are_read_only(tmp_path: Path) -> None:
     arrays = Arrays()
     entry = arrays.add(np.arange(5), "<i4")
-    (tmp_path / "file").write_bytes(TOYS.packed({}, arrays))
-    found = array(TOYS.unpacked(mapped(tmp_path / "file"), "file")[1], entry, "<i4")
+    (tmp_path / "file").write_bytes(TOYS.encode({}, arrays))
+    found = array(TOYS.decode(mapped(tmp_path / "file"), "file")[1], entry, "<i4")
     assert found.tolist() == [0, 1, 2, 3, 4]
     assert not found.flags.writeable
     (tmp_path / "empty").touch()

@@ -194,7 +194,7 @@ def kitchen_run(kitchen, rng, first, second, at, mistakes=()):
     state, found = kitchen.initial, []
     for turn in range(60):
         goal = first if turn < at else second
-        graph = kitchen.reroot(goal, state)
+        graph = kitchen.graph_from(goal, state)
         following = list(graph.next(0)) if graph.n_nodes else []
         if not following:
             break

@@ -113,7 +113,7 @@ def test_many_rows_are_posteriors_and_only_some_are_remembered(forest):
 
 
 def test_no_plans_no_forest(some):
-    none = some.reroot(0, 0)  # from nowhere
+    none = some.graph_from(0, 0)  # from nowhere
     with pytest.raises(UsageError, match="no goal has a plan"):
         ForestBelief(replace(some, graphs=(none,) * MEALS))
 

@@ -80,9 +80,9 @@ def damage(data, how):
     if how == "flipped":
         return data[:-9] + bytes([data[-9] ^ 4]) + data[-8:]
     if how in ("foreign", "senseless"):
-        header, _ = kept._FORMAT.unpacked(data, "file")
+        header, _ = kept._FORMAT.decode(data, "file")
         key = {} if how == "foreign" else header["key"]
-        return kept._FORMAT.packed({"key": key}, Arrays())
+        return kept._FORMAT.encode({"key": key}, Arrays())
     return {"empty": b"", "cut": data[:-8], "other": b"x" * 200}[how]
 
 

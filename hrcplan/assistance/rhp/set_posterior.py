@@ -19,8 +19,8 @@ class PrefixPosterior:
     """The exact posterior of goals given which steps were done, in whatever order.
 
     It is exact for beginnings of optimal plans, of uniform length, where one set of steps leads to
-    one state: of the plans of g, ``so_far * to_go`` pass through the node of the set, and one in
-    ``n_steps`` beginnings has its length.
+    one state: of the plans of g, ``n_paths_from_root * n_paths_to_goal`` pass through the node of
+    the set, and one in ``n_steps`` beginnings has its length.
     """
 
     def __init__(self, bank: Bank) -> None:
@@ -133,6 +133,6 @@ def _weights(bank: Bank, goal: int) -> Floats:
     graph = bank.graphs[goal]
     if not graph.n_steps:
         return np.zeros(graph.n_nodes)
-    passing = graph.so_far.astype(np.float64) * graph.to_go.astype(np.float64)
+    passing = graph.n_paths_from_root.astype(np.float64) * graph.n_paths_to_goal.astype(np.float64)
     found: Floats = passing / float(graph.plans) / graph.n_steps
     return found

@@ -91,7 +91,7 @@ def load(path: Path, key: Key) -> Trained:
         OSError: if there is no such file, or it may not be read.
         InputError: if it is damaged, or no forest, or that of another key.
     """
-    header, body = _FORMAT.unpacked(mapped(path), str(path))
+    header, body = _FORMAT.decode(mapped(path), str(path))
     try:
         if header["key"] != key:
             raise InputError(f"'{path}' is the forest of something else", code="not-a-forest")
@@ -125,7 +125,7 @@ def _saved(path: Path, key: Key, made: Trained) -> bool:
         **{name: arrays.add(getattr(made.model, name), kind) for name, kind in _ARRAYS.items()},
     }  # fmt: skip
     try:
-        write_atomically(path, _FORMAT.packed(header, arrays))
+        write_atomically(path, _FORMAT.encode(header, arrays))
     except UsageError:
         return False
     return True
