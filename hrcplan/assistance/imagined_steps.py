@@ -31,7 +31,7 @@ class ImaginedSteps:
         self.step_values, self.tracker = step_values, step_values.tracker
         self.bank = step_values.bank
         self._offsets: list[int] = self.tracker.combined.offsets.tolist()
-        self._relevant = [graph.relevant for graph in self.bank.graphs]
+        self._relevant = [graph.relevant_facts for graph in self.bank.graphs]
 
     def begin(self, progress: Progress) -> Progress:
         """Return the progress to begin from: goals off their graph get one, if there is one."""

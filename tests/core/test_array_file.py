@@ -48,7 +48,7 @@ def test_every_flipped_byte_and_every_cut_is_noticed() -> None:
             met.add(caught.value.code)
     assert met == codes
     assert caught.value.hint == "buy one"
-    newer = Format(TOYS.magic, 4, "toy", "", "").packed({}, Arrays())
+    newer = Format(TOYS.magic, 4, "toy", "", "").encode({}, Arrays())
     with pytest.raises(InputError, match="format 4; this hrcplan reads 3"):
         TOYS.decode(newer, "file")
     assert struct.unpack_from("<I", newer, 8) == (4,)
