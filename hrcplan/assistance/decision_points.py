@@ -25,8 +25,8 @@ from hrcplan.bank import Bank
 from hrcplan.errors import UsageError
 from hrcplan.inference.belief import Belief
 
-# Bits that a saved step is worth. Of .3, 1, 3 and 10, 3 guesses fixed goals best on goals made by
-# chance (tools/tune_changed_mind.py); with more, insight has hardly any say.
+# Bits that a saved step is worth. Of .3, 1, 3 and 10, 3 guesses fixed goals best on randomly
+# generated goals (tools/tune_changed_mind.py); with more, information hardly counts.
 SUPPORT = 3.0
 
 

@@ -1,7 +1,7 @@
-"""Our assistant: the step of highest expected help, over goals that may change.
+"""The assistant ``hrcplan``: the step of highest expected help, over goals that may change.
 
-The belief is the switching filter; every goal that it holds possible has a say, in proportion to
-its probability, and a step that nobody may need has its price.
+The belief is the switching filter. Every goal counts in proportion to its probability, and a step
+that no goal may need has a price.
 """
 
 from __future__ import annotations
@@ -16,22 +16,22 @@ from hrcplan.bank import Bank
 from hrcplan.inference.belief import Belief
 from hrcplan.inference.switching import SwitchingBelief
 
-WASTE_PRICE = 0.95  # steps; tuned on kitchens made by chance: more saves waste, but costs time
+WASTE_PRICE = 0.95  # steps; tuned on randomly generated kitchens; more saves waste, but costs time
 N_LOOKED, N_ANSWERS = 5, 6  # best steps that are looked beyond, and likeliest answers to each
 
 
 class ExpectedHelp(BeliefAssistant[Any]):
-    """Does what saves most steps in expectation; waits if nothing is worth its risk.
+    """Does the step that saves most steps in expectation; waits if no step has a positive value.
 
-    A step is worth the steps it saves each goal, weighted by the goals' probabilities, less
-    ``waste_price`` for the probability that nobody needs it.
+    The value of a step is the number of steps it saves each goal, weighted by the goals'
+    probabilities, minus ``waste_price`` times the probability that no goal needs it.
 
     Args:
         bank: The plans.
         belief: What is believed about the goal; the switching filter by default.
         waste_price: What a step that is not needed costs, in steps.
-        look_ahead: Also count what the robot's next step is expected to save, once it has seen how
-            the human answers: steps that make the answer tell more gain by that.
+        look_ahead: Also count what the robot's next step is expected to save after the human's
+            response. This favours steps after which the response is more informative.
     """
 
     def __init__(

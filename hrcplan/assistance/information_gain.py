@@ -2,7 +2,7 @@
 
 A tree of three steps: robot, human, robot. A branch is worth the bits of entropy that the belief
 loses between root and leaf, and ``alignment`` bits for each robot step that the likeliest goal has
-next; for each other one it is worth as much less. The paper leaves open how the two are weighted;
+next; for each other one it is worth as much less. Sadigh et al. leave open how the two are weighted;
 it takes the best branch, whatever the chance that the human plays along, and so do we. The belief
 is the forest on all steps done by either agent; the likeliest goal is that at the root.
 """
@@ -31,7 +31,7 @@ from hrcplan.errors import UsageError
 from hrcplan.inference.belief import Belief
 
 # Bits that a step of the likeliest goal is worth, and any other one costs; from .1 to 3 it makes no
-# difference beyond chance on goals made by chance (tools/tune_changed_mind.py).
+# significant difference on randomly generated goals (tools/tune_changed_mind.py).
 ALIGNMENT = 1.0
 
 

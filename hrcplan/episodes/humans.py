@@ -1,7 +1,7 @@
-"""Simulated humans who cook along: they have goals, change them, err, wait, and never explain.
+"""Simulated humans: they have goals, change them, make mistakes, and wait.
 
-What chance decides about a human is drawn before the first step and kept in a `Course`. So every
-robot meets the same human, and differences between robots are paired.
+All random decisions of a human are derived from a `Course`, which is drawn before the first step.
+So every robot meets the same human, and differences between robots are paired.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ N_DRAWS = 64  # random numbers of one turn: whether to wait or err, and what to 
 
 @dataclass(frozen=True, slots=True)
 class Course:
-    """What a human will want, and by which chances it acts.
+    """The goals of a human over time, and the seed of its random decisions.
 
     Attributes:
         goals: The goals, in the order in which they are wanted.
@@ -134,7 +134,7 @@ class ByPlans(Frontier):
 class CliqueChain(Frontier):
     """A human who works through a network of chains and cliques, and finishes what it has begun.
 
-    The paper models its humans so (IV-B). The network is derived from the plans of the goal, and
+    The changed-mind paper models its humans so (IV-B). The network is derived from the plans of the goal, and
     orders some steps that plans leave open; what the robot does out of this order is simply done.
     """
 

@@ -33,7 +33,7 @@ class GuessMeasures:
 
 @dataclass(frozen=True, slots=True)
 class ChangeMeasures:
-    """Declared changes of goal beside the true ones.
+    """Declared changes of goal compared with the true ones.
 
     Attributes:
         detection_delay: Timesteps from the first human action after a change to the declaration, or
@@ -84,7 +84,7 @@ def _first_right(span: Sequence[EpisodeTurn], n_turns: int) -> int:
 
 
 def changes(record: EpisodeRecord) -> ChangeMeasures:
-    """Return declared changes beside the true ones."""
+    """Return declared changes compared with the true ones."""
     delays: list[int] = []
     n_found = n_false = n_before = human = 0
     open_since: int | None = None  # the timestep of the true change that awaits declaration

@@ -30,7 +30,7 @@ class Likelihood(Protocol):
 class Needed:
     """One over the number of steps that a goal needs; ``epsilon`` over the rest if it is none.
 
-    It does not look at what was done before, as the paper's attractor fields do not.
+    It ignores earlier steps, as the attractor fields of Jain and Argall do.
     """
 
     epsilon: float = EPSILON
@@ -95,7 +95,7 @@ class RecursiveBelief:
     Args:
         bank: The plans.
         stay: The probability that the goal stays; the rest is spread over the others.
-        likelihood: What a step says; the paper leaves it open.
+        likelihood: The likelihood of a step under each goal; Jain and Argall leave it open.
     """
 
     def __init__(

@@ -41,7 +41,7 @@ def check_human(
 def _walk(
     human: EpisodeHuman, bank: Bank, course: Course
 ) -> list[tuple[int, int, int | None, HumanMove]]:
-    """Return turns of a human beside a robot that helps in every other turn."""
+    """Return the turns of a human with a robot that helps in every other turn."""
     humans, helpers = people(bank.goals.problem), robots(bank.goals.problem)
     world, last, n_waits = bank.initial, None, 0
     walk: list[tuple[int, int, int | None, HumanMove]] = []

@@ -1,7 +1,7 @@
 """The assistant of the changed-mind paper: candidate sequences, declared changes, trees.
 
 Ghose, Gitelson et al., "I've Changed My Mind" (RA-L 2025), sections III and IV-C, as printed; what
-the text leaves open is decided where it stands below.
+the text leaves open is decided below.
 """
 
 from __future__ import annotations
@@ -43,14 +43,14 @@ class RhpState:
     """The state of `RecedingHorizonPlanner`.
 
     Attributes:
-        progress: Where every goal stands.
+        progress: The progress of the goals.
         sequences: The candidate sequences C_h: what the human may have done for its goal.
         plausible: For each of them the goals that it is consistent with, as bits.
         human: All that the human has done.
         robot: What the robot has done since the last declared change (H_r).
         n_declared: How many changes of goal were declared.
         belief: The state of a belief that follows all steps; None if it looks at sets of steps.
-        ignored: Why the last observation told nothing; None if it did.
+        ignored: Why the last observation had no effect; None if it had one.
     """
 
     progress: Progress

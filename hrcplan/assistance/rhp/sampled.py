@@ -1,4 +1,4 @@
-"""Steps in their order beside sampled plans: "many but not all" policies, as the paper has them.
+"""Consistency with sampled plans, steps in their order: the "many but not all" policies of RA-L.
 
 The more steps are seen, the less likely it is that one of the sampled plans has them all in their
 order, even if some plan has. So this test rules goals out that the exact one keeps.
@@ -74,7 +74,7 @@ class Sampled(Ordered):
 
 
 class Plans:
-    """Sampled plans of one goal: where each label stands in each of them, -1 where it does not.
+    """Sampled plans of one goal: the position of each label in each plan, -1 if it is absent.
 
     Args:
         plans: Plans as rows of labels, shorter ones filled up with -1.
@@ -194,7 +194,7 @@ def _labeled(plans: SmallIds, label: Sequence[int]) -> SmallIds:
 
 
 def _occurrences(here: Bools) -> Iterator[Places]:
-    """Yield where the first, second, ... true value stands in each row, -1 if there is none."""
+    """Yield the position of the first, second, ... true value of each row, -1 if there is none."""
     left = here.copy()
     rows = np.arange(len(left))
     while left.any():

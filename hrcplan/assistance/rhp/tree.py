@@ -26,7 +26,7 @@ class TreeRoot:
     """Where a tree begins.
 
     Attributes:
-        progress: Where everything stands.
+        progress: The progress of the goals.
         last: The last step; None if nothing was done yet.
         fields: The summed attractor field of each candidate sequence.
         plausible: The goals that each sequence is consistent with, as bits; they weight the
@@ -136,6 +136,6 @@ class RecedingHorizonTree:
 
 
 def _note(found: dict[int, int], branch: TreeBranch) -> None:
-    """Note the summed costs of a branch if they are the lowest after its first step."""
+    """Record the summed costs of a branch if they are the lowest after its first step."""
     total = sum(branch.costs)
     found[branch.first] = min(total, found.get(branch.first, total))

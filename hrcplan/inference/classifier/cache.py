@@ -1,8 +1,8 @@
-"""Forests that are trained once and found again, in a file of the user's cache folder.
+"""The cache of trained forests: one file for each, in the user's cache folder.
 
-The file is named after a hash of everything that the forest depends on, so another bank or another
-seed is another file. Of several processes that miss the same forest, one trains and the others
-wait. Its arrays are mapped, not read: processes share them.
+A file is named after a hash of everything that the forest depends on, such as bank and seed. If
+several processes need the same missing forest, one trains it and the others wait. The arrays are
+memory-mapped, so that processes share them.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ _PACKAGES = ("numpy", "scikit-learn")  # whose version decides which samples and
 Key = Mapping[str, Any]
 
 _unsaved: dict[Path, Trained] = {}
-"""Forests that could not be written: this process at least need not train them twice."""
+"""Forests that could not be written to a file; this process does not train them twice."""
 
 
 def key_of(bank: Bank, seed: int, n_samples: int, n_trees: int) -> Key:
@@ -50,14 +50,14 @@ def key_of(bank: Bank, seed: int, n_samples: int, n_trees: int) -> Key:
 
 
 def load_or_train(folder: Path, key: Key, make: Callable[[], Trained]) -> Trained:
-    """Return the forest of a key: from its file, or made and put there.
+    """Return the forest of a key from its file; if there is none, train it and write the file.
 
-    A file that is damaged or of something else is replaced. Where nothing can be written, nothing
-    is kept.
+    A file that is damaged, or of another key, is replaced. If the file cannot be written, the
+    forest is returned all the same.
 
     Args:
-        folder: The cache folder; it is made if it is missing.
-        key: What ``key_of`` returns.
+        folder: The cache folder; it is created if it is missing.
+        key: The result of ``key_of``.
         make: Trains the forest.
     """
     path = path_of(folder, key)
@@ -79,7 +79,7 @@ def load_or_train(folder: Path, key: Key, make: Callable[[], Trained]) -> Traine
 
 
 def path_of(folder: Path, key: Key) -> Path:
-    """Return where the forest of a key is kept, or would be."""
+    """Return the path of the file of a key."""
     text = json.dumps([VERSION, key], sort_keys=True)
     return folder / f"{hashlib.sha256(text.encode()).hexdigest()[:32]}.forest"
 
@@ -106,7 +106,7 @@ def load(path: Path, key: Key) -> Trained:
 
 
 def _look(path: Path, key: Key) -> tuple[Trained | None, str | None]:
-    """Return the forest, or what is wrong with its file: nothing, if there is none."""
+    """Return the forest, or the fault of its file; both are None if there is no file."""
     try:
         return load(path, key), None
     except FileNotFoundError:
@@ -119,10 +119,13 @@ def _look(path: Path, key: Key) -> tuple[Trained | None, str | None]:
 
 def _saved(path: Path, key: Key, made: Trained) -> bool:
     """Return whether a forest could be written to its file."""
+    model = made.model
+    assert isinstance(model, FlatForest), "only forests have a file format"
+    data = {"nodes": model.nodes, "leaves": model.leaves, "roots": model.roots}
     arrays = Arrays()
     header = {
         "key": key, "classes": made.classes.tolist(), "training": asdict(made.training),
-        **{name: arrays.add(getattr(made.model, name), kind) for name, kind in _ARRAYS.items()},
+        **{name: arrays.add(data[name], kind) for name, kind in _ARRAYS.items()},
     }  # fmt: skip
     try:
         write_atomically(path, _FORMAT.encode(header, arrays))
@@ -133,7 +136,7 @@ def _saved(path: Path, key: Key, made: Trained) -> bool:
 
 @contextmanager
 def _alone(path: Path) -> Iterator[bool]:
-    """Keep others out who use the same lock file; the value is False where that is impossible."""
+    """Lock out other processes; the value is False where locks are impossible."""
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         lock = os.open(path, os.O_RDWR | os.O_CREAT, 0o666)

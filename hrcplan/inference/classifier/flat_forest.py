@@ -5,17 +5,40 @@ A row of a forest of 200 trees takes scikit-learn 10-25 ms, most of it for start
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hrcplan.core.arrays import Floats, Rows, SmallIds
+from hrcplan.core.arrays import Floats, Ids, Rows, SmallIds
 
 _LEVELS = 6  # that all trees are walked down before those that have ended are left out
 _WALKS = 1 << 15  # of a tree by a row, at once; more no longer fit into the processor's cache
 _NODE = 3  # numbers of a node: its feature, and where the nodes for 0 and for 1 begin
+
+
+class SklearnNodes(Protocol):
+    """The nodes of a scikit-learn tree: the children of leaves are negative."""
+
+    node_count: int
+    children_left: Ids
+    children_right: Ids
+    feature: Ids
+    value: Floats
+
+
+class SklearnTree(Protocol):
+    """A tree of a scikit-learn forest."""
+
+    tree_: SklearnNodes
+
+
+class SklearnForest(Protocol):
+    """A trained scikit-learn forest."""
+
+    estimators_: Sequence[SklearnTree]
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +59,7 @@ class FlatForest:
     roots: SmallIds
 
     @classmethod
-    def from_sklearn(cls, forest: Any) -> FlatForest:
+    def from_sklearn(cls, forest: SklearnForest) -> FlatForest:
         """Return a scikit-learn forest, flattened."""
         trees = [tree.tree_ for tree in forest.estimators_]
         is_leaf = np.concatenate([tree.children_left < 0 for tree in trees])
@@ -54,9 +77,10 @@ class FlatForest:
         nodes[: len(leaves), 1:] = _NODE * np.arange(len(leaves))[:, None]
         inner = nodes[len(leaves) :]
         inner[:, 0] = np.concatenate([tree.feature for tree in trees])[~is_leaf]
-        for column, side in ((1, "children_left"), (2, "children_right")):
-            child = [getattr(t, side) + root for t, root in zip(trees, first, strict=True)]
-            inner[:, column] = begin[np.concatenate(child)[~is_leaf]]
+        left = [tree.children_left + root for tree, root in zip(trees, first, strict=True)]
+        right = [tree.children_right + root for tree, root in zip(trees, first, strict=True)]
+        inner[:, 1] = begin[np.concatenate(left)[~is_leaf]]
+        inner[:, 2] = begin[np.concatenate(right)[~is_leaf]]
         return cls(nodes.ravel(), leaves, begin[first].astype(np.int32))
 
     def predict_proba(self, rows: Rows) -> Floats:

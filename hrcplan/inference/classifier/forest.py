@@ -1,7 +1,7 @@
-"""The paper's belief: a random forest over which steps were done, in no order.
+"""The belief of the changed-mind paper: a random forest over the set of done steps.
 
 Ghose et al. (RA-L 2025, IV-C). `hrcplan.inference.classifier.training` says how it is trained.
-Training takes minutes, so the forest is kept in the user's cache folder.
+Training takes minutes, so the forest is cached in the user's cache folder.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from hrcplan.inference.classifier.training import (
 )  # fmt: skip
 from hrcplan.inference.probabilities import weights_to_posteriors
 
-MAX_KNOWN = 4096  # rows whose posterior is remembered: someone who looks ahead asks again
+MAX_KNOWN = 4096  # rows whose posterior is remembered: look-ahead asks for them again
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,16 +43,16 @@ class ForestState:
 
 
 class ForestBelief:
-    """A classifier as a belief; both agents' steps are features, as in the paper.
+    """A classifier as a belief; both agents' steps are features, as in the changed-mind paper.
 
     Args:
         bank: The plans to sample from.
         seed: Of the samples and of the forest.
         n_samples: Sampled beginnings of plans, over all goals.
         n_trees: Trees of the forest.
-        classifier: Any other scikit-learn classifier; it is not kept.
+        classifier: Any other scikit-learn classifier; it is not cached.
         n_jobs: Processes that train; the forest is the same.
-        cache: The folder where the forest is kept, True for the user's; False: it is not kept.
+        cache: The cache folder; True for the user's, False for none.
 
     Raises:
         UsageError: if no goal has a plan.
@@ -84,12 +84,12 @@ class ForestBelief:
 
     @property
     def training(self) -> Training:
-        """What it was trained on, how long it took, and how often it is right."""
+        """Sample sizes, duration, and accuracy of the training."""
         return self._trained.training
 
     @property
     def note(self) -> str:
-        """What training took and reached, in words."""
+        """The training in words."""
         t, found = self.training, self._trained
         text = (
             f"trained on {t.n_train} beginnings of plans in {t.train_s:.0f} s"
@@ -103,7 +103,7 @@ class ForestBelief:
         return ForestState(self.bank.initial, np.zeros(self.n_labels, dtype=np.uint8))
 
     def observe(self, state: ForestState, step: int, *, robot: bool = False) -> ForestState:
-        """Return the belief after one more step, whoever did it."""
+        """Return the belief after one more step of either agent."""
         world = self.steps.successor(state.world, step)
         if world is None:
             return replace(state, ignored=IMPOSSIBLE)

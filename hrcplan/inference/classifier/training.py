@@ -1,4 +1,4 @@
-"""How the paper's classifier comes about: sampled beginnings of plans, and a random forest.
+"""Training of the forest of the changed-mind paper, from sampled beginnings of plans.
 
 Ghose et al. (RA-L 2025, IV-C): 200 trees, at least 2 samples in a leaf and 10 to split, 300,000
 sampled sequences of which a fifth is held out. A sequence is read as the beginning of a plan, of
@@ -9,14 +9,14 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Protocol, cast, runtime_checkable
 
 import numpy as np
 
 from hrcplan.bank import Bank
-from hrcplan.core.arrays import Ids, Rows
+from hrcplan.core.arrays import Floats, Ids, Rows
 from hrcplan.errors import UsageError
-from hrcplan.inference.classifier.flat_forest import FlatForest
+from hrcplan.inference.classifier.flat_forest import FlatForest, SklearnForest
 
 N_SAMPLES = 300_000
 N_TREES = 200
@@ -25,24 +25,31 @@ HELD_OUT = 0.2
 
 
 class Predictor(Protocol):
-    """What knows probabilities."""
+    """A trained classifier."""
 
-    def predict_proba(self, rows: Any) -> Any:
+    def predict_proba(self, rows: Rows) -> Floats:
         """Return a row of probabilities for each row of features, by class."""
         ...
 
 
 class Classifier(Predictor, Protocol):
-    """What scikit-learn calls a classifier with probabilities."""
+    """A classifier with probabilities, as in scikit-learn."""
 
-    def fit(self, rows: Any, goals: Any) -> Any:
+    def fit(self, rows: Rows, goals: Ids) -> object:
         """Learn goals from rows of features."""
         ...
 
 
+@runtime_checkable
+class HasClasses(Protocol):
+    """A trained classifier that says which goals it has seen; otherwise these are all goals."""
+
+    classes_: Ids
+
+
 @dataclass(frozen=True, slots=True)
 class Training:
-    """What a classifier was trained on, how long it took, and how often it is right."""
+    """The training of a classifier: sample sizes, duration, and accuracy on held-out samples."""
 
     n_train: int
     n_held_out: int
@@ -52,10 +59,10 @@ class Training:
 
 @dataclass(frozen=True, slots=True)
 class Trained:
-    """A classifier that has been trained.
+    """A trained classifier.
 
-    ``classes[c]`` is the goal of class ``c``. ``fault`` says what is wrong with the file in which
-    it should have been.
+    ``classes[c]`` is the goal of class ``c``. ``fault`` says why the file of the cache could not be
+    used; None if it could, or there was none.
     """
 
     model: Predictor
@@ -91,7 +98,7 @@ def prefixes(bank: Bank, n: int, rng: np.random.Generator) -> tuple[Rows, Ids]:
 
 
 def forest(seed: int, n_trees: int, n_jobs: int) -> Classifier:
-    """Return the paper's classifier, untrained."""
+    """Return the classifier of the changed-mind paper, untrained."""
     from sklearn.ensemble import RandomForestClassifier
 
     found: Classifier = RandomForestClassifier(
@@ -102,7 +109,7 @@ def forest(seed: int, n_trees: int, n_jobs: int) -> Classifier:
 
 
 def train(bank: Bank, seed: int, n_samples: int, classifier: Classifier) -> Trained:
-    """Return a classifier, trained on a bank and tried on what was held out; forests are flattened.
+    """Return a classifier, trained on a bank and tested on held-out samples; forests are flattened.
 
     Raises:
         UsageError: if no goal has a plan.
@@ -115,8 +122,11 @@ def train(bank: Bank, seed: int, n_samples: int, classifier: Classifier) -> Trai
     classifier.fit(rows[n_test:], goals[n_test:])
     train_s = time.monotonic() - began
     is_forest = isinstance(classifier, RandomForestClassifier)
-    model: Predictor = FlatForest.from_sklearn(classifier) if is_forest else classifier
-    classes = np.asarray(getattr(classifier, "classes_", np.arange(len(bank.names))))
+    model: Predictor = (
+        FlatForest.from_sklearn(cast(SklearnForest, classifier)) if is_forest else classifier
+    )
+    all_goals = np.arange(len(bank.names))
+    classes = np.asarray(classifier.classes_ if isinstance(classifier, HasClasses) else all_goals)
     right = classes[model.predict_proba(rows[:n_test]).argmax(axis=1)] == goals[:n_test]
     return Trained(
         model, classes, Training(len(rows) - n_test, n_test, train_s, float(right.mean()))
