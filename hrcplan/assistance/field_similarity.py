@@ -1,7 +1,8 @@
 """Recursive Bayes (Jain and Argall, THRI 2019) as the changed-mind paper compares with it (IV-D.1).
 
 Every step is a field over the goals: it attracts those that need it and repels the others. The
-robot does the step whose field is most like that of the human's last action; its belief is not used.
+robot does the step whose field is most like that of the human's last action; it does not use its
+belief.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from hrcplan.inference.belief import Belief
 from hrcplan.inference.recursive import Next, RecursiveBelief
 
 # Most right guesses, 70.4 %, of humans who change goals, with mistakes and without: the best of 44
-# settings on three randomly generated banks of 30 goals (tools/tune_changed_mind.py: stay .8 to .99,
+# settings on three random banks of 30 goals (tools/tune_changed_mind.py: stay .8 to .99,
 # Needed .001 to .3, Attractor 2 to 10, Next .001 to .3; 100 episodes for each bank and human). The
 # default of `RecursiveBelief` reaches 68.1 %; stay .7 with Next(.2), tried later, is as good.
 BEST_STAY, BEST_LIKELIHOOD = 0.8, Next(0.1)

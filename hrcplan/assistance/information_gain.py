@@ -2,8 +2,8 @@
 
 A tree of three steps: robot, human, robot. A branch is worth the bits of entropy that the belief
 loses between root and leaf, and ``alignment`` bits for each robot step that the likeliest goal has
-next; for each other one it is worth as much less. Sadigh et al. leave open how the two are weighted;
-it takes the best branch, whatever the chance that the human plays along, and so do we. The belief
+next; for each other one it is worth as much less. The weight is open in Sadigh et al. As there, the
+best branch is taken, however probable the human's response in it is. The belief
 is the forest on all steps done by either agent; the likeliest goal is that at the root.
 """
 

@@ -134,8 +134,8 @@ class ByPlans(Frontier):
 class CliqueChain(Frontier):
     """A human who works through a network of chains and cliques, and finishes what it has begun.
 
-    The changed-mind paper models its humans so (IV-B). The network is derived from the plans of the goal, and
-    orders some steps that plans leave open; what the robot does out of this order is simply done.
+    The model of the changed-mind paper (IV-B). The network is derived from the plans of the goal,
+    and orders some steps that plans leave open; steps of the robot may deviate from this order.
     """
 
     def choose(

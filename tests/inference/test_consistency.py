@@ -14,7 +14,7 @@ from hrcplan.assistance.rhp.consistency import Subset
 from hrcplan.assistance.rhp.sampled import Sampled
 from hrcplan.assistance.rhp.set_posterior import SetPosterior
 from hrcplan.assistance.rhp.subsequence import Subsequence
-from hrcplan.bank import Bank, BuildOptions, build, walk
+from hrcplan.bank import Bank, BuildOptions, build, multisets
 from hrcplan.core.bits import positions
 
 BANKS = ("workshop", "hall", "detours")
@@ -141,7 +141,7 @@ def test_goals_of_too_many_kinds_are_searched(data, bank, plans):
     """Without a list of kinds the answers are the same."""
     steps = data.draw(_histories(bank))
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(walk, "step_multisets", lambda graph: None)
+        patch.setattr(multisets, "step_multisets", lambda graph: None)
         searched = Subset(bank)
         seen = [searched.label[step] for step in steps]
         expected = _expected((searched, plans, _holds), seen)
@@ -155,8 +155,8 @@ def test_goals_of_too_many_kinds_are_searched(data, bank, plans):
 
 def test_unknown_counts_as_consistent(workshop):
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(walk, "is_subset", lambda graph, seen: None)
-        patch.setattr(walk, "step_multisets", lambda graph: None)
+        patch.setattr(multisets, "is_subset", lambda graph, seen: None)
+        patch.setattr(multisets, "step_multisets", lambda graph: None)
         subset = Subset(workshop)
         assert subset.goals(tuple(range(len(workshop.table)))) == subset.everything
 

@@ -40,7 +40,7 @@ class Consistency(Protocol):
     ) -> list[tuple[int, ...]]:
         """Return the first ``n`` parts of a history that are consistent with a goal.
 
-        See maximal_subsets.py for their order and the arguments; the latest step is the last of each.
+        See maximal_subsets.py for their order and the arguments; each ends with the latest step.
         """
         ...
 

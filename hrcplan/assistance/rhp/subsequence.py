@@ -44,7 +44,7 @@ class Ordered(ABC):
 
 
 class Subsequence(Ordered):
-    """The steps in their order, in any plan of the graphs: the definition of the changed-mind paper, exactly."""
+    """The steps in their order, in any plan of the graphs: the paper's exact definition."""
 
     def __init__(self, bank: Bank) -> None:
         super().__init__(bank)
