@@ -1,83 +1,118 @@
-"""A plan as a picture: one lane per agent, one bar per action."""
+"""A plan as a Gantt chart: one lane per agent, one bar per action."""
 
 from __future__ import annotations
 
-import io
-from typing import TYPE_CHECKING
+import math
+from collections.abc import Collection, Mapping, Sequence
+from typing import Any
 
+from hrcplan.core.numbers import number_text
 from hrcplan.pddl.model import Problem
-from hrcplan.plans import Plan, PlannedAction, lane, occupied
+from hrcplan.plans import Plan, lane, occupied
+from hrcplan.plots import style
+from hrcplan.plots.lanes import (
+    FONT_PT,
+    LANE_PT,
+    Bar,
+    colors,
+    draw_bars,
+    fits,
+    name_lanes,
+    width_pt,
+)
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
-# Okabe and Ito's colors: told apart by color-blind readers too.
-COLORS = ("#56B4E9", "#E69F00", "#009E73", "#F0E442", "#CC79A7", "#0072B2", "#D55E00", "#BBBBBB")
-_BAR = 0.62
-_CHARACTER_INCH = 0.075
+MIN_WIDTH, MAX_WIDTH = 7.0, 16.0  # inches: at most 2400 pixels
+_TOP_PT, _AXIS_PT, _SIDE_PT = 34.0, 44.0, 16.0
+_KEY_PT = 1.45 * FONT_PT  # height of a line of the legend
 
 
+@style.styled
 def draw(problem: Problem, plan: Plan, form: str) -> bytes:
-    """Return a Gantt chart as ``png`` or ``svg``; colors are by action name.
+    """Return a Gantt chart as a ``png`` or ``svg`` file, at most 2400 pixels wide.
+
+    All agents of the problem have a lane, also idle ones. A label that does not fit into its bar is
+    turned, or replaced by a number that a legend below explains.
 
     Args:
-        problem: Whose agents are the lanes, in the order in which they are declared.
+        problem: Its agents are the lanes, in the order of their declaration.
         plan: A schedule; an action without a duration lasts one unit.
         form: ``png`` or ``svg``.
     """
-    import matplotlib as mpl
-
-    mpl.use("Agg")
-    mpl.rcParams.update({"svg.hashsalt": "hrcplan", "font.size": 9})
     from matplotlib.figure import Figure
 
-    lanes = _lanes(problem, plan)
-    span = float(plan.makespan_s or 1)
-    figure = Figure(figsize=(_width(plan, span), 1.1 + 0.62 * len(lanes)), layout="constrained")
-    axes = figure.add_subplot()
-    names = sorted({a.name for a in plan.actions})
-    colors = {name: COLORS[i % len(COLORS)] for i, name in enumerate(names)}
-    for action in plan.actions:
-        _bar(axes, action, lanes.index(lane(action.args, problem) or ""), colors, _label(action))
-        for other in occupied(action, problem) & set(lanes) - {lane(action.args, problem)}:
-            _bar(axes, action, lanes.index(other), colors, f"({action.name})", alpha=0.45)
-    axes.set_yticks(range(len(lanes)), labels=[name or "no agent" for name in lanes])
-    axes.set_ylim(len(lanes) - 0.5, -0.5)
-    axes.set_xlim(0, span)
-    axes.set_xlabel("time (s)" if problem.domain.is_temporal else "steps")
-    axes.set_title(f"{problem.domain.name}/{problem.name}", loc="left", fontsize=10)
-    axes.spines[["top", "right", "left"]].set_visible(False)
-    axes.tick_params(axis="y", length=0)
-    buffer = io.BytesIO()
-    metadata = {"Date": None} if form == "svg" else {"Software": None}
-    figure.savefig(buffer, format=form, dpi=150, metadata=metadata)
-    return buffer.getvalue()
-
-
-def _bar(
-    axes: Axes, action: PlannedAction, row: int, colors: dict[str, str], text: str, alpha: float = 1
-) -> None:
-    start, length = float(action.start_s or 0), float(action.duration_s or 1)
-    axes.broken_barh(
-        [(start, length)], (row - _BAR / 2, _BAR), facecolor=colors[action.name], alpha=alpha,
-        edgecolor="white", linewidth=1.5,
-    )  # fmt: skip
-    axes.text(start + length / 2, row, text, ha="center", va="center", clip_on=True)
-
-
-def _width(plan: Plan, span: float) -> float:
-    """Return a width in inches at which every label fits into its bar."""
-    needed = (
-        max(map(len, _label(action).split("\n"))) * span / float(action.duration_s or 1)
-        for action in plan.actions
-    )
-    return min(40.0, max(7.0, 1.2 + max(needed, default=0) * _CHARACTER_INCH))
+    names = _lanes(problem, plan)
+    bars = [bar for action in plan.actions for bar in _bars(problem, action, names)]
+    end = max([float(plan.makespan_s or 0), *(bar.start + bar.length for bar in bars)]) or 1.0
+    left = max(width_pt(name or "no agent", 9) for name in names) + _SIDE_PT
+    width = 72 * _width(bars, end, left)
+    unit = (width - left - _SIDE_PT) / end
+    crowded = {bar.text for bar in bars if not bar.faint and not fits(bar, unit)}
+    columns, n_lines = _key_shape(crowded, width - left)
+    height = _TOP_PT + LANE_PT * len(names) + _AXIS_PT + _KEY_PT * n_lines
+    figure = Figure(figsize=(width / 72, height / 72))
+    bottom = _AXIS_PT + _KEY_PT * n_lines
+    axes = figure.add_axes((left / width, bottom / height, unit * end / width,
+                            LANE_PT * len(names) / height))  # fmt: skip
+    numbers = draw_bars(axes, bars, colors([a.name for a in plan.actions]), unit)
+    name_lanes(axes, names, end)
+    axes.set_xlabel("time (s)" if problem.domain.is_temporal else "time (steps)")
+    axes.set_title(f"{problem.domain.name}/{problem.name}, {_makespan(problem, plan)}")
+    _key(figure, numbers, columns, n_lines, left / width)
+    return style.file_bytes(figure, form)
 
 
 def _lanes(problem: Problem, plan: Plan) -> list[str]:
-    used = {lane(action.args, problem) or "" for action in plan.actions}
-    return [agent for agent in problem.agents if agent in used] + ([""] if "" in used else [])
+    """Return the names of the lanes; an empty name is that of actions without an agent."""
+    is_without = any(lane(action.args, problem) is None for action in plan.actions)
+    return [*problem.agents, *([""] if is_without or not problem.agents else [])]
 
 
-def _label(action: PlannedAction) -> str:
-    return "\n".join([action.name, " ".join(action.args[1:])]).strip()
+def _bars(problem: Problem, action: Any, names: Sequence[str]) -> list[Bar]:
+    """Return the bar of an action, and a faint one for each other agent that it keeps busy."""
+    agent = lane(action.args, problem) or ""
+    start, length = float(action.start_s or 0), float(action.duration_s or 1)
+    rest = list(action.args)
+    if agent:
+        rest.remove(agent)
+    others = sorted(occupied(action, problem) & set(names) - {agent})
+    return [
+        Bar(names.index(agent), start, length, action.name, " ".join(rest)),
+        *(Bar(names.index(other), start, length, action.name, faint=True) for other in others),
+    ]
+
+
+def _makespan(problem: Problem, plan: Plan) -> str:
+    if plan.makespan_s is None:
+        return f"{len(plan.actions)} actions"
+    unit = "s" if problem.domain.is_temporal else "steps"
+    return f"makespan {number_text(plan.makespan_s)} {unit}"
+
+
+def _width(bars: Sequence[Bar], end: float, left: float) -> float:
+    """Return a width in inches at which texts in two lines fit, as far as that is allowed."""
+    needed = (
+        (max(width_pt(bar.name), width_pt(bar.words)) + 6) * end / bar.length
+        for bar in bars
+        if bar.length and not bar.faint
+    )
+    width = (left + _SIDE_PT + max(needed, default=0.0)) / 72
+    return min(MAX_WIDTH, max(MIN_WIDTH, width))
+
+
+def _key_shape(texts: Collection[str], width: float) -> tuple[int, int]:
+    """Return the numbers of columns and lines of a legend for these texts."""
+    if not texts:
+        return 0, 0
+    widest = max(width_pt(f"00  {text}") for text in texts) + 14
+    columns = max(1, int(width // widest))
+    return columns, math.ceil(len(texts) / columns)
+
+
+def _key(figure: Any, numbers: Mapping[str, int], columns: int, n_lines: int, left: float) -> None:
+    """Write the texts of the numbers below the chart, column by column."""
+    height = figure.get_figheight() * 72
+    for text, number in numbers.items():
+        column, line = divmod(number - 1, n_lines)
+        x = left + column * (1 - left) / columns
+        y = (n_lines - line - 0.5) * _KEY_PT / height
+        figure.text(x, y, f"{number}  {text}", fontsize=FONT_PT, va="center")

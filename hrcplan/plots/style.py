@@ -1,4 +1,8 @@
-"""Plots as text: matplotlib figures in one style, turned into SVG that can stand in a page."""
+"""The one look of all plots: colors, settings, and figures as SVG text or as files.
+
+Settings hold only while a plot is drawn, and figures are made without pyplot: the caller's
+matplotlib settings and backend stay as they are.
+"""
 
 from __future__ import annotations
 
@@ -6,16 +10,22 @@ import functools
 import io
 import re
 from collections.abc import Callable
-from typing import Any, ParamSpec
+from typing import Any, ParamSpec, TypeVar
 
 P = ParamSpec("P")
+T = TypeVar("T")
 
-BLUE, ORANGE, GREEN, RED, PINK, GRAY = (
-    "#0072B2", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#8A97A5",
-)  # fmt: skip
+# The colors of Okabe and Ito, which color-blind readers can tell apart.
+BLUE, ORANGE, GREEN, RED = "#0072B2", "#E69F00", "#009E73", "#D55E00"
+PINK, SKY, MINT, GRAY = "#CC79A7", "#56B4E9", "#86CFB8", "#8A97A5"
 INK, SOFT, LINE = "#1c2733", "#5b6b7b", "#dde3ea"
+LINES = (BLUE, ORANGE, GREEN, RED, PINK, SKY, "#8A6D3B", "#6A4C93")
+"""Colors of lines and dots, in their order."""
+FILLS = ("#8CC8EC", "#F2C46D", "#7CCBB1", "#E6B3CF", "#F3EC8B", "#A9C1E8", "#EDA583", "#C9CED4")
+"""The same colors, lighter, for areas that carry dark text."""
+DPI = 150
 _STYLE = {
-    "svg.fonttype": "none",
+    "svg.hashsalt": "hrcplan",
     "font.family": "DejaVu Sans",
     "font.size": 9,
     "text.color": INK,
@@ -37,14 +47,13 @@ _STYLE = {
 _ID = re.compile(r' id="([^"]+)"')
 
 
-def styled(draw: Callable[P, str]) -> Callable[P, str]:
-    """Return a function that draws in the style of all our plots."""
+def styled(draw: Callable[P, T]) -> Callable[P, T]:
+    """Return a function that draws in the style of all plots."""
 
     @functools.wraps(draw)
-    def drawn(*args: P.args, **options: P.kwargs) -> str:
+    def drawn(*args: P.args, **options: P.kwargs) -> T:
         import matplotlib as mpl
 
-        mpl.use("Agg")
         with mpl.rc_context(_STYLE):  # type: ignore[arg-type]
             return draw(*args, **options)
 
@@ -55,20 +64,31 @@ def figure(columns: int, rows: int, width: float, height: float, **options: Any)
     """Return a figure of ``width`` by ``height`` inches, and its axes as a 2-d array."""
     from matplotlib.figure import Figure
 
-    made = Figure(figsize=(width, height), layout="constrained")
-    return made, made.subplots(rows, columns, squeeze=False, **options)
+    drawing = Figure(figsize=(width, height), layout="constrained")
+    return drawing, drawing.subplots(rows, columns, squeeze=False, **options)
 
 
-def svg(made: Any, name: str, label: str) -> str:
-    """Return a figure as an ``svg`` element; equal figures give equal text.
+def file_bytes(drawing: Any, form: str) -> bytes:
+    """Return a figure as a ``png`` or ``svg`` file; equal figures give equal bytes."""
+    buffer = io.BytesIO()
+    metadata = {"Date": None} if form == "svg" else {"Software": None}
+    drawing.savefig(buffer, format=form, dpi=DPI, metadata=metadata)
+    return buffer.getvalue()
 
-    ``name`` keeps the inner names of several figures in one page apart; ``label`` is read out.
+
+def svg(drawing: Any, name: str, label: str) -> str:
+    """Return a figure as an ``svg`` element of a page; equal figures give equal text.
+
+    Args:
+        drawing: The figure.
+        name: Unique in the page: inner names are derived from it.
+        label: A description for screen readers.
     """
     import matplotlib as mpl
 
     buffer = io.StringIO()
-    with mpl.rc_context({"svg.hashsalt": name}):
-        made.savefig(buffer, format="svg", metadata={"Date": None, "Creator": None})
+    with mpl.rc_context({"svg.hashsalt": name, "svg.fonttype": "none"}):
+        drawing.savefig(buffer, format="svg", metadata={"Date": None, "Creator": None})
     text = buffer.getvalue()
     text = re.sub(r"<metadata>.*?</metadata>", "", text[text.index("<svg") :], flags=re.DOTALL)
     text = _without_idle_names(text).replace("'DejaVu Sans'", "DejaVu Sans, Verdana, sans-serif")
@@ -76,13 +96,13 @@ def svg(made: Any, name: str, label: str) -> str:
 
 
 def _without_idle_names(text: str) -> str:
-    """Drop the names that nothing refers to: a page may not hold one name twice."""
+    """Remove ids that nothing refers to: ids are unique in a page."""
     used = set(re.findall(r'(?:url\(#|href="#)([^")]+)', text))
     return _ID.sub(lambda match: match[0] if match[1] in used else "", text)
 
 
 def bare(axes: Any, grid: str = "x") -> None:
-    """Take frame and ticks off axes, and put a light grid behind what is drawn."""
+    """Remove frame and ticks from axes, and draw a light grid in the background."""
     axes.spines[["left" if grid == "x" else "bottom"]].set_visible(False)
     axes.tick_params(length=0)
     axes.grid(axis=grid, linewidth=0.8)

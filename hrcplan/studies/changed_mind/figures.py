@@ -13,10 +13,10 @@ from hrcplan.studies.estimate import CONFIDENT
 from hrcplan.studies.page import keys
 
 COLORS = {
-    "rhp": plots.ORANGE, "recursive": "#86cfb8", "recursive-best": plots.GREEN,
+    "rhp": plots.ORANGE, "recursive": plots.MINT, "recursive-best": plots.GREEN,
     "cdp": plots.RED, "infogain": plots.PINK, "hrcplan": plots.BLUE, "oracle": plots.GRAY,
 }  # fmt: skip
-_OTHERS = ("#6a4c93", "#8a6d3b", "#56b4e9", "#3d5a5a")
+_OTHERS = ("#6a4c93", "#8A6D3B", "#3d5a5a", "#B8A500")
 BOUNDS = {"cdp": "line", "infogain": "dashed", "oracle": "dotted"}
 """Methods that are drawn as lines behind the others, as the paper draws its two bounds."""
 _LINES = {"line": "-", "dashed": (0, (4, 2)), "dotted": (0, (1, 1.5))}

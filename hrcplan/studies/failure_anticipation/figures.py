@@ -7,6 +7,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from hrcplan.agents.state import MOST
+from hrcplan.core.text import plural
+from hrcplan.plots import lanes as charts
 from hrcplan.plots import style as plots
 from hrcplan.studies.estimate import CONFIDENT, estimate
 from hrcplan.studies.failure_anticipation.claims import BASELINE
@@ -19,7 +21,7 @@ _REASONS = (
     ("replans_failure", "an action failed", plots.RED),
     ("replans_deviation", "the world deviated", plots.ORANGE),
 )
-_ACTION_COLORS = ("#7fb8da", "#f3c969", "#7cc7ae", "#d9a5c4", "#c8b273", "#a7b7e0", "#e2a184")
+_WIDTH = 11.5  # inches: as wide as the page
 
 
 @plots.styled
@@ -31,7 +33,7 @@ def measures(
     """Return a dot per cell and measure with 95 % intervals; diamonds are printed figures."""
     cells = [cell for cell, rows in by_cell.items() if rows]
     height = 0.9 + 0.27 * len(cells)
-    figure, grid = plots.figure(len(names), 1, 11.5, height, sharey=True)
+    figure, grid = plots.figure(len(names), 1, _WIDTH, height, sharey=True)
     places = _places(cells)
     for axes, measure in zip(grid[0], names, strict=True):
         for cell, y in zip(cells, places, strict=True):
@@ -65,7 +67,7 @@ def _places(cells: Sequence[Cell]) -> list[float]:
 def reasons(by_cell: Mapping[Cell, Sequence[StudyRow]]) -> str:
     """Return bars of the mean number of replans, split by what they were for."""
     cells = [cell for cell, rows in by_cell.items() if rows]
-    figure, grid = plots.figure(1, 1, 11.5, 1.1 + 0.25 * len(cells))
+    figure, grid = plots.figure(1, 1, _WIDTH, 1.1 + 0.25 * len(cells))
     axes, places = grid[0][0], _places(cells)
     left = [0.0] * len(cells)
     for name, label, color in _REASONS:
@@ -87,7 +89,7 @@ def allocation(rows: Sequence[StudyRow], element: str) -> str:
     """Return shares of human and robot in the new plan against the value, a panel per profile."""
     profiles = list(dict.fromkeys(str(row["profile"]) for row in rows))
     profiles.sort(key=lambda name: name != BASELINE)
-    figure, grid = plots.figure(max(1, len(profiles)), 1, 11.5, 3.9, sharey=True)
+    figure, grid = plots.figure(max(1, len(profiles)), 1, _WIDTH, 3.9, sharey=True)
     for axes, profile in zip(grid[0], profiles, strict=False):
         points = [row for row in rows if row["profile"] == profile]
         _shares(axes, points)
@@ -130,7 +132,7 @@ def _shares(axes: Any, points: Sequence[StudyRow]) -> None:
 def levels(lines: Mapping[str, Sequence[StudyRow]], names: Sequence[str]) -> str:
     """Return measures against the value that was drawn; a line per name, one panel per measure."""
     colors = (plots.GRAY, plots.BLUE, plots.GREEN, plots.ORANGE)
-    figure, grid = plots.figure(len(names), 1, 11.5, 2.9)
+    figure, grid = plots.figure(len(names), 1, _WIDTH, 2.9)
     for axes, measure in zip(grid[0], names, strict=True):
         for color, (name, rows) in zip(colors, lines.items(), strict=False):
             values = sorted({float(row["value"] or 0) for row in rows})
@@ -154,7 +156,7 @@ def sweeps(by_cell: Mapping[Cell, Sequence[StudyRow]], names: Sequence[str]) -> 
     """Return measures against each swept parameter: a column per parameter, a row per measure."""
     parameters = list(dict.fromkeys(str(parameter) for parameter, _ in by_cell))
     figure, grid = plots.figure(
-        len(parameters), len(names), 11.5, 0.6 + 1.7 * len(names), sharex="col", sharey="row"
+        len(parameters), len(names), _WIDTH, 0.6 + 1.7 * len(names), sharex="col", sharey="row"
     )
     for column, parameter in enumerate(parameters):
         cells = sorted((float(v), rows) for (name, v), rows in by_cell.items() if name == parameter)
@@ -176,39 +178,26 @@ def lanes(rows: Sequence[StudyRow]) -> str:
     """Return one Gantt chart per variant of the example: what was carried out, lane by lane."""
     films = [(row, json.loads(str(row["bars"])), json.loads(str(row["plans"]))) for row in rows]
     agents = list(dict.fromkeys(bar["agent"] for _, bars, _ in films for bar in bars))
-    names = list(dict.fromkeys(bar["action"] for _, bars, _ in films for bar in bars))
-    colors = {name: _ACTION_COLORS[i % len(_ACTION_COLORS)] for i, name in enumerate(names)}
-    figure, grid = plots.figure(1, len(films), 11.5, 0.5 + 1.6 * len(films), sharex=True)
+    color_of = charts.colors([bar["action"] for _, bars, _ in films for bar in bars])
     end_s = max((bar["end_s"] for _, bars, _ in films for bar in bars), default=1.0)
+    height = charts.LANE_PT * len(agents) / 72 + 0.55
+    figure, grid = plots.figure(1, len(films), _WIDTH, 0.5 + height * len(films), sharex=True)
     for (axes,), (row, bars, plans) in zip(grid, films, strict=True):
-        for bar in bars:
-            _bar(axes, bar, agents.index(bar["agent"]), colors[bar["action"]])
+        drawn = [_bar(bar, agents) for bar in bars]
+        charts.draw_bars(axes, drawn, color_of, 72 * (_WIDTH - 1.0) / end_s)
         for plan in plans[1:]:
             axes.axvline(plan["t"], color=plots.INK, linewidth=1, linestyle=(0, (2, 2)))
             axes.text(plan["t"] + end_s / 400, -0.62, "replan", fontsize=7, color=plots.SOFT)
-        end = f"{row['ending']}, {_times(int(row['replans'] or 0))}"
+        end = f"{row['ending']}, {plural(int(row['replans'] or 0), 'replan')}"
         axes.set_title(f"{row['variant']}: {end}", pad=14)
-        axes.set_yticks(range(len(agents)), labels=[agent or "no agent" for agent in agents])
-        axes.set_ylim(len(agents) - 0.5, -0.5)
-        axes.set_xlim(0, end_s)
-        plots.bare(axes)
+        charts.name_lanes(axes, agents, end_s)
     grid[-1][0].set_xlabel("time (s)")
     figure.get_layout_engine().set(hspace=0.12)
-    return plots.svg(figure, "lanes", "The illustrative example, as carried out")
+    return plots.svg(figure, "lanes", "One change of the human's state, as carried out")
 
 
-def _bar(axes: Any, bar: Mapping[str, Any], y: int, color: str) -> None:
-    start, length = bar["start_s"], bar["end_s"] - bar["start_s"]
-    failed = bar["outcome"] == "failed"
-    axes.broken_barh([(start, length)], (y - 0.36, 0.72), facecolor="white" if failed else color,
-                     edgecolor=plots.RED if failed else "white", linewidth=1.2,
-                     hatch="////" if failed else None)  # fmt: skip
-    words = " ".join(bar["args"])
-    label = f"{bar['action']}\n{words}" + ("\nfailed" if failed else "")
-    box = {"facecolor": "white", "edgecolor": "none", "pad": 0.8} if failed else None
-    axes.text(start + length / 2, y, label, ha="center", va="center", fontsize=7, bbox=box,
-              color=plots.RED if failed else plots.INK, linespacing=1.1)  # fmt: skip
-
-
-def _times(n: int) -> str:
-    return "1 replan" if n == 1 else f"{n} replans"
+def _bar(bar: Mapping[str, Any], agents: Sequence[str]) -> charts.Bar:
+    return charts.Bar(
+        agents.index(bar["agent"]), bar["start_s"], bar["end_s"] - bar["start_s"], bar["action"],
+        " ".join(bar["args"]), failed=bar["outcome"] == "failed",
+    )  # fmt: skip
