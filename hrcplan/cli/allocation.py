@@ -7,10 +7,19 @@ from typing import Any
 
 import rich_click as click
 
-from hrcplan.cli import output
+from hrcplan.cli import options, output
 
 
-@click.command("allocation")
+@click.command(
+    "allocation",
+    cls=options.SettingsCommand,
+    epilog=options.notes(
+        options.NAMES,
+        'ELEMENT: a function of an agent in quotes, as in "motivation human".',
+        options.PLANNER,
+        options.SETTING,
+    ),
+)
 @click.argument("names", nargs=-1, required=True, metavar="DOMAIN PROBLEM ELEMENT")
 @click.option(
     "--range",
@@ -18,30 +27,11 @@ from hrcplan.cli import output
     nargs=2,
     type=float,
     metavar="LEAST MOST",
-    help="Values to look at; 0 10, or what the domain notes as the function's range.",
+    help="The values of ELEMENT to examine; by default the range in the domain file, else 0 10.",
 )
-@click.option(
-    "--planner",
-    default="auto",
-    show_default=True,
-    metavar="NAME",
-    help="The diagram is exact if it proves that its plans are optimal.",
-)
-@click.option(
-    "--timeout",
-    type=click.FloatRange(0, min_open=True),
-    default=60.0,
-    show_default=True,
-    metavar="S",
-    help="Seconds for each plan.",
-)
-@click.option(
-    "--set",
-    "settings",
-    multiple=True,
-    metavar="'F OBJ…=N'",
-    help="Change a value of the initial state, as in 'motivation human=8'.",
-)
+@options.planner("Which planner to ask; the result is exact if its plans are proven.")
+@options.timeout("Seconds for each plan.", 60.0)
+@options.settings
 @output.common_options
 def command(
     names: tuple[str, ...],
@@ -50,11 +40,11 @@ def command(
     timeout: float,
     settings: tuple[str, ...],
 ) -> int:
-    """Say who does what for every value of ELEMENT, such as 'motivation human'.
+    """Show which agent does how much in the best plan, for every value of ELEMENT.
 
-    The values at which the best allocation flips are computed exactly where plans are proven to be
-    optimal, and so is how far the value may move before another allocation is better. Where a proof
-    is out of reach the diagram is approximate, and says so.
+    The values at which another allocation becomes best are computed exactly where plans are proven
+    to be optimal, and so is the distance of the present value from the next one. Where a proof is
+    out of reach the diagram is approximate, and says so.
     """
     from hrcplan.cli.arguments import problem_of, split_names
     from hrcplan.core.numbers import exact
@@ -112,9 +102,7 @@ def as_text(found: Any, title: str) -> str:
         ]
         for piece in found.pieces
     ]
-    widths = [max(len(row[i]) for row in [head, *rows]) for i in range(len(head))]
-    lines = ["  ".join(cell.ljust(w) for cell, w in zip(row, widths, strict=True)).rstrip()
-             for row in (head, ["─" * w for w in widths], *rows)]  # fmt: skip
+    lines = output.columns([head, output.rule([head, *rows]), *rows])
     mark = "" if found.is_proven else " (approximate: not all plans are proven to be the best)"
     return "\n".join([f"{title}: who does how much{mark}", "", *(f"  {x}" for x in lines), "",
                       _in_words(found)])  # fmt: skip

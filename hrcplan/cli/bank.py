@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
-from hrcplan.cli import output
+from hrcplan.cli import options, output
 from hrcplan.core.files import check_target
 from hrcplan.core.numbers import fraction_of, int_text
 
@@ -36,34 +36,47 @@ def command() -> None:
     """Policy banks: every valid plan of every goal, counted exactly."""
 
 
-@command.command("build")
+@command.command(
+    "build",
+    epilog=options.notes(
+        "DOMAIN: a path, or the name of a shipped domain.",
+        options.GOALS,
+        "Q: a factor of at least 1, as in 1.2.",
+    ),
+)
 @click.argument("domain", metavar="DOMAIN")
 @click.argument("goals", required=False, metavar="[GOALS]")
-@click.option("--goal", "only", multiple=True, metavar="NAME", help="Only this goal; repeatable.")
+@click.option(
+    "--goal",
+    "only",
+    multiple=True,
+    metavar="NAME",
+    help="Build only this goal; repeatable. By default all goals.",
+)
 @click.option(
     "--quality",
     type=_Factor(),
     metavar="Q",
-    help="All sequences up to Q times the optimal cost, not only optimal plans.",
+    help="Include all plans that cost up to Q times the optimum; by default 1.",
 )
 @click.option(
     "--alternatives",
     type=_Factor(),
     metavar="Q",
-    help="Plans up to Q times the optimal cost of which no step can be dropped.",
+    help="Include plans that cost up to Q times the optimum and need each of their steps.",
 )
 @click.option(
     "--sample",
     type=click.IntRange(min=1),
     metavar="N",
-    help="Build from N optimal plans that K* lists, where the whole does not fit.",
+    help="Include N optimal plans that the planner K* lists, if the whole does not fit.",
 )
 @click.option(
     "--bank-cost",
     type=click.Choice(["steps", "task"]),
     default="steps",
     show_default=True,
-    help="What plans are optimal in: steps, or the task's cost.",
+    help="The cost of a plan: its number of steps, or the cost of the task.",
 )
 @click.option(
     "--memory",
@@ -71,14 +84,9 @@ def command() -> None:
     default=2048,
     show_default=True,
     metavar="MIB",
-    help="MiB that the arrays of one goal may need.",
+    help="Memory limit for the arrays of one goal, in MiB.",
 )
-@click.option(
-    "--timeout",
-    type=click.FloatRange(0, min_open=True),
-    metavar="S",
-    help="Seconds for all goals together; no limit if not given.",
-)
+@options.timeout("Seconds for all goals together; by default no limit.", None)
 @click.option(
     "-o",
     "--output",
@@ -86,7 +94,7 @@ def command() -> None:
     required=True,
     metavar="BANK",
     type=click.Path(path_type=Path),
-    help="The file to write.",
+    help="Write the bank to this file.",
 )
 @output.common_options
 def build(
@@ -101,11 +109,7 @@ def build(
     timeout: float | None,
     target: Path,
 ) -> int:
-    """Build the bank of the problems in GOALS, or of DOMAIN's shipped problems.
-
-    GOALS is a folder of problem files with the same objects and init, or a folder with
-    template.pddl and hyps.dat.
-    """
+    """Build the policy bank of all GOALS: their valid plans as graphs of states."""
     from hrcplan.bank import BuildOptions, build_bank, save
 
     check_target(target)
@@ -132,7 +136,10 @@ def _say(graph: PlanGraph) -> None:
 @command.command("show")
 @click.argument("bank", metavar="BANK")
 @click.option(
-    "--htn", "goal", metavar="GOAL", help="The plans of this goal as a tree of chains and cliques."
+    "--htn",
+    "goal",
+    metavar="GOAL",
+    help="Show the plans of this goal as a tree of chains and cliques.",
 )
 @output.common_options
 def show(bank: str, goal: str | None) -> int:
@@ -171,21 +178,14 @@ def _print_htn(bank: Bank, goal: str) -> None:
     default=1,
     show_default=True,
     metavar="N",
-    help="How many plans.",
+    help="Number of plans.",
 )
-@click.option(
-    "--seed",
-    type=click.IntRange(min=0),
-    default=0,
-    show_default=True,
-    metavar="N",
-    help="Where chance begins.",
-)
-@click.option("--loop-free", is_flag=True, help="Only plans that meet no state twice.")
-@click.option("--irredundant", is_flag=True, help="Only plans of which no step can be dropped.")
+@options.seed()
+@click.option("--loop-free", is_flag=True, help="Only plans that visit no state twice.")
+@click.option("--irredundant", is_flag=True, help="Only plans that need each of their steps.")
 @output.common_options
 def sample(bank: str, goal: str, n: int, seed: int, loop_free: bool, irredundant: bool) -> int:
-    """Draw plans of a GOAL uniformly from a BANK and print them in IPC format."""
+    """Draw plans of a GOAL from a BANK, each with equal probability; print them in IPC format."""
     import numpy as np
 
     from hrcplan.bank import load
@@ -215,7 +215,10 @@ def sample(bank: str, goal: str, n: int, seed: int, loop_free: bool, irredundant
 @click.argument("bank", metavar="BANK")
 @output.common_options
 def verify(bank: str) -> int:
-    """Check a BANK: file, checksum, PDDL it came from, every node and edge; exit 1 if not sound."""
+    """Check the checksum, the PDDL, every node and every edge of a BANK.
+
+    The exit code is 1 if the bank is corrupt.
+    """
     from hrcplan.bank import find_fault
 
     fault = find_fault(bank)
@@ -270,16 +273,7 @@ def _table(bank: Bank) -> str:
         ]
         for g in bank.graphs
     ]
-    widths = [max(len(row[i]) for row in [head, *rows]) for i in range(len(head))]
-    lines = [
-        "  ".join(
-            [
-                row[0].ljust(widths[0]),
-                *(c.rjust(w) for c, w in zip(row[1:], widths[1:], strict=True)),
-            ]
-        )
-        for row in [head, *rows]
-    ]
+    lines = output.columns([head, *rows], right=range(1, len(head)))
     agents = "dropped: plans are sequences of steps" if bank.agents == "dropped" else "kept"
     total = sum(graph.n_nodes for graph in bank.graphs)
     title = f"{bank.goals.problem.domain.name}: {len(bank.graphs)} goals, agents {agents}"

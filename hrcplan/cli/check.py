@@ -14,10 +14,17 @@ if TYPE_CHECKING:
 
 @click.command("check")
 @click.argument("files", nargs=-1, required=True, metavar="FILE...")
-@click.option("--strict", is_flag=True, help="Exit 3 for warnings too, gaps in values aside.")
+@click.option(
+    "--strict",
+    is_flag=True,
+    help="Exit with code 3 for warnings too, except for missing initial values.",
+)
 @output.common_options
 def command(files: tuple[str, ...], strict: bool) -> int:
-    """Report every fault of domain and problem FILEs; exit 3 if any is an error."""
+    """Report every fault of domain and problem FILEs, with line and column.
+
+    The exit code is 3 if any fault is an error.
+    """
     from hrcplan.pddl.check import check
 
     report = check(files)

@@ -18,7 +18,10 @@ PACKAGES = ("unified-planning", "up-fast-downward", "up-enhsp", "kairos-planner"
 @click.command("doctor")
 @output.common_options
 def command() -> int:
-    """Say what is installed and what to install; exit 5 if a planner of ours cannot run."""
+    """Show versions, Java and planners, and what to install.
+
+    The exit code is 5 if a built-in planner cannot run.
+    """
     from hrcplan.planners import registry
 
     planners = {name: registry.make(name).missing() for name in registry.names()}

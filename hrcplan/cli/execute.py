@@ -6,7 +6,7 @@ from pathlib import Path
 
 import rich_click as click
 
-from hrcplan.cli import output
+from hrcplan.cli import options, output
 
 HELP = """Carry out DOMAIN PROBLEM with a simulated human, and replan before actions fail.
 
@@ -37,7 +37,12 @@ HELP = """Carry out DOMAIN PROBLEM with a simulated human, and replan before act
 """
 
 
-@click.command("execute", help=HELP)
+@click.command(
+    "execute",
+    cls=options.SettingsCommand,
+    help=HELP,
+    epilog=options.notes(options.NAMES, options.SETTING, options.PLANNER),
+)
 @click.argument("names", nargs=-1, required=True, metavar="DOMAIN PROBLEM")
 @click.option(
     "--profile",
@@ -61,21 +66,8 @@ HELP = """Carry out DOMAIN PROBLEM with a simulated human, and replan before act
     metavar="NAME",
     help="Where actions are carried out: simulated, an installed world, or module:Class.",
 )
-@click.option(
-    "--planner",
-    default="auto",
-    show_default=True,
-    metavar="NAME",
-    help="Asked first; another one takes over if it fails.",
-)
-@click.option(
-    "--timeout",
-    type=click.FloatRange(0, min_open=True),
-    default=20.0,
-    show_default=True,
-    metavar="S",
-    help="Seconds per plan.",
-)
+@options.planner("Which planner to ask first; if it fails, others are asked.")
+@options.timeout("Seconds for each plan.", 20.0)
 @click.option("--no-model", is_flag=True, help="Do not use sensed values.")
 @click.option(
     "--change",
@@ -84,13 +76,7 @@ HELP = """Carry out DOMAIN PROBLEM with a simulated human, and replan before act
     metavar="CHANGE",
     help="A value or fact changes at a time, as in 'motivation human=9@0': see above.",
 )
-@click.option(
-    "--set",
-    "settings",
-    multiple=True,
-    metavar="SETTING",
-    help="Change a value of the initial state, as in 'motivation human=8'.",
-)
+@options.settings
 @click.option(
     "--replan-limit",
     type=click.IntRange(0),
@@ -98,7 +84,7 @@ HELP = """Carry out DOMAIN PROBLEM with a simulated human, and replan before act
     metavar="N",
     help="Replans per run, instead of the number in the profile.",
 )
-@click.option("--seed", type=int, default=1, show_default=True, help="Random seed.")
+@options.seed("Random seed of the simulated human.", 1, least=None)
 @click.option(
     "--journal",
     type=click.Path(path_type=Path),

@@ -1,4 +1,4 @@
-"""``hrcplan infer``: what someone is after, from what they did."""
+"""``hrcplan infer``: the goal of a human, inferred from observed actions."""
 
 from __future__ import annotations
 
@@ -7,9 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
-from hrcplan.cli import output
-from hrcplan.core.files import check_target
-from hrcplan.errors import UsageError
+from hrcplan.cli import options, output
 
 if TYPE_CHECKING:
     from hrcplan.inference import Inference
@@ -18,40 +16,43 @@ N_SHOWN = 3
 MAX_NAME = 28
 
 
-@click.command("infer")
+@click.command(
+    "infer",
+    epilog=options.notes(
+        "SOURCE: a bank (see 'hrcplan bank build'), or a folder with domain.pddl, template.pddl "
+        "and hyps.dat.",
+        'ACTIONS: a file with one ground action per line, as in "(get human pan)"; by default '
+        "obs.dat in the folder SOURCE.",
+        "METHOD: exact, switching, forest or recursive (for a bank), cost (for a folder), or "
+        "module:Class.",
+    ),
+)
 @click.argument("source", metavar="SOURCE")
 @click.argument("actions", required=False, metavar="[ACTIONS]")
-@click.option("--method", metavar="NAME",
-              help="exact, switching, forest, recursive, cost, or module:Class.")  # fmt: skip
-@click.option("--timeout", type=click.FloatRange(0, min_open=True), default=25.0,
-              show_default=True, metavar="S",
-              help="Seconds for the distances of method cost; then it estimates.")  # fmt: skip
-@click.option("--seed", type=int, default=0, show_default=True, help="Of method forest.")
-@click.option("--plot", type=click.Path(path_type=Path), metavar="FILE",
-              help="Draw the posterior into a .png or .svg file.")  # fmt: skip
+@click.option("--method", metavar="METHOD",
+              help="How to infer; by default switching for a bank, cost for a folder.")  # fmt: skip
+@options.timeout("Method cost: seconds for exact distances; after that they are estimated.", 25.0)
+@options.seed("Method forest: random seed of its training.")
+@options.picture("--plot", "Draw the posterior of the goals.")
 @output.common_options
 def command(
     source: str, actions: str | None, method: str | None, timeout: float, seed: int,
     plot: Path | None,
 ) -> int:  # fmt: skip
-    """Infer the goal from ACTIONS, one a line.
-
-    SOURCE is a bank (`hrcplan bank build`), or a folder with domain.pddl, template.pddl and
-    hyps.dat, whose obs.dat is then the default ACTIONS.
-    """
+    """Infer the human's goal from the observed ACTIONS, step by step, and where it changed."""
     from hrcplan.inference import infer
 
-    _check_target(plot, source, *([] if actions is None else [actions]))
-    options: dict[str, Any] = {
+    options.check_picture(plot, "--plot", source, *([] if actions is None else [actions]))
+    method_options: dict[str, Any] = {
         "cost": {"timeout_s": timeout},
         "forest": {"seed": seed, "n_jobs": -1},
     }
     name = method or _default(source)
-    found = infer(source, actions, name, **options.get(name, {}))
+    found = infer(source, actions, name, **method_options.get(name, {}))
     if plot is not None:
         from hrcplan.plots.posterior import draw
 
-        output.write_atomically(plot, draw(found, plot.suffix[1:].lower()))
+        output.write_atomically(plot, draw(found, options.picture_form(plot)))
     if output.JSON:
         output.document(found.as_json())
     else:
@@ -63,14 +64,6 @@ def _default(source: str) -> str:
     from hrcplan.inference.registry import BANK_METHOD, GOALS_METHOD
 
     return GOALS_METHOD if Path(source).is_dir() else BANK_METHOD
-
-
-def _check_target(plot: Path | None, *inputs: str) -> None:
-    if plot is None:
-        return
-    if plot.suffix.lower() not in (".png", ".svg"):
-        raise UsageError(f"--plot writes .png or .svg, not '{plot.suffix}'", path=str(plot))
-    check_target(plot, *inputs)
 
 
 def as_text(found: Inference) -> str:

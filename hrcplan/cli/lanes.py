@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from hrcplan.cli import output
 from hrcplan.cli.output import number
 from hrcplan.core.numbers import Number, number_text
 from hrcplan.pddl.model import Problem
@@ -135,10 +136,11 @@ def _table(problem: Problem, plan: Plan) -> list[str]:
         else:
             row.update(cells)
     head = "step" if not plan.is_schedule else "time (s)" if problem.domain.is_temporal else "time"
-    table = [[head, *lanes]] + [[when, *(row.get(a, "") for a in lanes)] for when, row in rows]
-    widths = [max(len(line[i]) for line in table) for i in range(len(lanes) + 1)]
-    rule = ["─" * width for width in widths]
-    return [_line(line, widths) for line in (table[0], rule, *table[1:])]
+    width = max(len(text) for text in (head, *(when for when, _ in rows)))
+    table = [[head, *lanes]] + [
+        [when.rjust(width), *(row.get(a, "") for a in lanes)] for when, row in rows
+    ]
+    return [f"  {line}" for line in output.columns([table[0], output.rule(table), *table[1:]])]
 
 
 def _cells(action: PlannedAction, problem: Problem) -> dict[str, str]:
@@ -157,9 +159,3 @@ def _cell(action: PlannedAction, agent: str) -> str:
     if agent:
         rest.remove(agent)
     return " ".join([action.name, *rest])
-
-
-def _line(cells: list[str], widths: list[int]) -> str:
-    first = cells[0].rjust(widths[0]) if cells[0][:1].isdigit() else cells[0].ljust(widths[0])
-    rest = [cell.ljust(width) for cell, width in zip(cells[1:], widths[1:], strict=True)]
-    return "  ".join(["", first, *rest]).rstrip()

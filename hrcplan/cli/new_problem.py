@@ -8,46 +8,42 @@ from pathlib import Path
 
 import rich_click as click
 
-from hrcplan.cli import output
+from hrcplan.cli import options, output
 from hrcplan.core.files import check_target
 from hrcplan.errors import UsageError
 from hrcplan.pddl.model import Problem
 
 
-@click.command("new-problem")
+@click.command(
+    "new-problem",
+    cls=options.SettingsCommand,
+    epilog=options.notes("DOMAIN, PROBLEM: paths, or the names of shipped files.", options.SETTING),
+)
 @click.argument("domain", metavar="DOMAIN")
-@click.option("--from", "origin", required=True, metavar="PROBLEM", help="Problem to start from.")
-@click.option("--goal", metavar="'(and …)'", help="The new goal, in PDDL.")
-@click.option("--vary", is_flag=True, help="The old goal with other objects in it, by chance.")
+@click.option(
+    "--from", "origin", required=True, metavar="PROBLEM", help="The problem to start from."
+)
+@click.option("--goal", metavar="'(and …)'", help="The new goal: a PDDL condition, in quotes.")
+@click.option(
+    "--vary", is_flag=True, help="Draw the goal at random: the goal of PROBLEM with other objects."
+)
 @click.option(
     "--new-objects",
     type=click.IntRange(min=0),
     default=0,
     metavar="N",
-    help="With --vary: copy N objects first, for a larger world.",
+    help="With --vary: first add copies of N objects, for a larger problem.",
 )
-@click.option(
-    "--seed",
-    type=click.IntRange(min=0),
-    default=0,
-    metavar="N",
-    help="With --vary: where chance begins.",
-)
-@click.option("--name", required=True, metavar="N", help="The new problem's name.")
-@click.option(
-    "--set",
-    "settings",
-    multiple=True,
-    metavar="'F OBJ…=N'",
-    help="Change a value of the initial state.",
-)
+@options.seed("With --vary: random seed.")
+@click.option("--name", required=True, metavar="NAME", help="The name of the new problem.")
+@options.settings
 @click.option(
     "-o",
     "--output",
     "target",
     type=click.Path(path_type=Path),
     metavar="FILE",
-    help="Where to write it; on stdout if not given.",
+    help="Write the problem to this file; by default to stdout.",
 )
 @output.common_options
 def command(
@@ -61,7 +57,10 @@ def command(
     settings: tuple[str, ...],
     target: Path | None,
 ) -> None:
-    """Write a problem like PROBLEM with another goal, checked before it is written."""
+    """Write a copy of PROBLEM with another goal and other values.
+
+    The new problem is checked before it is written.
+    """
     from hrcplan.pddl.generate import with_goal
     from hrcplan.pddl.inputs import read
     from hrcplan.pddl.settings import parse_setting

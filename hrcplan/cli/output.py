@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Container, Mapping, Sequence
 from typing import Any, TypeVar
 
 import rich_click as click
@@ -50,10 +50,15 @@ def common_options(function: F) -> F:
         global VERBOSE
         VERBOSE = value
 
-    function = click.option("-v", "--verbose", is_flag=True, expose_value=False,
-                            callback=set_verbose, help="Say more on stderr.")(function)  # fmt: skip
-    return click.option("--json", is_flag=True, is_eager=True, expose_value=False,
-                        callback=set_json, help="Print one JSON document.")(function)  # fmt: skip
+    verbose = click.option(
+        "-v", "--verbose", is_flag=True, expose_value=False, callback=set_verbose,
+        help="Print more details on stderr.",
+    )  # fmt: skip
+    as_json = click.option(
+        "--json", is_flag=True, is_eager=True, expose_value=False, callback=set_json,
+        help="Print the result as one JSON document.",
+    )  # fmt: skip
+    return as_json(verbose(function))
 
 
 def document(value: Mapping[str, Any]) -> None:
@@ -90,6 +95,26 @@ def table(made: Any) -> None:
     with console.capture() as text:
         console.print(Segments(pieces))
     _echo("\n".join(line.rstrip() for line in text.get().splitlines()))
+
+
+def columns(rows: Sequence[Sequence[str]], right: Container[int] = ()) -> list[str]:
+    """Return rows of cells as lines with aligned columns; ``right`` are those of numbers.
+
+    >>> columns([["a", "n"], ["bc", "10"]], right=[1])
+    ['a    n', 'bc  10']
+    """
+    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+    lines = (
+        [c.rjust(w) if i in right else c.ljust(w)
+         for i, (c, w) in enumerate(zip(row, widths, strict=True))]
+        for row in rows
+    )  # fmt: skip
+    return ["  ".join(line).rstrip() for line in lines]
+
+
+def rule(rows: Sequence[Sequence[str]]) -> list[str]:
+    """Return a row of lines as long as the widest cell of each column."""
+    return ["─" * max(map(len, column)) for column in zip(*rows, strict=True)]
 
 
 def say(text: str) -> None:

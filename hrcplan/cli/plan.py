@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
-from hrcplan.cli import output
+from hrcplan.cli import options, output
 from hrcplan.core.files import check_target
-from hrcplan.errors import UsageError
 
 if TYPE_CHECKING:
     from hrcplan.planners.result import Result
@@ -19,53 +18,33 @@ QUIET_S = 1.0
 STATUS_EXIT = {"solved-optimally": 0, "solved": 0, "unsolvable": 1, "unsolved": 4}
 
 
-@click.command("plan")
+@click.command(
+    "plan",
+    cls=options.SettingsCommand,
+    epilog=options.notes(options.NAMES, options.PLANNER, options.SETTING),
+)
 @click.argument("names", nargs=-1, required=True, metavar="DOMAIN PROBLEM")
-@click.option(
-    "--planner",
-    default="auto",
-    show_default=True,
-    metavar="NAME",
-    help="auto, one of `hrcplan planners`, up:NAME, or 'cmd:PROGRAM {domain} {problem}'.",
-)
-@click.option(
-    "--timeout",
-    type=click.FloatRange(0, min_open=True),
-    default=60.0,
-    show_default=True,
-    metavar="S",
-    help="Seconds for all planners together.",
-)
-@click.option(
-    "--set",
-    "settings",
-    multiple=True,
-    metavar="'F OBJ…=N'",
-    help="Change a value of the initial state, as in 'motivation human=8'.",
-)
+@options.planner("Which planner to ask; auto asks all that can solve the problem.")
+@options.timeout("Seconds for all planners together.", 60.0)
+@options.settings
 @click.option(
     "--memory",
     type=click.IntRange(min=64),
     default=4096,
     show_default=True,
     metavar="MIB",
-    help="Memory for all planners together.",
+    help="Memory limit of all planners together, in MiB.",
 )
-@click.option("--any", "any_plan", is_flag=True, help="The first valid plan is enough.")
-@click.option("--lanes", is_flag=True, help="Lay a sequential plan out in lanes.")
-@click.option(
-    "--gantt",
-    type=click.Path(path_type=Path),
-    metavar="FILE",
-    help="Draw the lanes into a .png or .svg file.",
-)
+@click.option("--any", "any_plan", is_flag=True, help="Stop at the first valid plan, good or not.")
+@click.option("--lanes", is_flag=True, help="Schedule a sequential plan: one lane per agent.")
+@options.picture("--gantt", "Draw the plan as a Gantt chart.")
 @click.option(
     "-o",
     "--output",
     "target",
     type=click.Path(path_type=Path),
     metavar="PLAN",
-    help="Write the plan in IPC format.",
+    help="Write the plan to this file, in IPC format.",
 )
 @output.common_options
 def command(
@@ -79,14 +58,15 @@ def command(
     gantt: Path | None,
     target: Path | None,
 ) -> int:
-    """Find a plan for DOMAIN PROBLEM (paths, or shipped names such as transport/two-boxes).
+    """Find a plan for the PROBLEM of a DOMAIN.
 
     The plan is replayed in hrcplan's own semantics before it is printed.
     """
     from hrcplan.cli.arguments import problem_of, split_names
     from hrcplan.planners.solve import solve
 
-    _check_targets(gantt, target)
+    options.check_picture(gantt, "--gantt")
+    check_target(target)
     domain, name, _ = split_names(names, 0)
     problem = problem_of(domain, name, settings)
     for path in (gantt, target):
@@ -104,7 +84,7 @@ def command(
     if found.plan is not None and gantt is not None:
         from hrcplan.plots.gantt import draw
 
-        output.write_atomically(gantt, draw(problem, found.plan, gantt.suffix[1:].lower()))
+        output.write_atomically(gantt, draw(problem, found.plan, options.picture_form(gantt)))
     _print(problem, found)
     return STATUS_EXIT[found.status.value]
 
@@ -124,14 +104,6 @@ class _Progress:
             return
         value = number_text(result.objective)
         output.note(f"after {passed:.0f} s: {value} ({result.planner})")
-
-
-def _check_targets(gantt: Path | None, target: Path | None) -> None:
-    """Refuse what cannot be written before any planner runs."""
-    if gantt is not None and gantt.suffix.lower() not in (".png", ".svg"):
-        raise UsageError(f"--gantt writes .png or .svg, not '{gantt.suffix}'", path=str(gantt))
-    for path in (gantt, target):
-        check_target(path)
 
 
 def _print(problem: Any, found: Any) -> None:

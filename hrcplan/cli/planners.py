@@ -12,7 +12,7 @@ from hrcplan.cli import output
 @click.command("planners")
 @output.common_options
 def command() -> None:
-    """List the planners: what each can do, and whether it can run here."""
+    """List the planners: the problems each can solve, and whether it can run here."""
     from hrcplan.planners import registry
 
     cards = [(p.card, p.missing()) for p in map(registry.make, registry.names())]

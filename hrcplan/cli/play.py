@@ -7,23 +7,32 @@ from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
-from hrcplan.cli import output
+from hrcplan.cli import options, output
 
 if TYPE_CHECKING:
     from hrcplan.studies.changed_mind.script import NarratedEpisode, NarratedTurn
 
 
-@click.command("play")
+@click.command(
+    "play",
+    epilog=options.notes(
+        "SCRIPT: golden, or a TOML file with the keys domain, wanted, change_turns, human and "
+        "methods.",
+        options.ROBOTS,
+    ),
+)
 @click.argument("script", metavar="SCRIPT")
-@click.option("--method", "methods", multiple=True, metavar="NAME",
-              help="A method, or module:Class; repeatable. By default the script's.")  # fmt: skip
-@click.option("--why", "show_why", is_flag=True, help="Also say what the robot weighed.")
+@click.option("--method", "methods", multiple=True, metavar="METHOD",
+              help="The robot; repeatable. By default those in the script.")  # fmt: skip
+@click.option(
+    "--why", "show_why", is_flag=True, help="Also print how the robot valued its options."
+)
 @output.common_options
 def command(script: str, methods: tuple[str, ...], show_why: bool) -> int:
-    """Play the scripted episode SCRIPT (golden, or a TOML file), with each method in turn.
+    """Play a scripted episode with several robots, side by side.
 
-    The human does the same steps; beside each step of the robot stand the goals that it thinks
-    likeliest after it.
+    The human does the same steps each time. Below each step of a robot are the goals that it then
+    believes most probable.
     """
     from hrcplan.studies.changed_mind import script as scripts
 

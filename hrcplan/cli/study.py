@@ -10,56 +10,106 @@ from typing import Any
 
 import rich_click as click
 
-from hrcplan.cli import output, play
+from hrcplan.cli import options, output, play
 
 
 @click.group("study", context_settings={"help_option_names": ["-h", "--help"]})
 def command() -> None:
-    """Run a study of one of the papers, and report on it."""
+    """Run a study, and report on its rows."""
 
 
 command.add_command(play.command)
 
 
-@command.command("run")
+@command.command(
+    "run",
+    epilog=options.notes(
+        "NAME: failure-anticipation, changed-mind, or module:NAME of your own study.",
+        "DOMAIN, PROBLEM: paths, or the names of shipped files.",
+        options.GOALS,
+        options.ROBOTS,
+        "HUMAN: fixed, optimal or suboptimal (of the study changed-mind), or module:Class.",
+    ),
+)
 @click.argument("name", metavar="NAME")
-@click.option("--runs", type=click.IntRange(1), metavar="N",
-              help="Runs per cell; by default 1000, or all pairs of goals thrice.")  # fmt: skip
-@click.option("--seed", type=int, default=0, show_default=True, metavar="N",
-              help="From which everything random is derived.")  # fmt: skip
-@click.option("--jobs", type=click.IntRange(1), default=lambda: len(os.sched_getaffinity(0)),
-              show_default="all processors", metavar="N", help="Worker processes.")  # fmt: skip
-@click.option("--limit", type=click.IntRange(1), metavar="N",
-              help="Only N episodes, spread evenly over cells.")  # fmt: skip
-@click.option("--domain", metavar="DOMAIN", help="Another domain than the paper's.")
-@click.option("--problem", metavar="PROBLEM",
-              help="Another problem than the paper's (failure-anticipation).")  # fmt: skip
-@click.option("--goals", metavar="GOALS", help="A folder of goals (changed-mind).")
-@click.option("--method", "methods", multiple=True, metavar="NAME",
-              help="Only this method, or also yours as module:Class (changed-mind).")  # fmt: skip
-@click.option("--human", "humans", multiple=True, metavar="NAME",
-              help="Only this human of the main table, or also yours as module:Class.")  # fmt: skip
-@click.option("--chooser", metavar="NAME",
-              help="How humans choose: frontier, cc-htn, plans (changed-mind).")  # fmt: skip
-@click.option("--world", metavar="NAME", help="simulated or pddlgym (changed-mind).")
-@click.option("-o", "--output", "folder", required=True, metavar="DIR",
-              type=click.Path(file_okay=False, path_type=Path),
-              help="Folder of the rows; what it has already is not run again.")  # fmt: skip
+@click.option(
+    "--runs",
+    type=click.IntRange(1),
+    metavar="N",
+    help="Runs per cell; by default 1000 (failure-anticipation) or 3 per ordered pair of "
+    "goals (changed-mind).",
+)
+@options.seed("Random seed: everything random is derived from it.", least=None)
+@click.option(
+    "--jobs",
+    type=click.IntRange(1),
+    default=lambda: len(os.sched_getaffinity(0)),
+    show_default="all processors",
+    metavar="N",
+    help="Number of worker processes; it does not change the rows.",
+)
+@click.option(
+    "--limit",
+    type=click.IntRange(1),
+    metavar="N",
+    help="Run only the first N episodes of the main table; they are spread evenly over cells.",
+)
+@click.option("--domain", metavar="DOMAIN", help="The domain; by default that of the paper.")
+@click.option(
+    "--problem",
+    metavar="PROBLEM",
+    help="The problem; by default that of the paper. Only failure-anticipation.",
+)
+@click.option("--goals", metavar="GOALS", help="The goals. Only changed-mind.")
+@click.option(
+    "--method",
+    "methods",
+    multiple=True,
+    metavar="METHOD",
+    help="Run this method only; repeatable. A module:Class alone is added to the "
+    "study's methods. Only changed-mind.",
+)
+@click.option(
+    "--human",
+    "humans",
+    multiple=True,
+    metavar="HUMAN",
+    help="Run this human only, likewise. Only changed-mind.",
+)
+@click.option(
+    "--chooser",
+    metavar="NAME",
+    help="How humans choose steps: frontier, cc-htn, plans or module:Class. Only changed-mind.",
+)
+@click.option(
+    "--world",
+    metavar="NAME",
+    help="The world: simulated, pddlgym or module:Class. Only changed-mind.",
+)
+@click.option(
+    "-o",
+    "--output",
+    "folder",
+    required=True,
+    metavar="DIR",
+    type=click.Path(file_okay=False, path_type=Path),
+    help="Write rows to this folder; episodes that have rows there are not run again.",
+)
 @output.common_options
 def run(
     name: str, runs: int | None, seed: int, jobs: int, limit: int | None, folder: Path,
-    methods: tuple[str, ...], humans: tuple[str, ...], **options: str | None,
+    methods: tuple[str, ...], humans: tuple[str, ...], **choices: str | None,
 ) -> int:  # fmt: skip
-    """Run the study NAME (failure-anticipation, changed-mind): one row per episode into DIR.
+    """Run the study NAME, and write one row per episode to DIR.
 
-    A run that was stopped or killed goes on when it is called again; more runs extend it.
+    Called again after an interruption, or with more runs, it adds the rows that are missing.
     """
     from hrcplan.studies import run_study
 
-    options |= {"methods": ",".join(methods) or None, "humans": ",".join(humans) or None}
+    choices |= {"methods": ",".join(methods) or None, "humans": ",".join(humans) or None}
     with _bar() as progress:
         n_new = run_study(
-            name, folder, runs=runs, seed=seed, jobs=jobs, limit=limit, options=options,
+            name, folder, runs=runs, seed=seed, jobs=jobs, limit=limit, options=choices,
             progress=progress, say=output.note,
         )  # fmt: skip
     if output.JSON:
@@ -71,11 +121,15 @@ def run(
 
 @command.command("report")
 @click.argument("folder", metavar="DIR", type=click.Path(path_type=Path))
-@click.option("--study", "name", metavar="NAME",
-              help="The study of the rows; needed for your own, as module:NAME.")  # fmt: skip
+@click.option(
+    "--study",
+    "name",
+    metavar="NAME",
+    help="The study that made the rows; needed only for your own study, as module:NAME.",
+)
 @output.common_options
 def report(folder: Path, name: str | None) -> int:
-    """Write DIR/report.html and DIR/report.json from the rows in DIR."""
+    """Write DIR/report.html and DIR/report.json from the rows in DIR, and print a summary."""
     from hrcplan.studies import report_study
 
     found = report_study(folder, name)
@@ -89,11 +143,11 @@ def report(folder: Path, name: str | None) -> int:
 def _text(found: dict[str, Any], folder: Path) -> str:
     """Return means by cell and the claims, as plain lines."""
     names = list(found["rows"][0]["measures"]) if found["rows"] else []
-    lines = ["".join([f"{'':22}", *(f"{name:>22}" for name in names)])]
+    table = [["", *names]]
     for row in found["rows"]:
         cell = " ".join(map(str, row["cell"].values()))
-        means = (_mean(m["mean"], m["se"]) for m in row["measures"].values())
-        lines.append("".join([f"{cell:22}", *(f"{text:>22}" for text in means)]))
+        table.append([cell, *(_mean(m["mean"], m["se"]) for m in row["measures"].values())])
+    lines = output.columns(table, right=range(1, len(names) + 1))
     lines.append("")
     for claim in found["claims"]:
         lines.append(f"{'holds         ' if claim['holds'] else 'does not hold '} {claim['claim']}")

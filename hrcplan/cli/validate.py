@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import rich_click as click
 
-from hrcplan.cli import output
+from hrcplan.cli import options, output
 from hrcplan.core.text import quote
 from hrcplan.errors import UsageError
 
@@ -16,18 +16,27 @@ if TYPE_CHECKING:
     from hrcplan.validation import Report
 
 
-@click.command("validate")
+@click.command(
+    "validate",
+    epilog=options.notes(
+        options.NAMES,
+        "PLAN: a file in IPC format, with or without start times, or the output of a planner.",
+    ),
+)
 @click.argument("names", nargs=-1, required=True, metavar="DOMAIN PROBLEM PLAN")
 @click.option(
     "--epsilon",
     default="0.001",
     show_default=True,
-    metavar="S",
-    help="Smallest gap, in seconds, between two happenings that interfere.",
+    metavar="SECONDS",
+    help="The smallest gap between two happenings that interfere.",
 )
 @output.common_options
 def command(names: tuple[str, ...], epsilon: str) -> int:
-    """Replay PLAN (IPC format, or the output of a planner) for DOMAIN PROBLEM."""
+    """Replay PLAN step by step, and print whether it is valid or where it fails.
+
+    The exit code is 1 if the plan is invalid.
+    """
     from hrcplan.cli.arguments import problem_of, split_names
     from hrcplan.pddl.source import read_text
     from hrcplan.plans import read_plan
