@@ -13,7 +13,7 @@ from hrcplan.plots import style
 from hrcplan.plots.lanes import (
     FONT_PT,
     LANE_PT,
-    LaneBar,
+    GanttBar,
     colors,
     draw_bars,
     fits,
@@ -67,7 +67,7 @@ def _lanes(problem: Problem, plan: Plan) -> list[str]:
     return [*problem.agents, *([""] if is_without or not problem.agents else [])]
 
 
-def _bars(problem: Problem, action: Any, names: Sequence[str]) -> list[LaneBar]:
+def _bars(problem: Problem, action: Any, names: Sequence[str]) -> list[GanttBar]:
     """Return the bar of an action, and a faint one for each other agent that it keeps busy."""
     agent = lane(action.args, problem) or ""
     start, length = float(action.start_s or 0), float(action.duration_s or 1)
@@ -76,8 +76,8 @@ def _bars(problem: Problem, action: Any, names: Sequence[str]) -> list[LaneBar]:
         rest.remove(agent)
     others = sorted(occupied(action, problem) & set(names) - {agent})
     return [
-        LaneBar(names.index(agent), start, length, action.name, " ".join(rest)),
-        *(LaneBar(names.index(other), start, length, action.name, faint=True) for other in others),
+        GanttBar(names.index(agent), start, length, action.name, " ".join(rest)),
+        *(GanttBar(names.index(other), start, length, action.name, faint=True) for other in others),
     ]
 
 
@@ -88,7 +88,7 @@ def _makespan(problem: Problem, plan: Plan) -> str:
     return f"makespan {number_text(plan.makespan_s)} {unit}"
 
 
-def _width(bars: Sequence[LaneBar], end: float, left: float) -> float:
+def _width(bars: Sequence[GanttBar], end: float, left: float) -> float:
     """Return a width in inches at which texts in two lines fit, as far as that is allowed."""
     needed = (
         (max(width_pt(bar.name), width_pt(bar.words)) + 6) * end / bar.length

@@ -17,7 +17,7 @@ _PAD_PT = 4.0
 
 
 @dataclass(frozen=True, slots=True)
-class LaneBar:
+class GanttBar:
     """One action in a lane.
 
     Attributes:
@@ -55,7 +55,7 @@ def width_pt(text: str, size: float = FONT_PT) -> float:
     return float(TextPath((0, 0), text, size=size, prop=font).get_extents().width) if text else 0.0
 
 
-def layouts(bar: LaneBar) -> list[tuple[str, bool]]:
+def layouts(bar: GanttBar) -> list[tuple[str, bool]]:
     """Return the texts to try in a bar, the best first, each with whether it is rotated."""
     two_lines = "\n".join(filter(None, (bar.name, bar.words)))
     words = "\n".join([bar.name, *bar.words.split()])
@@ -65,7 +65,7 @@ def layouts(bar: LaneBar) -> list[tuple[str, bool]]:
     return [(texts[0], False), (texts[1], False), (texts[0], True), (bar.text, True)]
 
 
-def fitting(bar: LaneBar, width: float, height: float) -> tuple[str, bool] | None:
+def fitting(bar: GanttBar, width: float, height: float) -> tuple[str, bool] | None:
     """Return the first layout that fits into ``width`` x ``height`` points; None if none does."""
     for text, is_rotated in layouts(bar):
         lines = text.split("\n")
@@ -76,7 +76,7 @@ def fitting(bar: LaneBar, width: float, height: float) -> tuple[str, bool] | Non
     return None
 
 
-def fits(bar: LaneBar, unit_pt: float) -> bool:
+def fits(bar: GanttBar, unit_pt: float) -> bool:
     """Return whether some layout of the text fits into a bar; ``unit_pt`` as in `draw_bars`."""
     return fitting(bar, bar.length * unit_pt, BAR * LANE_PT) is not None
 
@@ -87,7 +87,7 @@ def colors(names: Sequence[str]) -> dict[str, str]:
 
 
 def draw_bars(
-    axes: Any, bars: Sequence[LaneBar], color_of: dict[str, str], unit_pt: float
+    axes: Any, bars: Sequence[GanttBar], color_of: dict[str, str], unit_pt: float
 ) -> dict[str, int]:
     """Draw bars, each with its text if that fits, else with a number; equal texts share a number.
 

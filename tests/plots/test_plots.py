@@ -98,7 +98,7 @@ def test_what_does_not_fit_is_numbered_and_explained(problem: Problem) -> None:
 
 def test_no_label_is_longer_than_its_bar(problem: Problem) -> None:
     for length in range(1, 400, 7):
-        bar = lanes.LaneBar(0, 0.0, 1.0, "assemble-with-care", "gearbox left-front-wheel")
+        bar = lanes.GanttBar(0, 0.0, 1.0, "assemble-with-care", "gearbox left-front-wheel")
         layout = lanes.fitting(bar, float(length), 40.0)
         if layout is not None:
             text, is_rotated = layout

@@ -196,8 +196,8 @@ def lanes(rows: Sequence[StudyRow]) -> str:
     return plots.svg(figure, "lanes", "One change of the human's state, as carried out")
 
 
-def _bar(bar: Mapping[str, Any], agents: Sequence[str]) -> charts.LaneBar:
-    return charts.LaneBar(
+def _bar(bar: Mapping[str, Any], agents: Sequence[str]) -> charts.GanttBar:
+    return charts.GanttBar(
         agents.index(bar["agent"]), bar["start_s"], bar["end_s"] - bar["start_s"], bar["action"],
         " ".join(bar["args"]), failed=bar["outcome"] == "failed",
     )  # fmt: skip
