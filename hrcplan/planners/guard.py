@@ -3,7 +3,8 @@
 A planner cannot be trusted to end, nor to end its children. This small process stands between
 hrcplan and the planner. It is a *child subreaper* (Linux ``prctl``): a descendant that loses its
 parent, daemons included, becomes a child of this process. So "no child is left" means that
-nothing at all is left, and a killed tree cannot hide anything.
+nothing at all is left, and a killed tree cannot hide anything. It is two processes: the guard, and
+a watcher above it that takes over if the guard is killed, by a planner or for want of memory.
 
 It must start fast (it is paid for on every planner call), hence the standard library only, no
 ``site``, and signal numbers instead of the ``signal`` module, whose import costs 3 ms.
@@ -44,6 +45,54 @@ def main() -> None:
     except EOFError:  # hrcplan ended between starting this process and writing the job
         return
     harden()
+    watcher = os.getpid()
+    guard = os.fork()
+    if guard:
+        stand_by(guard, parent, time_s, report)
+    harden()  # to be a subreaper is not inherited
+    supervise(argv, env, watcher, time_s, memory, report)
+
+
+def stand_by(guard: int, parent: int, time_s: float, report: int) -> None:
+    """Wait for the guard; if it is killed or stopped, or hrcplan is gone, clear up for it.
+
+    What the guard leaves behind becomes a child of this process.
+    """
+    deadline = time.monotonic() + max(0.0, time_s) + GRACE_S + PATIENCE_S + 1.0
+    waiter = select.poll()
+    pause_s = TICK_S
+    try:
+        waiter.register(os.pidfd_open(guard), select.POLLIN)
+        pause_s = IDLE_TICK_S
+    except OSError:  # an old kernel
+        pass
+    while True:
+        waiter.poll(pause_s * 1000)
+        dead: dict[int, int] = {}
+        reap(dead)
+        if dead.get(guard) == 0:
+            os._exit(0)
+        if guard in dead or time.monotonic() > deadline:
+            end_all(guard, 0.0)
+            os.write(report, marshal.dumps(("lost", None, "")))
+            os._exit(0)
+        if os.getppid() != parent:
+            end_all(guard, GRACE_S)
+            os._exit(0)
+
+
+def end_all(guard: int, grace_s: float) -> None:
+    """End the guard, which may be stopped, and then all that it leaves behind."""
+    if guard in descendants():
+        os.kill(guard, KILL)
+    clear(grace_s)
+
+
+def supervise(
+    argv: list[bytes], env: dict[bytes, bytes], parent: int, time_s: float, memory: int | None,
+    report: int,
+) -> None:  # fmt: skip
+    """Run the planner, clear up, and report."""
     planner, fault = start(argv, env)
     if fault:
         answer: tuple[str, int | None, str] = ("missing", None, fault)

@@ -21,8 +21,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
 
+from hrcplan.planners import orphans
+
 _GUARD = Path(__file__).resolve().with_name("guard.py")
 _CHUNK = 1 << 16
+_PATIENCE_S = 10.0  # beyond the time limit: longer than a guard that can run takes to clear up
+_LONG_S = 3600.0
 
 
 @dataclass(frozen=True)
@@ -107,8 +111,12 @@ def run(
         <ProcessEnd.TIMEOUT: 'timeout'>
     """
     started_s = time.monotonic()
-    with _guarded(_job(argv, limits, env), cwd) as (guard, report):
-        output, answer = _collect(guard, report, limits.output_bytes)
+    with orphans.adoption() as family, _guarded(_job(argv, limits, env), cwd) as (guard, report):
+        output, answer = _collect(guard, report, limits)
+        if not output.is_over and not answer:
+            orphans.end_tree(guard.pid)
+            guard.wait()
+            family.end_orphans()
     ended, code, message = _verdict(output, answer)
     stdout, stderr = (bytes(kept).decode("utf-8", "replace") for kept in output.streams.values())
     return FinishedProcess(ended, code, stdout, stderr + message, time.monotonic() - started_s)
@@ -186,17 +194,23 @@ class _Output:
         return bool(piece) and not self.is_over
 
 
-def _collect(guard: subprocess.Popen[bytes], report: int, limit: int) -> tuple[_Output, bytes]:
-    """Return the output and the guard's answer; no answer if the output is too long."""
+def _collect(
+    guard: subprocess.Popen[bytes], report: int, limits: ProcessLimits
+) -> tuple[_Output, bytes]:
+    """Return the output and the guard's answer; none if the output is too long, or none comes."""
     assert guard.stdout
     assert guard.stderr
     streams = {pipe.fileno(): bytearray() for pipe in (guard.stdout, guard.stderr)}
-    output = _Output(limit, streams)
+    output = _Output(limits.output_bytes, streams)
+    deadline = time.monotonic() + max(0.0, limits.time_s) + _PATIENCE_S
     with selectors.PollSelector() as ready:
         for fd in (*streams, report):
             ready.register(fd, selectors.EVENT_READ)
         while not output.is_over:
-            woken = {key.fd for key, _ in ready.select()}
+            left_s = min(deadline - time.monotonic(), _LONG_S)
+            if left_s <= 0:  # guard and watcher are stopped
+                return output, b""
+            woken = {key.fd for key, _ in ready.select(left_s)}
             # At the answer everything that could write is gone, so silence is the end: the end of
             # file may never come, if a process that nobody can kill holds the pipe.
             if woken == {report}:
@@ -211,8 +225,7 @@ def _verdict(output: _Output, answer: bytes) -> tuple[ProcessEnd, int | None, st
     """Return what ended the program, its exit code, and a remark for its standard error."""
     if output.is_over:
         return ProcessEnd.OUTPUT, None, ""
-    if not answer:
-        # Somebody killed the guard; the kernel then kills the program, too.
+    reason, code, message = marshal.loads(answer) if answer else ("lost", None, "")
+    if reason in ("lost", "abandoned"):  # the guard was killed, and then the program
         return ProcessEnd.EXITED, -signal.SIGKILL, "hrcplan: the supervisor process was lost\n"
-    reason, code, message = marshal.loads(answer)
     return ProcessEnd(reason), code, message

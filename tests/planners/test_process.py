@@ -367,7 +367,8 @@ def test_program_goes_although_a_fork_of_hrcplan_lives(caller: Caller) -> None:
     await_that(lambda: len(children(killed.pid)) == 2)
     (guard,) = guards(killed)
     (fork,) = set(children(killed.pid)) - {guard}
-    (program,) = children(guard)
+    (inner,) = children(guard)
+    (program,) = children(inner)
     killed.kill()
     killed.wait()
     try:
@@ -396,3 +397,40 @@ def test_interrupt_from_the_terminal_does_not_reach_the_program(
     interrupted.wait(3)
     assert (tmp_path / "outcome").read_text() == "KeyboardInterrupt"
     assert not (tmp_path / "interrupted").exists()
+
+
+def family_of(caller: "subprocess.Popen[bytes]") -> tuple[int, int]:
+    """Return the two supervisor processes of a caller: the watcher and, below it, the guard."""
+    (watcher,) = guards(caller)
+    (guard,) = set(processes("guard.py")) & set(children(watcher))
+    return watcher, guard
+
+
+@pytest.mark.parametrize("script", ["hang.py", "stubborn.py", "daemon.py"])
+@pytest.mark.parametrize("which", [[0], [1], [0, 1], [1, 0]], ids=str)
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGSTOP])
+def test_nothing_is_left_when_supervisors_are_killed_or_stopped(
+    caller: Caller, marker: str, tmp_path: Path, script: str, which: list[int], number: int
+) -> None:
+    alive = caller(script, "hang")
+    family = family_of(alive)
+    for index in which:
+        os.kill(family[index], number)
+    if number == signal.SIGSTOP:  # only the end of the caller, or its deadline, can help
+        alive.kill()
+        for index in which:
+            os.kill(family[index], signal.SIGCONT)
+    alive.wait(20)
+    await_that(lambda: set(processes(marker)) <= {alive.pid}, within_s=3)
+    await_that(lambda: not any(map(is_running, family)))
+
+
+def test_a_stopped_supervisor_does_not_hang_the_caller(
+    marker: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(process, "_PATIENCE_S", 0.5)
+    script = f"(sleep 300; : {marker}) & kill -STOP $(ps -o ppid= -p $PPID) $PPID; sleep 300"
+    finished = run(["sh", "-c", script, marker], cwd=tmp_path, limits=ProcessLimits(0.5))
+    assert (finished.ended, finished.code) == (ProcessEnd.EXITED, -signal.SIGKILL)
+    assert "supervisor process was lost" in finished.stderr
+    assert processes(marker) == []
