@@ -10,6 +10,7 @@ import time
 import uuid
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -415,11 +416,13 @@ def test_nothing_is_left_when_supervisors_are_killed_or_stopped(
     alive = caller(script, "hang")
     family = family_of(alive)
     for index in which:
-        os.kill(family[index], number)
+        with suppress(ProcessLookupError):  # the other one has cleared up already
+            os.kill(family[index], number)
     if number == signal.SIGSTOP:  # only the end of the caller, or its deadline, can help
         alive.kill()
         for index in which:
-            os.kill(family[index], signal.SIGCONT)
+            with suppress(ProcessLookupError):
+                os.kill(family[index], signal.SIGCONT)
     alive.wait(20)
     await_that(lambda: set(processes(marker)) <= {alive.pid}, within_s=3)
     await_that(lambda: not any(map(is_running, family)))
