@@ -28,10 +28,12 @@ from hrcplan.pddl.model import (
     Action,
     Atom,
     Constant,
+    Constraint,
     Domain,
     Effect,
     Fact,
     FluentKey,
+    Formula,
     Function,
     Preference,
     Problem,
@@ -48,6 +50,8 @@ from hrcplan.pddl.semantics import (
     instances,
     unmet,
 )
+from hrcplan.pddl.trajectories import is_kept
+from hrcplan.pddl.write import constraint_text
 from hrcplan.plans import EPSILON_S, Plan, PlannedAction, as_plan, seconds_text
 
 COST: FluentKey = (TOTAL_COST,)
@@ -184,6 +188,9 @@ def _replay(problem: Problem, plan: Plan, epsilon_s: Number) -> Report:
     except _BrokenError as broken:
         report = replay.report(reason=str(broken), failed_step=broken.step)
         return replace(report, gap_s=broken.gap_s)
+    broken_constraint = replay.broken_constraint()
+    if broken_constraint is not None:
+        return replay.report(reason=f"the plan does not keep the constraint {broken_constraint}")
     if missing is not None:
         return replay.report(reason=f"the goal {missing} does not hold at the end")
     return replay.report()
@@ -204,6 +211,8 @@ class _Replay:
         self._derivation = Derivation(problem)
         self.costs: list[Number] = [0] * len(plan.actions)
         self.end_s: Number = 0
+        self._constraints = (*problem.domain.constraints, *problem.constraints)
+        self._trace: list[tuple[Number, LiftedState]] = []
         self._coming = deque(_timed_events(problem))
         self._running: dict[int, tuple[_Event, LiftedState]] = {}
         self._near: list[tuple[_Event, Access]] = []
@@ -228,6 +237,10 @@ class _Replay:
         end = self.seen
         for preference in self.problem.preferences:
             end = self._counted(preference, self.seen, {}, end)
+        for constraint in self._constraints:
+            key = VIOLATED, constraint.preference
+            n_broken = end.values.get(key, 0) + self._n_broken(constraint)
+            end = replace(end, values={**end.values, key: n_broken})
         metric = _metric(self.problem, end, makespan if temporal else counted)
         return Report(True, cost, makespan, metric, state=facts, step_costs=costs)
 
@@ -283,6 +296,7 @@ class _Replay:
             for preference in event.action.preferences:
                 if preference.when == event.when:
                     after = self._counted(preference, before, event.binding, after)
+        self._follow(group[0].time, before)
         self.state = after
         for event in group:
             if event.is_start and event.action.durative:
@@ -291,6 +305,33 @@ class _Replay:
                 self._running.pop(event.step, None)
         for event, _ in self._running.values():
             _demand(self.problem, event, "all", self.seen)
+
+    def _follow(self, time: Number, before: LiftedState) -> None:
+        """Remember the state that ends at a time, and that the next one begins there."""
+        if self._constraints:
+            begun = self._trace[-1][0] if self._trace else 0
+            self._trace[-1:] = [(begun, before), (time, before)]
+
+    def broken_constraint(self) -> str | None:
+        """Return the first constraint that the states of the plan do not keep, as PDDL."""
+        for constraint in self._constraints:
+            if not constraint.preference and self._n_broken(constraint):
+                return constraint_text(constraint)
+        return None
+
+    def _n_broken(self, constraint: Constraint) -> int:
+        """Return how many instances of a constraint the states of the plan do not keep."""
+        trace = [*self._trace[:-1], (self._trace[-1][0] if self._trace else 0, self.seen)]
+        times = [time for time, _ in trace]
+
+        def keeps(inner: Binding) -> bool:
+            def test(index: int, formula: Formula) -> bool:
+                return holds(formula, trace[index][1], inner, self.problem)
+
+            return all(is_kept(part, times, test) for part in constraint.trajectories)
+
+        choices = instances(constraint.params, {}, self.problem)
+        return sum(not keeps(inner) for inner in choices)
 
     def _counted(
         self, preference: Preference, now: LiftedState, binding: Binding, after: LiftedState

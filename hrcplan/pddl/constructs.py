@@ -10,8 +10,9 @@ AXIOMS = "derived predicates"
 TIMED = "timed initial literals"
 PREFERENCES = "preferences"
 START_CONDITIONS = "effects at the end with a condition at the start"
+TRAJECTORIES = "trajectory constraints"
 CONTINUOUS = "processes, events or continuous effects"
-ALL = frozenset([AXIOMS, TIMED, PREFERENCES, START_CONDITIONS, CONTINUOUS])
+ALL = frozenset([AXIOMS, TIMED, PREFERENCES, START_CONDITIONS, TRAJECTORIES, CONTINUOUS])
 
 
 def constructs(problem: Problem) -> Iterator[str]:
@@ -23,6 +24,8 @@ def constructs(problem: Problem) -> Iterator[str]:
         yield TIMED
     if problem.preferences or any(action.preferences for action in domain.actions):
         yield PREFERENCES
+    if domain.constraints or problem.constraints:
+        yield TRAJECTORIES
     if any(e.given_start != TRUE for action in domain.actions for e in action.effects):
         yield START_CONDITIONS
     if domain.is_continuous:

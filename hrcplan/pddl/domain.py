@@ -17,15 +17,16 @@ from hrcplan.pddl.reader import GroupNode, ParseNode, WordNode
 from hrcplan.pddl.requirements import check_requirements, read_requirements
 from hrcplan.pddl.scope import Scope
 from hrcplan.pddl.source import SECTION_SIMILARITY, SourceText
+from hrcplan.pddl.trajectories import SECTION, read_constraints
 from hrcplan.pddl.typed_lists import Entry, params_of, read_typed, report_types
 
 _UNSUPPORTED = {
     ":axiom": "axioms of PDDL 1.2",
-    ":constraints": "trajectory constraints",
 }
 _CURES = {":axiom": "write (:derived (p ?x) CONDITION)"}
 _REPEATED = ACTIONS | PLUS | {DERIVED}
-_SECTIONS = (":requirements", ":types", ":constants", ":predicates", ":functions", *_REPEATED)
+_SECTIONS = (":requirements", ":types", ":constants", ":predicates", ":functions", SECTION,
+             *_REPEATED)  # fmt: skip
 
 
 def read_domain(root: GroupNode, source: SourceText) -> Domain:
@@ -53,6 +54,7 @@ def read_domain(root: GroupNode, source: SourceText) -> Domain:
         base,
         actions=tuple(action for _, action in actions),
         axioms=axioms,
+        constraints=read_constraints(sections.get(SECTION), scope),
         processes=tuple(action for node, action in plus if node.head == PROCESS),
         events=tuple(action for node, action in plus if node.head != PROCESS),
         notes=read_notes(source, names, base.functions),

@@ -225,6 +225,24 @@ class Preference:
 
 
 @dataclass(frozen=True, slots=True)
+class Trajectory:
+    """One condition on the states that a plan goes through, such as ``(within 5 (p))`` (PDDL 3)."""
+
+    op: str
+    times: tuple[Number, ...]
+    parts: tuple[Formula, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Constraint:
+    """Trajectory conditions, for all instances of ``params``; a named one is a preference."""
+
+    trajectories: tuple[Trajectory, ...]
+    params: tuple[Param, ...] = ()
+    preference: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class Axiom:
     """A derived predicate (PDDL 2.2): it holds of ``params`` wherever ``body`` does."""
 
@@ -303,6 +321,7 @@ class Domain:
     axioms: tuple[Axiom, ...] = ()
     processes: tuple[Action, ...] = ()
     events: tuple[Action, ...] = ()
+    constraints: tuple[Constraint, ...] = ()
     notes: tuple[Note, ...] = ()
     path: str = ""
 
@@ -386,7 +405,7 @@ class Problem:
     """A planning problem: objects, initial state, goal and metric of one domain.
 
     ``timed`` are changes that come by themselves, in order of time; ``preferences`` those of the
-    goal, which a plan may miss.
+    goal, which a plan may miss; ``constraints`` are about the states on the way to it.
     """
 
     name: str
@@ -399,6 +418,7 @@ class Problem:
     maximize: bool = False
     timed: tuple[TimedChange, ...] = ()
     preferences: tuple[Preference, ...] = ()
+    constraints: tuple[Constraint, ...] = ()
     path: str = ""
 
     def __repr__(self) -> str:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from hrcplan.pddl.formulas import read_conditions, read_formula
-from hrcplan.pddl.model import Formula, Param, Preference
+from hrcplan.pddl.model import Constraint, Formula, Param, Preference
 from hrcplan.pddl.reader import GroupNode, ParseNode, WordNode
 from hrcplan.pddl.scope import Scope
 from hrcplan.pddl.typed_lists import read_params
@@ -86,23 +86,11 @@ def _conditions(
             yield condition.when, condition.formula
 
 
-def with_names(scope: Scope, preferences: tuple[Preference, ...], root: GroupNode) -> Scope:
-    """Return the scope of a metric: it knows the preferences of the goal and of the actions.
-
-    Those of a ``:constraints`` section are known too: that it is not supported is said there.
-    """
-    actions = scope.domain.actions
-    names = {p.name for action in actions for p in action.preferences}
+def with_names(
+    scope: Scope, preferences: Sequence[Preference], constraints: Sequence[Constraint]
+) -> Scope:
+    """Return the scope of a metric: it knows all preferences, those of actions too."""
+    names = {p.name for action in scope.domain.actions for p in action.preferences}
     names.update(preference.name for preference in preferences)
-    for section in root[2:]:
-        if isinstance(section, GroupNode) and section.head == ":constraints":
-            names.update(_names(section))
+    names.update(c.preference for c in (*scope.domain.constraints, *constraints) if c.preference)
     return replace(scope, preferences=names)
-
-
-def _names(node: GroupNode) -> Iterator[str]:
-    if node.head == "preference" and len(node) > 1 and isinstance(node[1], WordNode):
-        yield str(node[1])
-    for part in node:
-        if isinstance(part, GroupNode):
-            yield from _names(part)

@@ -33,9 +33,10 @@ from hrcplan.pddl.reader import GroupNode, ParseNode, WordNode
 from hrcplan.pddl.requirements import check_requirements, read_requirements
 from hrcplan.pddl.scope import Scope, decimal_cure
 from hrcplan.pddl.source import SourceText
+from hrcplan.pddl.trajectories import SECTION, read_constraints
 from hrcplan.pddl.typed_lists import report_types
 
-_SECTIONS = (":domain", ":requirements", ":objects", ":init", ":goal", ":metric")
+_SECTIONS = (":domain", ":requirements", ":objects", ":init", ":goal", ":metric", SECTION)
 _SENSES = ("minimize", "maximize")
 _LOGIC = frozenset(["and", "or", "imply", "forall", "exists", "when"])
 
@@ -59,7 +60,9 @@ def read_problem(root: GroupNode, source: SourceText, domain: Domain) -> Problem
     for node in sections.get(":init", ())[1:]:
         init.take(node)
     goal, preferences = _goal(sections.get(":goal"), root, scope)
-    metric, maximize = _metric(sections.get(":metric"), with_names(scope, preferences, root))
+    constraints = read_constraints(sections.get(SECTION), scope)
+    known = with_names(scope, preferences, constraints)
+    metric, maximize = _metric(sections.get(":metric"), known)
     problem = Problem(
         name=name,
         domain=domain,
@@ -71,6 +74,7 @@ def read_problem(root: GroupNode, source: SourceText, domain: Domain) -> Problem
         maximize=maximize,
         timed=tuple(sorted(init.timed, key=lambda change: change.time)),
         preferences=preferences,
+        constraints=constraints,
         path=source.path,
     )
     if domain.requirements:

@@ -87,13 +87,11 @@ def read_nodes(source: SourceText) -> list[ParseNode]:
         return _read_even(text, source)
     except _UnevenError as uneven:
         at = uneven.at
-    tokens = _tokens(text) if len(text) <= MAX_MENDED else []
-    surplus = text.count("(") - text.count(")")
-    if not tokens or abs(surplus) > MAX_FAULTS:
+    if len(text) > MAX_MENDED or abs(text.count("(") - text.count(")")) > 2 * MAX_FAULTS:
         message = "the parentheses do not match before this place"
         source.error(at, "unclosed", message, "the file is not read any further")
         return []
-    return _build(mend(tokens, source), source)
+    return _build(mend(_tokens(text), source), source)
 
 
 class _UnevenError(Exception):

@@ -123,13 +123,16 @@ class Scope:
         types = self.types_of(term)
         if types is None:
             return False
-        if not any(self.domain.is_a(t, param.types) for t in types) and self._declared(
-            *types, *param.types
-        ):
-            have, want = quote(" or ".join(types)), quote(" or ".join(param.types))
-            self.source.error(term.at, "wrong-type", f"{quote(term)} is {have}, not {want}")
-            return False
-        return True
+        is_a = self.domain.is_a
+        if any(is_a(t, param.types) for t in types) or not self._declared(*types, *param.types):
+            return True
+        have, want = quote(" or ".join(types)), quote(" or ".join(param.types))
+        message = f"{quote(term)} is {have}, not {want}"
+        if any(is_a(wanted, types) for wanted in param.types):  # it may be one, as others read it
+            self.source.warn(term.at, "wrong-type", message, f"declare it as {want}")
+            return True
+        self.source.error(term.at, "wrong-type", message)
+        return False
 
     def _declared(self, *types: str) -> bool:
         """Whether all types are known: one that is not has been reported where it is named."""

@@ -20,6 +20,7 @@ from hrcplan.pddl.model import (
     Arithmetic,
     Compare,
     Constant,
+    Constraint,
     Domain,
     Effect,
     Expr,
@@ -34,6 +35,7 @@ from hrcplan.pddl.model import (
     Quantified,
     Signature,
     TimedChange,
+    Trajectory,
     fact_text,
 )
 
@@ -101,6 +103,7 @@ def _domain_lines(domain: Domain) -> Iterator[str]:
     for axiom in domain.axioms:
         head = f"({' '.join([axiom.name, _params(axiom.params)]).strip()})"
         yield f"  (:derived {head} {_formula(axiom.body)})"
+    yield from _constraint_lines(domain.constraints)
     for action in domain.actions:
         yield ""
         yield from _durative_lines(action) if action.durative else _action_lines(action)
@@ -119,6 +122,7 @@ def _problem_lines(problem: Problem) -> Iterator[str]:
     yield from _init_lines(problem)
     yield "  )"
     yield f"  (:goal {_with_preferences(problem.goal, problem.preferences)})"
+    yield from _constraint_lines(problem.constraints)
     if problem.metric is not None:
         sense = "maximize" if problem.maximize else "minimize"
         yield f"  (:metric {sense} {_expression(problem.metric)})"
@@ -172,6 +176,25 @@ def _init_lines(problem: Problem) -> Iterator[str]:
             f"(= {fact_text(key)} {decimal_text(problem.values[key])})" for key in group
         )
     yield from _wrapped(map(_timed_init, problem.timed))
+
+
+def _constraint_lines(constraints: Sequence[Constraint]) -> Iterator[str]:
+    if constraints:
+        yield f"  (:constraints {_group('and', map(constraint_text, constraints))})"
+
+
+def constraint_text(constraint: Constraint) -> str:
+    """Return a trajectory constraint as PDDL."""
+    parts = [_trajectory(trajectory) for trajectory in constraint.trajectories]
+    text = parts[0] if len(parts) == 1 else _group("and", parts)
+    if constraint.preference:
+        text = f"(preference {constraint.preference} {text})"
+    return f"(forall ({_params(constraint.params)}) {text})" if constraint.params else text
+
+
+def _trajectory(trajectory: Trajectory) -> str:
+    word = "at end" if trajectory.op == "at-end" else trajectory.op
+    return _group(word, [*map(decimal_text, trajectory.times), *map(_formula, trajectory.parts)])
 
 
 def _timed_init(change: TimedChange) -> str:

@@ -269,7 +269,96 @@ def test_a_plan_is_not_judged_where_numbers_change_while_time_passes() -> None:
         plain(problem)
 
 
-def test_trajectory_constraints_are_refused_by_name() -> None:
-    text = STACK_PROBLEM.format("(at c)").replace("(:goal", "(:constraints (always (at a))) (:goal")
-    with pytest.raises(PddlError, match="trajectory constraints"):
-        problem_of(STACK, text)
+LAMPS = """(define (domain lamps)
+  (:requirements :adl :constraints :preferences :durative-actions :fluents)
+  (:types lamp)
+  (:predicates (on ?x - lamp) (broken ?x - lamp) (idle))
+  (:durative-action light :parameters (?x - lamp) :duration (= ?duration 2)
+    :condition (and (at start (not (on ?x))) (at start (idle)))
+    :effect (and (at start (not (idle))) (at end (on ?x)) (at end (idle))))
+  (:durative-action dim :parameters (?x - lamp) :duration (= ?duration 1)
+    :condition (and (at start (on ?x)) (at start (idle)))
+    :effect (and (at start (not (idle))) (at end (not (on ?x))) (at end (idle)))))
+"""
+LIGHT_BOTH = "0.1: (light a) [2]\n2.2: (light b) [2]"
+ON_AND_OFF = "0.1: (light a) [2]\n2.2: (dim a) [1]\n3.3: (light a) [2]"
+
+
+def lamps(constraint: str, metric: str = "") -> Problem:
+    return problem_of(
+        LAMPS,
+        f"""(define (problem p) (:domain lamps) (:objects a b - lamp) (:init (idle))
+        (:goal (on a)) (:constraints {constraint}) {metric})""",
+    )
+
+
+@pytest.mark.parametrize(
+    ("constraint", "plan", "valid"),
+    [
+        ("(always (not (broken a)))", LIGHT_BOTH, True),
+        ("(always (not (on b)))", LIGHT_BOTH, False),
+        ("(sometime (on b))", LIGHT_BOTH, True),
+        ("(sometime (on b))", ON_AND_OFF, False),
+        ("(at end (on b))", LIGHT_BOTH, True),
+        ("(at end (not (on a)))", LIGHT_BOTH, False),
+        ("(at-most-once (on a))", LIGHT_BOTH, True),
+        ("(at-most-once (on a))", ON_AND_OFF, False),
+        ("(sometime-after (on a) (on b))", LIGHT_BOTH, True),
+        ("(sometime-after (on a) (on b))", ON_AND_OFF, False),
+        ("(sometime-before (on b) (on a))", LIGHT_BOTH, True),
+        ("(sometime-before (on a) (on b))", LIGHT_BOTH, False),
+        ("(within 3 (on a))", LIGHT_BOTH, True),
+        ("(within 3 (on b))", LIGHT_BOTH, False),
+        ("(always-within 3 (on a) (on b))", LIGHT_BOTH, True),
+        ("(always-within 1 (on a) (on b))", LIGHT_BOTH, False),
+        ("(and (sometime (on a)) (sometime (on b)))", ON_AND_OFF, False),
+        ("(forall (?x - lamp) (sometime (on ?x)))", LIGHT_BOTH, True),
+        ("(forall (?x - lamp) (sometime (on ?x)))", ON_AND_OFF, False),
+    ],
+)
+def test_trajectory_constraints_are_judged_as_by_val(
+    constraint: str, plan: str, valid: bool, tmp_path: Path
+) -> None:
+    problem = lamps(constraint)
+    report = validate(problem, parse_plan(plan))
+    assert report.valid == valid
+    if not valid:
+        assert "does not keep the constraint" in str(report.reason)
+    assert val(problem, f"{plan}\n", tmp_path)[0] == valid
+
+
+@pytest.mark.parametrize(
+    ("constraint", "valid"),
+    [
+        ("(hold-during 0 2 (not (on a)))", True),
+        ("(hold-during 0 2.15 (not (on a)))", False),
+        ("(hold-during 2.5 5 (on a))", True),
+        ("(hold-after 2.5 (on a))", True),
+        ("(hold-after 2.5 (on b))", False),
+    ],
+)
+def test_a_condition_can_be_demanded_for_a_time(constraint: str, valid: bool) -> None:
+    assert validate(lamps(constraint), parse_plan(LIGHT_BOTH)).valid == valid
+
+
+def test_preferences_about_trajectories_are_counted() -> None:
+    both = "(forall (?x - lamp) (preference calm (always (not (on ?x)))))"
+    problem = lamps(both, "(:metric minimize (is-violated calm))")
+    assert validate(problem, parse_plan(LIGHT_BOTH)).metric == 2
+    assert validate(problem, parse_plan(ON_AND_OFF)).metric == 1
+    again = problem_of(domain_text(problem.domain), problem_text(problem))
+    assert again.constraints == problem.constraints
+
+
+@pytest.mark.parametrize(
+    "constraint", ["(never (on a))", "(within (on a))", "(always (on a) (on b))", "(on a)"]
+)
+def test_faults_of_constraints_are_found(constraint: str) -> None:
+    with pytest.raises(PddlError) as refusal:
+        lamps(constraint)
+    assert refusal.value.code == "not-a-constraint"
+
+
+def test_a_ground_task_refuses_constraints_by_name() -> None:
+    with pytest.raises(UnsupportedError, match="trajectory constraints"):
+        plain(lamps("(always (on a))"))

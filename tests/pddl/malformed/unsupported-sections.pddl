@@ -1,7 +1,7 @@
 (define (domain d)
   (:requirements :strips :derived-predicates :constraints :time)
   (:predicates (p) (q))
-  (:constraints (always (p)))  ;; expect: unsupported
+  (:constraints (never (p)))  ;; expect: not-a-constraint
   (:axiom :vars () :context (p) :implies (q))  ;; expect: unsupported
   (:derived (q) (p))
   (:process burn :parameters () :effect (p))  ;; expect: not-an-effect
