@@ -1,4 +1,4 @@
-"""Turn-taking episodes: the human acts first, then the robot, without a word; all is recorded.
+"""The turns of an episode: the human acts first, then the robot; they do not talk.
 
 Time is counted in turns: every action of either agent takes one timestep, and so does waiting.
 """
@@ -29,10 +29,10 @@ REACHED, STUCK, UNFINISHED = "reached", "stuck", "unfinished"
 
 @runtime_checkable
 class TurnWorld(Protocol):
-    """Where steps happen; its state is held as bits of the task."""
+    """Where steps are carried out; a state is the bits of the task."""
 
     def begin(self) -> int:
-        """Return the initial state, and forget what was done."""
+        """Return the initial state; called at the start of every episode."""
         ...
 
     def do(self, state: int, action: int) -> int:
@@ -57,12 +57,12 @@ class SimulatedTurns:
 
 @dataclass(frozen=True, slots=True)
 class EpisodeTurn:
-    """One timestep: who did what, for which goal of the human, and whether that goal wanted it.
+    """One timestep: who acts, the step, the human's goal, and whether the goal needs the step.
 
-    ``step`` is None for a wait. After an action of the human, ``guess`` is the goal that the robot
-    thinks likeliest, ``rank`` how many it thinks likelier than the right one, and ``n_declared``
-    how many changes it has declared so far. ``is_needed`` says whether the step is next in a valid
-    plan of the goal.
+    ``step`` is None for a wait. After an action of the human, ``guess`` is the goal with the
+    highest posterior, ``rank`` how many goals have a higher one than the right goal, and
+    ``n_declared`` how many changes the robot has declared so far. ``is_needed`` says whether the
+    step is next in a valid plan of the goal.
     """
 
     t: int
@@ -78,7 +78,7 @@ class EpisodeTurn:
 
 @dataclass(frozen=True)
 class EpisodeRecord:
-    """An episode: what happened, how it ended, and how long the robot thought, in ms."""
+    """One episode: its turns, how it ended, and the time of each decision of the robot in ms."""
 
     course: Course
     turns: tuple[EpisodeTurn, ...]
@@ -89,6 +89,10 @@ class EpisodeRecord:
     def n_turns(self) -> int:
         """Timesteps until the last goal was reached, or until the end."""
         return len(self.turns)
+
+    def __repr__(self) -> str:
+        goals = " → ".join(map(str, self.course.goals))
+        return f"EpisodeRecord(goals {goals}, {self.ending} after {self.n_turns} turns)"
 
 
 EpisodeWatch = Callable[[EpisodeTurn, S], None]

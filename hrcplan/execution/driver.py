@@ -22,7 +22,7 @@ MAX_STEPS = 100_000  # events of one run; a world that never ends is stopped
 
 
 class PlanProvider(Protocol):
-    """Whatever answers a request for a plan."""
+    """Answers requests for plans: a `Replanner`, or something else in tests."""
 
     def answer(self, ask: ev.AskPlan) -> ev.Planned:
         """Return a plan, or none with the reason."""
@@ -42,14 +42,14 @@ class RunRecord(Protocol):
 
 
 class NullRecord:
-    """A record that is not kept."""
+    """A record that stores nothing."""
 
     def record_event(self, event: Event) -> Event:
         """Return the event."""
         return event
 
     def record_decision(self, commands: tuple[Command, ...]) -> None:
-        """Forget the decision."""
+        """Do nothing."""
 
     def recorded_plan(self) -> ev.Planned | None:
         """Return None: nothing was recorded."""
@@ -61,7 +61,7 @@ RunWatch = Callable[[Run, Event, tuple[Command, ...]], None]
 
 @dataclass
 class Driver:
-    """Carries one run out until it is over; ``watch`` is told of every step."""
+    """Carries one run out until it is over; ``watch`` is called after every step."""
 
     monitor: Monitor
     world: EventWorld

@@ -82,7 +82,7 @@ class Planned:
 
 @dataclass(frozen=True, slots=True)
 class StopAsked:
-    """Somebody wants the run to end, or nothing can happen any more."""
+    """The run is to end: a user asked for it, or nothing can happen any more."""
 
     t: float
     why: str
@@ -95,7 +95,7 @@ RANK: Mapping[type, int] = {Ended: 0, Overdue: 0, Observed: 1, Sensed: 2, Planne
 
 @dataclass(frozen=True, slots=True)
 class AskPlan:
-    """Wanted: a plan from these facts and numbers, with these agent-state values.
+    """Request for a plan from these facts and numbers, with these agent-state values.
 
     ``absent``: as in `Observed`.
     """
@@ -141,7 +141,7 @@ class Wake:
 
 @dataclass(frozen=True, slots=True)
 class Adopt:
-    """From now on this plan is followed: told, so that faces and links can show it."""
+    """From now on this plan is followed; views and robot links can show it."""
 
     t: float
     plan: Plan
