@@ -215,7 +215,8 @@ class _Replay:
         self._trace: list[tuple[Number, LiftedState]] = []
         self._coming = deque(_timed_events(problem))
         self._running: dict[int, tuple[_Event, LiftedState]] = {}
-        self._near: list[tuple[_Event, Access]] = []
+        self._near: list[_Event] = []
+        self._accesses: dict[tuple[int, bool], Access] = {}
 
     @property
     def seen(self) -> LiftedState:
@@ -346,15 +347,23 @@ class _Replay:
 
     def _check_interference(self, event: _Event) -> None:
         """Stop if the event interferes with one that is closer than ``epsilon_s``."""
-        mine = access(self.problem, event.action, event.binding, event.when)
-        self._near = [(e, a) for e, a in self._near if event.time - e.time < self.epsilon_s]
-        for other, theirs in self._near:
-            about = clash(mine, theirs) if other.step != event.step else None
+        self._near = [e for e in self._near if event.time - e.time < self.epsilon_s]
+        for other in self._near:
+            if other.step == event.step:
+                continue
+            about = clash(self._access(event), self._access(other))
             if about is not None:
                 step = max(event.step, other.step)
                 reason = _too_close(event, other, about, self.epsilon_s)
                 raise _BrokenError(step, reason, (event.time - other.time) or None)
-        self._near.append((event, mine))
+        self._near.append(event)
+
+    def _access(self, event: _Event) -> Access:
+        """Return what an event reads and writes; where quantifiers are nested this is costly."""
+        key = event.step, event.is_start
+        if key not in self._accesses:
+            self._accesses[key] = access(self.problem, event.action, event.binding, event.when)
+        return self._accesses[key]
 
     def _changed(self, event: _Event, after: LiftedState) -> LiftedState:
         """Return ``after`` with the effects of one event, read in the state before its instant."""

@@ -86,6 +86,7 @@ class _Portfolio:
         self.proven = False
         self.failures: list[UnsupportedError | PlannerError] = []
         self.notes: list[str] = []
+        self.last = ""
 
     def solve(self, presets: tuple[str, ...] | None) -> Answer:
         problem = self._parse()
@@ -141,6 +142,9 @@ class _Portfolio:
     def _take(self, found: kairos.Plan) -> None:
         """Validate a plan and keep it if it is the best so far."""
         text = str(found)
+        if text == self.last:
+            return  # the search ends with the plan that it has shown before
+        self.last = text
         plan = self.lowered.plan(text) if self.lowered is not None else _parsed(text)
         if self.request.problem.domain.is_continuous:
             self.best = 0, plan, None  # hrcplan cannot judge it
