@@ -432,7 +432,17 @@ class Problem:
 
     def objects_of(self, types: tuple[str, ...]) -> tuple[str, ...]:
         """Return the objects of any of ``types``, in the order in which they are declared."""
-        return tuple(o for o, t in self.all_objects.items() if self.domain.is_a(t, types))
+        found = self._objects_of.get(types)
+        if found is None:
+            is_a = self.domain.is_a
+            found = tuple(o for o, t in self.all_objects.items() if is_a(t, types))
+            self._objects_of[types] = found
+        return found
+
+    @cached_property
+    def _objects_of(self) -> dict[tuple[str, ...], tuple[str, ...]]:
+        """Objects by the types asked for already: quantifiers ask for the same over and over."""
+        return {}
 
     def with_values(self, values: Mapping[FluentKey, Number]) -> Problem:
         """Return this problem with some function values of the initial state replaced."""

@@ -270,12 +270,17 @@ def changes(
     adds: set[Fact] = set()
     deletes: set[Fact] = set()
     values: dict[FluentKey, Number] = {}
+    happening: dict[tuple[object, ...], list[Binding]] = {}
     for effect in effects:
-        for inner in instances(effect.params, binding, problem):
-            if not holds(effect.given, state, inner, problem):
-                continue
-            if not holds(effect.given_start, started or state, inner, problem):
-                continue
+        group = effect.params, id(effect.given), id(effect.given_start)
+        if group not in happening:  # "when C (and E F)" is two effects with one condition
+            happening[group] = [
+                inner
+                for inner in instances(effect.params, binding, problem)
+                if holds(effect.given, state, inner, problem)
+                and holds(effect.given_start, started or state, inner, problem)
+            ]
+        for inner in happening[group]:
             key = ground_key(effect.target, inner)
             if effect.value is None:
                 (adds if effect.kind == "add" else deletes).add(key)

@@ -14,8 +14,10 @@ from hrcplan.errors import LimitError, UnsupportedError
 from hrcplan.pddl.model import TOTAL_TIME, Problem, functions_in
 from hrcplan.plans import Plan
 from hrcplan.task import Task
+from hrcplan.validation import Report, validate
 
 MEMORY_BYTES = 4 << 30
+MOST_REPLAYS = 8
 
 
 class Status(enum.Enum):
@@ -74,6 +76,10 @@ class LazyTask:
             except LimitError:
                 return
 
+    def is_small(self, most: int) -> bool:
+        """Return whether the task is grounded already, with at most so many ground actions."""
+        return self._task is not None and len(self._task.actions) <= most
+
     def ground(self, problem: Problem, deadline: float) -> Task:
         """Return the task; what failed once is not tried again for the next planner.
 
@@ -92,12 +98,28 @@ class LazyTask:
         return self._task
 
 
+class Replays:
+    """Replays of plans; the last ones are kept, since a planner and its check ask for the same."""
+
+    def __init__(self) -> None:
+        self._known: dict[Plan, Report] = {}
+
+    def __call__(self, problem: Problem, plan: Plan) -> Report:
+        """Return the replay of a plan; the problem is always the same one."""
+        if plan not in self._known:
+            while len(self._known) >= MOST_REPLAYS:
+                del self._known[next(iter(self._known))]
+            self._known[plan] = validate(problem, plan)
+        return self._known[plan]
+
+
 @dataclass(frozen=True)
 class Request:
     """One problem for one planner: until when, and whether the first plan is enough.
 
-    ``on_plan`` is told of plans that a planner will improve on, so that they are not lost if it is
-    stopped.
+    ``improves`` asks for plans that get better until the deadline, where any plan is enough at
+    first. ``on_plan`` is told of plans that a planner will improve on, so that they are not lost
+    if it is stopped. ``replays`` replays plans of the problem.
     """
 
     problem: Problem
@@ -105,6 +127,8 @@ class Request:
     any_plan: bool = False
     memory_bytes: int = MEMORY_BYTES
     lazy_task: LazyTask = field(default_factory=LazyTask, repr=False, compare=False)
+    improves: bool = False
+    replays: Replays = field(default_factory=Replays, repr=False, compare=False)
     on_plan: Callable[[Plan], None] = field(default=lambda plan: None, repr=False, compare=False)
 
     @property

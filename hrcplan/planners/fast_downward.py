@@ -7,22 +7,16 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Callable
-from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from hrcplan.errors import MissingPlannerError, PlannerError, UnsupportedError
+from hrcplan.errors import MissingPlannerError, PlannerError
 from hrcplan.pddl.constructs import AXIOMS
-from hrcplan.pddl.dialect import without_numbers
-from hrcplan.pddl.inlining import remaining
-from hrcplan.pddl.model import TOTAL_COST, Function
-from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
-from hrcplan.planners.lowering import NO_SEQUENCE, Lowered, lower
+from hrcplan.planners.fast_downward_input import DownwardInput, downward_input
+from hrcplan.planners.lowering import NO_SEQUENCE
 from hrcplan.planners.process import FinishedProcess, ProcessEnd, ProcessLimits, run
-from hrcplan.plans import parse_plan
 
 # One supervised program instead of two: translate, then search.
 _SCRIPT = """
@@ -37,7 +31,20 @@ _FIRST = (
     "pref=false),cost_type=one),let(hff, eval_modify_costs(ff(),cost_type=one),"
     "lazy_greedy([hff,hlm],preferred=[hff,hlm],cost_type=one,reopen_closed=false)))"
 )
-_MAX_INT = 2**31
+_LANDMARKS = (
+    "eval_modify_costs(landmark_sum(lm_factory=lm_reasonable_orders_hps(lm_rhw()),pref=false)"
+)
+# LAMA 2011: plans that get better, by searches that are less and less greedy.
+_ANYTIME = (
+    f"let(hlm1, {_LANDMARKS},cost_type=one),let(hff1, eval_modify_costs(ff(),cost_type=one),"
+    f"let(hlm2, {_LANDMARKS},cost_type=plusone),"
+    "let(hff2, eval_modify_costs(ff(),cost_type=plusone),"
+    "iterated([lazy_greedy([hff1,hlm1],preferred=[hff1,hlm1],cost_type=one,reopen_closed=false),"
+    "lazy_greedy([hff2,hlm2],preferred=[hff2,hlm2],reopen_closed=false),"
+    + ",".join(f"lazy_wastar([hff2,hlm2],preferred=[hff2,hlm2],w={w})" for w in (5, 3, 2, 1))
+    + "],continue_on_fail=true)))))"
+)
+_MOST = 200  # plans of one search
 
 
 class FastDownward:
@@ -76,57 +83,10 @@ class FastDownward:
         missing, binary = self.missing(), find_binary()
         if missing is not None or binary is None:
             raise MissingPlannerError(f"fast-downward cannot run here: {missing}")
-        if remaining(request.problem) == {AXIOMS}:
-            return _solve_lifted(request, binary)
-        lowered = lower(request.task)
-        if not lowered.fits_32_bits:
-            message = f"costs in whole numbers (times {lowered.scale}) exceed 32-bit integers"
-            raise UnsupportedError(message, hint="round the function values, or use enhsp, kairos")
-        if request.task.is_goal(request.task.initial):  # an empty goal becomes an axiom in there
-            return _solved(request, lowered, "; cost = 0")
-        search = _FIRST if request.any_plan else _proof(lowered, len(request.task.goal))
-        texts = lowered.domain_text, lowered.problem_text
-        return _searched(request, texts, search, binary, partial(_solved, request, lowered))
-
-
-def _solve_lifted(request: Request, binary: Path) -> Answer:
-    """Return the answer for a task with derived predicates, which is handed over as it is."""
-    problem, counts = request.problem, TOTAL_COST in request.problem.domain.functions
-    priced = problem.metric == Function(TOTAL_COST) and not problem.maximize
-    whole = all(isinstance(value, int) and value >= 0 for value in problem.values.values())
-    exact_for_metric = whole and (priced if counts else problem.metric is None)
-    if not exact_for_metric:
-        problem = without_numbers(problem)
-    search = _FIRST if request.any_plan else "astar(blind())"  # no other is admissible with axioms
-    texts = domain_text(problem.domain), problem_text(problem)
-
-    def solved(text: str) -> Answer:
-        proven = exact_for_metric and not request.any_plan
-        cost = _cost(text) if exact_for_metric else None
-        status = Status.OPTIMAL if proven else Status.SOLVED
-        return Answer(status, parse_plan(text), cost)
-
-    return _searched(request, texts, search, binary, solved)
-
-
-def _searched(
-    request: Request,
-    texts: tuple[str, str],
-    search: str,
-    binary: Path,
-    solved: Callable[[str], Answer],
-) -> Answer:
-    """Return what the translator and one search say; ``solved`` reads a plan's text."""
-    with TemporaryDirectory(prefix="hrcplan-") as folder:
-        cwd = Path(folder)
-        (cwd / "domain.pddl").write_text(texts[0])
-        (cwd / "problem.pddl").write_text(texts[1])
-        limits = ProcessLimits(request.time_left_s, request.memory_bytes)
-        argv = ["/bin/sh", "-c", _SCRIPT, sys.executable, str(binary), search]
-        finished = run(argv, cwd=cwd, limits=limits)
-        plan = cwd / "plan"
-        text = plan.read_text() if plan.exists() else None
-    return _answer(request, solved, finished, text)
+        given = downward_input(request)
+        if given.solved:
+            return _solved(request, given, "; cost = 0")
+        return _Search(request, given).run(binary)
 
 
 def find_binary() -> Path | None:
@@ -138,25 +98,52 @@ def find_binary() -> Path | None:
     return None
 
 
-def _proof(lowered: Lowered, n_goals: int) -> str:
-    """Return the strongest admissible search for what the task contains."""
-    if n_goals > 1:  # becomes an axiom, with which no heuristic here is admissible
-        return "astar(blind())"
-    return "astar(hmax())" if lowered.conditional else "astar(lmcut())"
+class _Search:
+    """One run of the translator and a search, and the plans that it has written so far."""
+
+    def __init__(self, request: Request, given: DownwardInput) -> None:
+        self.request, self.given = request, given
+        self._folder = Path()
+        self._n_plans = 0
+
+    def run(self, binary: Path) -> Answer:
+        """Return the answer; plans that are improved later are told of at once."""
+        request, given = self.request, self.given
+        quick = _ANYTIME if request.improves else _FIRST
+        search = quick if request.any_plan else given.proof
+        with TemporaryDirectory(prefix="hrcplan-") as folder:
+            self._folder = Path(folder)
+            (self._folder / "domain.pddl").write_text(given.domain)
+            (self._folder / "problem.pddl").write_text(given.problem)
+            limits = ProcessLimits(request.time_left_s, request.memory_bytes)
+            argv = ["/bin/sh", "-c", _SCRIPT, sys.executable, str(binary), search]
+            finished = run(argv, cwd=self._folder, limits=limits, on_tick=self._look)
+            plans = self._plans()
+            text = plans[-1].read_text() if plans else None
+        return _answer(request, given, finished, text)
+
+    def _plans(self) -> list[Path]:
+        """Return the files of complete plans, the best one last: a plan ends with its cost."""
+        found = [self._folder / "plan", *(self._folder / f"plan.{i}" for i in range(1, _MOST))]
+        return [file for file in found if file.exists() and "; cost" in file.read_text()]
+
+    def _look(self) -> None:
+        plans = self._plans()
+        for file in plans[self._n_plans :]:
+            self.request.on_plan(self.given.plan(file.read_text()))
+        self._n_plans = len(plans)
 
 
 def _answer(
-    request: Request,
-    solved: Callable[[str], Answer],
-    finished: FinishedProcess,
-    text: str | None,
+    request: Request, given: DownwardInput, finished: FinishedProcess, text: str | None
 ) -> Answer:
     """Return what the exit code means (fast-downward.org, "Exit codes")."""
     if finished.ended is not ProcessEnd.EXITED:
-        return Answer(Status.UNSOLVED, note=f"stopped: {finished.ended.value}")
+        note = f"stopped: {finished.ended.value}"
+        return Answer(Status.UNSOLVED, note=note) if text is None else _solved(request, given, text)
     code = finished.code
-    if code in (0, 1, 2, 3) and text is not None:
-        return solved(text)
+    if text is not None and (code in (0, 1, 2, 3) or request.any_plan):
+        return _solved(request, given, text)
     if code in (10, 11):
         if request.problem.domain.is_temporal:
             return Answer(Status.UNSOLVED, note=NO_SEQUENCE)
@@ -169,21 +156,14 @@ def _answer(
     raise PlannerError(f"fast-downward ended with exit code {code}: {' / '.join(lines[-3:])}")
 
 
-def _solved(request: Request, lowered: Lowered, text: str) -> Answer:
-    cost = _cost(text)
-    # No expanded node has a larger g, and no generated one is more than an action above it.
-    safe = cost is not None and cost + max(lowered.costs, default=0) < _MAX_INT
-    temporal = request.problem.domain.is_temporal
-    proven = not request.any_plan and lowered.exact_for_metric and not temporal and safe
+def _solved(request: Request, given: DownwardInput, text: str) -> Answer:
+    found = re.search(r"; cost = (\d+)", text)
+    cost = int(found[1]) if found else None
+    proven = not request.any_plan and given.exact and cost is not None and given.is_safe(cost)
+    weighed = given.exact or not request.weighs_time
     return Answer(
         Status.OPTIMAL if proven else Status.SOLVED,
-        lowered.plan(text),
-        None if cost is None else lowered.objective(cost),
-        "" if lowered.exact_for_metric else "cheapest sequence of actions, time not weighed",
+        given.plan(text),
+        None if cost is None else given.objective(cost, request.problem),
+        "" if weighed else "cheapest sequence of actions, time not weighed",
     )
-
-
-def _cost(text: str) -> int | None:
-    """Return the cost that stands below a plan."""
-    found = re.search(r"; cost = (\d+)", text)
-    return int(found[1]) if found else None

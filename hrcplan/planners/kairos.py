@@ -22,7 +22,7 @@ from hrcplan.planners.contract import Answer, Capabilities, Request, Status
 from hrcplan.planners.lowering import Lowered, lower
 from hrcplan.planners.number_range import decides_exactly, never_lowers_cost, prices_exactly
 from hrcplan.plans import Plan, parse_plan
-from hrcplan.validation import Report, objective, validate
+from hrcplan.validation import Report, objective
 
 if TYPE_CHECKING:
     import kairos
@@ -149,7 +149,7 @@ class _Portfolio:
         if self.request.problem.domain.is_continuous:
             self.best = 0, plan, None  # hrcplan cannot judge it
             return
-        report = validate(self.request.problem, plan)
+        report = self.request.replays(self.request.problem, plan)
         if not report.valid:
             self.invalid = report
             return

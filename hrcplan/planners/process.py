@@ -16,7 +16,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import IO
@@ -27,6 +27,7 @@ _GUARD = Path(__file__).resolve().with_name("guard.py")
 _CHUNK = 1 << 16
 _PATIENCE_S = 10.0  # beyond the time limit: longer than a guard that can run takes to clear up
 _LONG_S = 3600.0
+_TICK_S = 0.1
 
 
 @dataclass(frozen=True)
@@ -84,8 +85,9 @@ class FinishedProcess:
 
 
 def run(
-    argv: Sequence[str], *, cwd: Path, limits: ProcessLimits, env: Mapping[str, str] | None = None
-) -> FinishedProcess:
+    argv: Sequence[str], *, cwd: Path, limits: ProcessLimits, env: Mapping[str, str] | None = None,
+    on_tick: Callable[[], None] | None = None,
+) -> FinishedProcess:  # fmt: skip
     r"""Return how a program ended, once it and everything it started is gone.
 
     At a limit the whole tree gets SIGTERM, and SIGKILL 0.3 s later (memory: SIGKILL at once).
@@ -98,6 +100,7 @@ def run(
         cwd: Working directory of the program.
         limits: What it may use.
         env: Its whole environment; by default that of this process.
+        on_tick: Is called about ten times a second while the program runs.
 
     Raises:
         ValueError: if ``argv`` is empty.
@@ -112,7 +115,7 @@ def run(
     """
     started_s = time.monotonic()
     with orphans.adoption() as family, _guarded(_job(argv, limits, env), cwd) as (guard, report):
-        output, answer = _collect(guard, report, limits)
+        output, answer = _collect(guard, report, limits, on_tick)
         if not output.is_over and not answer:
             orphans.end_tree(guard.pid)
             guard.wait()
@@ -195,7 +198,10 @@ class _Output:
 
 
 def _collect(
-    guard: subprocess.Popen[bytes], report: int, limits: ProcessLimits
+    guard: subprocess.Popen[bytes],
+    report: int,
+    limits: ProcessLimits,
+    on_tick: Callable[[], None] | None,
 ) -> tuple[_Output, bytes]:
     """Return the output and the guard's answer; none if the output is too long, or none comes."""
     assert guard.stdout
@@ -210,7 +216,12 @@ def _collect(
             left_s = min(deadline - time.monotonic(), _LONG_S)
             if left_s <= 0:  # guard and watcher are stopped
                 return output, b""
-            woken = {key.fd for key, _ in ready.select(left_s)}
+            wait_s = left_s if on_tick is None else min(left_s, _TICK_S)
+            woken = {key.fd for key, _ in ready.select(wait_s)}
+            if on_tick is not None:
+                on_tick()
+            if not woken:
+                continue
             # At the answer everything that could write is gone, so silence is the end: the end of
             # file may never come, if a process that nobody can kill holds the pipe.
             if woken == {report}:

@@ -108,6 +108,7 @@ class _Race:
                 self.request,
                 memory_bytes=self._memory,
                 any_plan=job.any_plan or self.request.any_plan,
+                improves=not self.request.any_plan,
             )
             lane = _Lane(job, Worker(_work(job, request, self._in_lanes)))
             self._lanes.append(lane)
@@ -159,7 +160,7 @@ def _work(job: Job, request: Request, lanes: bool) -> Callable[[Send], None]:
             answer = Answer(Status.SOLVED, plan)
             with contextlib.suppress(PlannerError):
                 card, problem = job.planner.card, request.problem
-                send(_Improvement(checked(card, problem, answer, lanes, job.why)))
+                send(_Improvement(checked(card, problem, answer, lanes, job.why, request.replays)))
 
         try:
             send(ask(job.planner, replace(request, on_plan=on_plan), lanes, job.why))

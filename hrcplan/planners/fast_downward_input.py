@@ -1,0 +1,203 @@
+"""What Fast Downward is given: the lowered task, or the lifted files where that grows too large."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from hrcplan.core.numbers import Number
+from hrcplan.errors import UnsupportedError
+from hrcplan.pddl.dialect import with_effects, without_numbers
+from hrcplan.pddl.inlining import remaining
+from hrcplan.pddl.model import (
+    TOTAL_COST,
+    TRUE,
+    And,
+    Atom,
+    Compare,
+    Constant,
+    Effect,
+    Equal,
+    Formula,
+    Function,
+    Not,
+    Or,
+    Problem,
+    Quantified,
+)
+from hrcplan.pddl.write import domain_text, problem_text
+from hrcplan.planners.contract import Request
+from hrcplan.planners.lowering import Lowered, lower
+from hrcplan.plans import Plan, parse_plan
+
+MOST_ACTIONS = 3000
+"""Ground actions up to which a lowered task is not larger than what Fast Downward makes itself."""
+GROUNDING_S = 1.0
+_MAX_INT = 2**31
+_MAX_PRICE = _MAX_INT // 10**6  # no heuristic value of a lifted task overflows then
+
+
+@dataclass(frozen=True, slots=True)
+class DownwardInput:
+    """Two texts, and what an answer about them means.
+
+    ``exact``: the cost is the problem's metric, and fits into 32 bits on the way to any plan.
+    ``proof`` is the strongest search with an admissible heuristic. ``solved``: nothing is to do.
+    """
+
+    domain: str
+    problem: str
+    lowered: Lowered | None
+    exact: bool
+    proof: str
+    solved: bool = False
+
+    def plan(self, text: str) -> Plan:
+        """Return Fast Downward's plan in the names of the task."""
+        return parse_plan(text) if self.lowered is None else self.lowered.plan(text)
+
+    def objective(self, cost: int, problem: Problem) -> Number | None:
+        """Return the problem's metric of a plan with this cost; None where it is another thing."""
+        if self.lowered is not None:
+            return self.lowered.objective(cost)
+        return cost + problem.values.get((TOTAL_COST,), 0) if self.exact else None
+
+    def is_safe(self, cost: int) -> bool:
+        """Return whether nothing that leads to a plan of this cost exceeds 32 bits.
+
+        No expanded node has a larger g, and no generated one is more than an action above it.
+        """
+        most = max(self.lowered.costs, default=0) if self.lowered is not None else _MAX_PRICE
+        return cost + most < _MAX_INT
+
+
+def downward_input(request: Request) -> DownwardInput:
+    """Return what Fast Downward is to be given for a request.
+
+    Raises:
+        UnsupportedError: if it cannot hold the task in either form.
+        LimitError: if the task cannot be grounded within the limits, and has to be.
+    """
+    problem = request.problem
+    lifted = _lifted(problem)
+    if remaining(problem):
+        if lifted is None:
+            raise UnsupportedError("fast-downward knows no numbers beside derived predicates")
+        return lifted
+    if lifted is not None:
+        grounding_s = min(GROUNDING_S, request.time_left_s / 10)
+        request.lazy_task.begin(problem, time.monotonic() + grounding_s)
+        if not request.lazy_task.is_small(MOST_ACTIONS):
+            return lifted
+    return _grounded(request)
+
+
+def _grounded(request: Request) -> DownwardInput:
+    task = request.task
+    lowered = lower(task)
+    if not lowered.fits_32_bits:
+        message = f"costs in whole numbers (times {abs(lowered.scale)}) exceed 32-bit integers"
+        raise UnsupportedError(message, hint="round the function values, or use enhsp, kairos")
+    proof = "astar(hmax())" if lowered.conditional else "astar(lmcut())"
+    if len(task.goal) > 1:  # becomes an axiom, with which no heuristic here is admissible
+        proof = "astar(blind())"
+    exact = lowered.exact_for_metric and not request.problem.domain.is_temporal
+    # An empty goal becomes an axiom in there.
+    solved = task.is_goal(task.initial)
+    return DownwardInput(
+        lowered.domain_text, lowered.problem_text, lowered, exact, proof, solved
+    )  # fmt: skip
+
+
+def _lifted(problem: Problem) -> DownwardInput | None:
+    """Return a task in its own files; None if it has numbers other than costs, or time."""
+    domain = problem.domain
+    if domain.is_temporal or any(_has_numbers(formula) for formula in _formulas(problem)):
+        return None
+    prices = list(_prices(problem))
+    counts = TOTAL_COST in domain.functions
+    plain = not problem.maximize and problem.metric in (None, Function(TOTAL_COST))
+    exact = plain and all(price is not None for price in prices)
+    exact = exact and not domain.changed_functions - {TOTAL_COST}
+    if exact and counts:
+        problem = replace(_costs_only(problem), metric=Function(TOTAL_COST))
+    else:
+        problem = without_numbers(problem)
+    small = max((price for price in prices if price is not None), default=0) <= _MAX_PRICE
+    texts = domain_text(problem.domain), problem_text(problem)
+    return DownwardInput(*texts, None, exact and small, _proof(problem))
+
+
+def _formulas(problem: Problem) -> Iterator[Formula]:
+    yield problem.goal
+    for action in problem.domain.actions:
+        yield from (condition.formula for condition in action.conditions)
+        yield from (effect.given for effect in action.effects)
+    yield from (axiom.body for axiom in problem.domain.axioms)
+
+
+def _has_numbers(formula: Formula) -> bool:
+    match formula:
+        case Compare():
+            return True
+        case Not(body) | Quantified(_, _, body):
+            return _has_numbers(body)
+        case And(parts) | Or(parts):
+            return any(_has_numbers(part) for part in parts)
+    return False
+
+
+def _prices(problem: Problem) -> Iterator[int | None]:
+    """Yield what actions may cost; None for a cost that Fast Downward cannot read."""
+    for action in problem.domain.actions:
+        for effect in action.effects:
+            if effect.target.name == TOTAL_COST:
+                yield from _price(effect, problem)
+
+
+def _price(effect: Effect, problem: Problem) -> Iterator[int | None]:
+    if effect.kind != "increase" or effect.given != TRUE or effect.params:
+        yield None
+    match effect.value:
+        case Constant(value):
+            values = [value]
+        case Function(name) if name not in problem.domain.changed_functions:
+            values = [value for key, value in problem.values.items() if key[0] == name]
+        case _:
+            values = [-1]
+    yield from (int(v) if v >= 0 and v.denominator == 1 else None for v in values)
+
+
+def _costs_only(problem: Problem) -> Problem:
+    """Return a problem with the functions that costs are made of, and no others."""
+    domain = problem.domain
+    names = {TOTAL_COST}
+    for action in domain.actions:
+        for effect in action.effects:
+            if effect.target.name == TOTAL_COST and isinstance(effect.value, Function):
+                names.add(effect.value.name)
+    kept = with_effects(domain, lambda e: e.value is None or e.target.name == TOTAL_COST)
+    functions = {name: f for name, f in domain.functions.items() if name in names}
+    values = {key: value for key, value in problem.values.items() if key[0] in names}
+    return replace(problem, domain=replace(kept, functions=functions), values=values)
+
+
+def _proof(problem: Problem) -> str:
+    """Return the strongest admissible search for what the files contain."""
+    if problem.domain.axioms or not all(_is_simple(formula) for formula in _formulas(problem)):
+        return "astar(blind())"  # the translator makes axioms, with which no other is admissible
+    conditional = any(e.given != TRUE for a in problem.domain.actions for e in a.effects)
+    return "astar(hmax())" if conditional else "astar(lmcut())"
+
+
+def _is_simple(formula: Formula) -> bool:
+    """Return whether a condition is a conjunction of literals."""
+    match formula:
+        case Atom() | Equal():
+            return True
+        case Not(body):
+            return isinstance(body, (Atom, Equal))
+        case And(parts):
+            return all(_is_simple(part) for part in parts)
+    return False
