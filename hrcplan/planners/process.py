@@ -209,6 +209,7 @@ def _collect(
     streams = {pipe.fileno(): bytearray() for pipe in (guard.stdout, guard.stderr)}
     output = _Output(limits.output_bytes, streams)
     deadline = time.monotonic() + max(0.0, limits.time_s) + _PATIENCE_S
+    tick_at = time.monotonic() + _TICK_S
     with selectors.PollSelector() as ready:
         for fd in (*streams, report):
             ready.register(fd, selectors.EVENT_READ)
@@ -218,8 +219,9 @@ def _collect(
                 return output, b""
             wait_s = left_s if on_tick is None else min(left_s, _TICK_S)
             woken = {key.fd for key, _ in ready.select(wait_s)}
-            if on_tick is not None:
+            if on_tick is not None and time.monotonic() >= tick_at:
                 on_tick()
+                tick_at = time.monotonic() + _TICK_S
             if not woken:
                 continue
             # At the answer everything that could write is gone, so silence is the end: the end of
