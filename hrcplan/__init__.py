@@ -20,12 +20,12 @@ __version__ = "0.1.0"
 if TYPE_CHECKING:
     from hrcplan import planners as planners
     from hrcplan.assistance import ASSISTANTS as assistants  # noqa: N811
-    from hrcplan.assistance import Assistant
+    from hrcplan.assistance import Assistant, BeliefAssistant, StepChoice
     from hrcplan.bank import Bank, build_bank
     from hrcplan.bank import load as load_bank
-    from hrcplan.episodes.episode import TurnWorld
+    from hrcplan.episodes.episode import TurnWorld, play
     from hrcplan.episodes.humans import HUMANS as humans  # noqa: N811
-    from hrcplan.episodes.humans import EpisodeHuman
+    from hrcplan.episodes.humans import Course, EpisodeHuman
     from hrcplan.episodes.worlds import WORLDS as worlds  # noqa: N811
     from hrcplan.errors import (
         CostGuardError,
@@ -61,8 +61,10 @@ __all__ = [
     "Assistant",
     "Bank",
     "Belief",
+    "BeliefAssistant",
     "Capabilities",
     "CostGuardError",
+    "Course",
     "Diagnostic",
     "Domain",
     "EpisodeHuman",
@@ -84,6 +86,7 @@ __all__ = [
     "Request",
     "Result",
     "Status",
+    "StepChoice",
     "Task",
     "TurnWorld",
     "UnsupportedError",
@@ -98,6 +101,7 @@ __all__ = [
     "load_bank",
     "plan",
     "planners",
+    "play",
     "read",
     "run_study",
     "validate",
@@ -105,10 +109,10 @@ __all__ = [
 ]
 # Where each name lives: "name=attribute" if it has another name there, "name=" for the module.
 _HOMES = {
-    "hrcplan.assistance": ("Assistant", "assistants=ASSISTANTS"),
+    "hrcplan.assistance": ("Assistant", "BeliefAssistant", "StepChoice", "assistants=ASSISTANTS"),
     "hrcplan.bank": ("Bank", "build_bank", "load_bank=load"),
-    "hrcplan.episodes.episode": ("TurnWorld",),
-    "hrcplan.episodes.humans": ("EpisodeHuman", "humans=HUMANS"),
+    "hrcplan.episodes.episode": ("TurnWorld", "play"),
+    "hrcplan.episodes.humans": ("Course", "EpisodeHuman", "humans=HUMANS"),
     "hrcplan.errors": (
         "CostGuardError", "Diagnostic", "HrcplanError", "InputError", "LimitError",
         "MissingPlannerError", "PddlError", "PlanFormatError", "PlannerError", "UnsupportedError",

@@ -1,7 +1,8 @@
 """Documents are true: console blocks and Python examples in them print what stands there.
 
-A block shows commands after ``$ `` and what they print; ``...`` stands for anything. The blocks of
-one document share a folder, so a file that one command writes is there for the next.
+A console block shows commands after ``$ `` and what they print; ``...`` stands for anything. A
+block with a ``title`` is a file of that name. The blocks of one document share a folder, in order,
+so a file that one block writes is there for the next.
 """
 
 from __future__ import annotations
@@ -16,17 +17,28 @@ from pathlib import Path
 
 import pytest
 
+import hrcplan
+
 ROOT = Path(__file__).resolve().parent.parent
-DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+DOCUMENTS = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+NAMES = {path: path.relative_to(ROOT).as_posix() for path in DOCUMENTS}
 FLAGS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 
 
-def sessions(text: str) -> Iterator[tuple[str, str]]:
-    """Yield command and expected output of every console block."""
-    for block in re.findall(r"```console\n(.*?)```", text, re.DOTALL):
-        for part in re.split(r"^\$ ", block, flags=re.MULTILINE)[1:]:
-            command, _, printed = part.partition("\n")
-            yield command, printed
+BLOCK = re.compile(r"^```(\w+)(?: title=\"([^\"]+)\")?\n(.*?)^```$", re.DOTALL | re.MULTILINE)
+
+
+def sessions(text: str, folder: Path) -> Iterator[tuple[str, str]]:
+    """Write the titled blocks of a document, and yield its commands with what they print."""
+    for language, title, block in BLOCK.findall(text):
+        if title:
+            file = folder / title
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(block, "utf-8")
+        elif language == "console":
+            for part in re.split(r"^\$ ", block, flags=re.MULTILINE)[1:]:
+                command, _, printed = part.partition("\n")
+                yield command, printed
 
 
 def run(command: str, folder: Path) -> str:
@@ -41,17 +53,17 @@ def run(command: str, folder: Path) -> str:
     return done.stdout
 
 
-@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
+@pytest.mark.parametrize("document", DOCUMENTS, ids=NAMES.get)
 def test_console_blocks(document: Path, tmp_path: Path) -> None:
     checker = doctest.OutputChecker()
-    for command, expected in sessions(document.read_text(encoding="utf-8")):
+    for command, expected in sessions(document.read_text(encoding="utf-8"), tmp_path):
         got = run(command, tmp_path)
         example = doctest.Example(command, expected)
         difference = checker.output_difference(example, got, FLAGS)
         assert checker.check_output(expected, got, FLAGS), f"$ {command}\n{difference}"
 
 
-@pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: path.name)
+@pytest.mark.parametrize("document", DOCUMENTS, ids=NAMES.get)
 def test_python_examples(
     document: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
@@ -61,7 +73,20 @@ def test_python_examples(
     assert found.failed == 0, capsys.readouterr().out
 
 
-def test_there_is_something_to_run() -> None:
+def test_there_is_something_to_run(tmp_path: Path) -> None:
     texts = [path.read_text(encoding="utf-8") for path in DOCUMENTS]
-    assert any(list(sessions(text)) for text in texts)
-    assert any(doctest.DocTestParser().get_examples(text) for text in texts)
+    assert sum(len(list(sessions(text, tmp_path))) for text in texts) > 20
+    assert sum(len(doctest.DocTestParser().get_examples(text)) for text in texts) > 20
+
+
+def test_every_page_is_in_the_navigation() -> None:
+    navigation = (ROOT / "mkdocs.yml").read_text(encoding="utf-8")
+    for path in DOCUMENTS[1:]:
+        assert path.relative_to(ROOT / "docs").as_posix() in navigation
+
+
+def test_every_exported_name_has_a_place_in_the_reference() -> None:
+    pages = "".join(p.read_text("utf-8") for p in (ROOT / "docs/reference/python").glob("*.md"))
+    documented = set(re.findall(r"hrcplan\.(\w+)", pages)) | {"load_bank"}
+    errors = {name for name in hrcplan.__all__ if name.endswith("Error")} | {"Diagnostic"}
+    assert set(hrcplan.__all__) - errors <= documented

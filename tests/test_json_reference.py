@@ -1,0 +1,148 @@
+"""Every key of every JSON document is in ``docs/reference/json.md``, with its type."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner
+
+from hrcplan.cli.main import main
+
+ROOT = Path(__file__).resolve().parent.parent
+TEXT = (ROOT / "docs" / "reference" / "json.md").read_text("utf-8")
+TYPES: dict[str, tuple[type, ...]] = {
+    "str": (str,), "bool": (bool,), "int": (int,), "number": (int, float), "list": (list,),
+}  # fmt: skip
+BAD = "(define (problem x) (:domain transport) (:objects a - wpp) (:goal (at human nowhere)))"
+SEEN = """(get human yogurt)
+(get human berries)
+(turn_on human blender)
+(pour human yogurt glass)
+(pour human berries glass)
+(get human oats)
+(pour human oats glass)
+(fly human away)
+"""
+# Sections of the page, and the commands that fill them; {w} is a folder with files.
+COMMANDS = {
+    "plan": [
+        ["plan", "transport/two-boxes"],
+        ["plan", "kitchen/parfait-fruit", "--planner", "fast-downward", "--lanes"],
+    ],
+    "validate": [
+        ["validate", "transport/two-boxes", "{w}/good.plan"],
+        ["validate", "transport/two-boxes", "{w}/bad.plan"],
+    ],
+    "check": [["check", "{w}/bad.pddl"]],
+    "allocation": [["allocation", "transport/two-boxes", "motivation human"]],
+    "execute": [
+        ["execute", "transport/two-boxes", "--human", "case2", "--seed", "5",
+         "--journal", "{w}/run.jsonl"],
+        ["execute", "transport/two-boxes", "--change", "motivation human=2@0"],
+    ],
+    "replay": [["replay", "{w}/run.jsonl"]],
+    "bank build and bank show": [
+        ["bank", "build", "kitchen", "{w}/goals", "-o", "{w}/k.bank"],
+        ["bank", "show", "{w}/k.bank"],
+    ],
+    "bank show --htn": [["bank", "show", "{w}/k.bank", "--htn", "parfait-fruit"]],
+    "bank sample": [["bank", "sample", "{w}/k.bank", "parfait-fruit", "-n", "2"]],
+    "bank verify": [["bank", "verify", "{w}/k.bank"]],
+    "infer": [["infer", "{w}/k.bank", "{w}/seen.txt"]],
+    "study run": [
+        ["study", "run", "changed-mind", "--goals", "{w}/goals", "--method", "hrcplan",
+         "--limit", "4", "-o", "{w}/rows"],
+        ["study", "run", "failure-anticipation", "--limit", "4", "-o", "{w}/runs"],
+    ],
+    "study report": [["study", "report", "{w}/rows"], ["study", "report", "{w}/runs"]],
+    "study play": [["study", "play", "golden", "--method", "hrcplan", "--why"]],
+    "planners": [["planners"]],
+    "doctor": [["doctor"]],
+    "new-problem": [
+        ["new-problem", "transport", "--from", "two-boxes", "--goal", "(box-at green wp5)",
+         "--name", "n", "-o", "{w}/n.pddl"],
+    ],
+    "Errors": [["plan", "transport", "no-such-problem"], ["check", "--nonsense"]],
+}  # fmt: skip
+
+
+def documented(section: str) -> dict[str, str]:
+    """Return the keys of a section with their types."""
+    body = TEXT.split(f"\n## {section}\n", 1)[1].split("\n## ", 1)[0]
+    return dict(re.findall(r"^\| `([^`]+)` \| (\w+) \|", body, re.MULTILINE))
+
+
+def flat(value: Any, path: str = "") -> Iterator[tuple[str, Any]]:
+    """Yield every path of a document with its value; lists and their entries too."""
+    if isinstance(value, dict):
+        for key, below in value.items():
+            yield from flat(below, f"{path}.{key}" if path else key)
+        return
+    yield path, value
+    if isinstance(value, list):
+        for below in value:
+            yield from flat(below, f"{path}[]")
+
+
+def key_of(path: str, keys: dict[str, str]) -> str | None:
+    """Return the documented key that a path belongs to; None if there is none."""
+    for key, kind in keys.items():
+        pattern = re.sub(r"\\\{\w+\\\}", r"[^.\\[]+", re.escape(key))
+        if re.fullmatch(pattern + (r".*" if kind == "tree" else ""), path):
+            return key
+    return None
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    work = tmp_path_factory.mktemp("json")
+    (work / "bad.pddl").write_text(BAD)
+    (work / "seen.txt").write_text(SEEN)
+    (work / "good.plan").write_text("")
+    (work / "bad.plan").write_text("(move human wp1 wp2)")
+    (work / "goals").mkdir()
+    for name in ("parfait-fruit", "parfait-nut", "smoothie-berry"):
+        text = (ROOT / "problems" / "kitchen" / f"{name}.pddl").read_text("utf-8")
+        (work / "goals" / f"{name}.pddl").write_text(text)
+    for section in ("execute", "bank build and bank show", "study run"):
+        documents(section, work)
+    return work
+
+
+def documents(section: str, folder: Path) -> list[Any]:
+    """Return what the commands of a section print."""
+    found = []
+    for words in COMMANDS[section]:
+        line = [word.replace("{w}", str(folder)) for word in words]
+        result = CliRunner().invoke(main, [*line, "--json"], standalone_mode=False)
+        try:
+            found.append(json.loads(result.stdout))
+        except json.JSONDecodeError:
+            assert section == "Errors", f"{line}: {result.output}"
+    return found
+
+
+def test_every_section_of_the_page_is_looked_at() -> None:
+    sections = set(re.findall(r"^## (.+)$", TEXT, re.MULTILINE))
+    assert sections == {*COMMANDS, "Exit codes", "Files"}
+
+
+@pytest.mark.parametrize("section", COMMANDS)
+def test_documents_have_the_keys_of_the_page(section: str, folder: Path) -> None:
+    keys = documented(section)
+    used: set[str] = set()
+    for document in documents(section, folder):
+        for path, value in flat(document):
+            key = key_of(path, keys)
+            assert key is not None, f"{path} is not in docs/reference/json.md"
+            used.add(key)
+            if value is None or keys[key] == "tree":
+                continue
+            assert isinstance(value, TYPES[keys[key]]), f"{path} is {value!r}, not a {keys[key]}"
+            assert keys[key] == "bool" or not isinstance(value, bool), f"{path} is a bool"
+    assert used == set(keys), f"never printed: {sorted(set(keys) - used)}"
