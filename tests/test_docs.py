@@ -47,7 +47,7 @@ def run(command: str, folder: Path) -> str:
     line = re.sub(r"^(tools/)?hrcplan\b", ours, command)
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "NO_COLOR": "1", "COLUMNS": "100"}
     done = subprocess.run(
-        f"{{ {line}; }} 2>&1", shell=True, cwd=folder, env=environment, capture_output=True,
+        f"exec 2>&1\n{line}", shell=True, cwd=folder, env=environment, capture_output=True,
         text=True, timeout=120, check=False,
     )  # fmt: skip
     return done.stdout

@@ -41,7 +41,7 @@ COMMANDS = {
     "check": [["check", "{w}/bad.pddl"]],
     "allocation": [["allocation", "transport/two-boxes", "motivation human"]],
     "execute": [
-        ["execute", "transport/two-boxes", "--human", "case2", "--seed", "5",
+        ["execute", "transport/two-boxes", "--human", "partly-cooperative", "--seed", "5",
          "--journal", "{w}/run.jsonl"],
         ["execute", "transport/two-boxes", "--change", "motivation human=2@0"],
     ],
@@ -57,9 +57,8 @@ COMMANDS = {
     "study run": [
         ["study", "run", "changed-mind", "--goals", "{w}/goals", "--method", "hrcplan",
          "--limit", "4", "-o", "{w}/rows"],
-        ["study", "run", "failure-anticipation", "--limit", "4", "-o", "{w}/runs"],
     ],
-    "study report": [["study", "report", "{w}/rows"], ["study", "report", "{w}/runs"]],
+    "study report": [["study", "report", "{w}/rows"]],
     "study play": [["study", "play", "golden", "--method", "hrcplan", "--why"]],
     "planners": [["planners"]],
     "doctor": [["doctor"]],
@@ -98,6 +97,12 @@ def key_of(path: str, keys: dict[str, str]) -> str | None:
     return None
 
 
+def is_below_empty(key: str, used: set[str]) -> bool:
+    """Whether a key belongs to entries of a list that was empty: claims and messages."""
+    parent = key.partition("[]")[0]
+    return parent in ("claims", "messages") and parent in used
+
+
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     work = tmp_path_factory.mktemp("json")
@@ -109,9 +114,14 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     for name in ("parfait-fruit", "parfait-nut", "smoothie-berry"):
         text = (ROOT / "problems" / "kitchen" / f"{name}.pddl").read_text("utf-8")
         (work / "goals" / f"{name}.pddl").write_text(text)
-    for section in ("execute", "bank build and bank show", "study run"):
-        documents(section, work)
     return work
+
+
+@pytest.fixture(scope="module")
+def written(folder: Path) -> dict[str, list[Any]]:
+    """Return what the commands print that write the files of the others."""
+    sections = ("execute", "bank build and bank show", "study run")
+    return {section: documents(section, folder) for section in sections}
 
 
 def documents(section: str, folder: Path) -> list[Any]:
@@ -133,10 +143,12 @@ def test_every_section_of_the_page_is_looked_at() -> None:
 
 
 @pytest.mark.parametrize("section", COMMANDS)
-def test_documents_have_the_keys_of_the_page(section: str, folder: Path) -> None:
+def test_documents_have_the_keys_of_the_page(
+    section: str, folder: Path, written: dict[str, list[Any]]
+) -> None:
     keys = documented(section)
     used: set[str] = set()
-    for document in documents(section, folder):
+    for document in written.get(section) or documents(section, folder):
         for path, value in flat(document):
             key = key_of(path, keys)
             assert key is not None, f"{path} is not in docs/reference/json.md"
@@ -145,4 +157,5 @@ def test_documents_have_the_keys_of_the_page(section: str, folder: Path) -> None
                 continue
             assert isinstance(value, TYPES[keys[key]]), f"{path} is {value!r}, not a {keys[key]}"
             assert keys[key] == "bool" or not isinstance(value, bool), f"{path} is a bool"
-    assert used == set(keys), f"never printed: {sorted(set(keys) - used)}"
+    absent = {key for key in set(keys) - used if not is_below_empty(key, used)}
+    assert not absent, f"never printed: {sorted(absent)}"

@@ -162,9 +162,10 @@ def load_profile(name: str) -> Profile:
     5
     """
     if name.endswith(".toml"):
-        tables = _read(Path(name))
+        tables = {key: table for key, table in _read(Path(name)).items() if isinstance(table, dict)}
         if not tables:
-            raise InputError("the file holds no [profile]", code="bad-profile", path=name)
+            hint = "begin it with a name in brackets, such as [patient]"
+            raise InputError("the file has no table", code="bad-profile", path=name, hint=hint)
         first = next(iter(tables))
         return profile_from_table({"name": first, **tables[first]}, name)
     name = current_name("profile", name, OLD_NAMES)

@@ -59,7 +59,10 @@ class Evidence:
 
 
 class ProgressTracker:
-    """Follows observed steps through the graphs of a bank (docs/design.md)."""
+    """Follows observed steps through the graphs of a bank.
+
+    See docs/concepts/plan-graphs.md, "States off the graph".
+    """
 
     def __init__(self, bank: Bank) -> None:
         self.bank = bank

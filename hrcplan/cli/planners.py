@@ -18,7 +18,8 @@ def command() -> None:
     cards = [(p.card, p.missing()) for p in map(registry.make, registry.names())]
     if output.JSON:
         output.document({"planners": [
-            {**asdict(card), "present": missing is None, "missing": missing}
+            {**asdict(card), "constructs": sorted(card.constructs), "present": missing is None,
+             "missing": missing}
             for card, missing in cards
         ]})  # fmt: skip
         return

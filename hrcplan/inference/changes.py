@@ -10,7 +10,7 @@ import numpy as np
 from hrcplan.core.arrays import Floats
 from hrcplan.inference.belief import GoalChange
 
-# Tuned on randomly generated kitchens, not on the shipped one (docs/reproduce.md).
+# Tuned on randomly generated kitchens, not on the shipped one (docs/papers/changed-mind.md).
 HAZARD = 0.1
 NEVER = 0.3
 SETTLES = 0.9

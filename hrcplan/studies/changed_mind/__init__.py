@@ -2,7 +2,7 @@
 
 Ghose, Gitelson, Jin, Abawe, Vázquez, Scassellati: I've Changed My Mind: Robots Adapting to Changing
 Human Goals during Collaboration. The four measures of its Figure 3, its robot study (Figure 4), and
-what goes beyond it; ``docs/reproduce.md`` says how its gaps were read.
+what goes beyond it; ``docs/papers/changed-mind.md`` says how its gaps were read.
 """
 
 from __future__ import annotations

@@ -2,7 +2,7 @@
 
 Izquierdo-Badiola, Canal, Rizzo, Alenyà: Improved Task Planning through Failure Anticipation in
 Human-Robot Collaboration. Cases 1a to 2b of its Table I, its Figure 5, and what goes beyond it;
-``docs/reproduce.md`` says how its gaps were read.
+``docs/papers/failure-anticipation.md`` says how its gaps were read.
 """
 
 from __future__ import annotations
