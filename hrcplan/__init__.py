@@ -43,6 +43,7 @@ if TYPE_CHECKING:
     from hrcplan.execution import Outcome
     from hrcplan.execution.execute import execute
     from hrcplan.execution.worlds import EventWorld
+    from hrcplan.execution.worlds.registry import EVENT_WORLDS as event_worlds  # noqa: N811
     from hrcplan.inference import Belief, Inference, infer
     from hrcplan.inference.registry import METHODS as beliefs  # noqa: N811
     from hrcplan.pddl.inputs import read
@@ -94,6 +95,7 @@ __all__ = [
     "assistants",
     "beliefs",
     "build_bank",
+    "event_worlds",
     "execute",
     "ground",
     "humans",
@@ -122,6 +124,7 @@ _HOMES = {
     "hrcplan.execution.execute": ("execute",),
     "hrcplan.episodes.worlds": ("worlds=WORLDS",),
     "hrcplan.execution.worlds": ("EventWorld",),
+    "hrcplan.execution.worlds.registry": ("event_worlds=EVENT_WORLDS",),
     "hrcplan.inference": ("Belief", "Inference", "infer"),
     "hrcplan.inference.registry": ("beliefs=METHODS",),
     "hrcplan.pddl.inputs": ("read",),
