@@ -1,0 +1,37 @@
+"""A short run of tools/fuzz with a fixed seed: only typed errors come out, and soon."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+# Rows take a study and its figures; tests/studies/test_damaged_rows.py is the short run of them.
+N = {
+    "pddl": 60,
+    "plan": 60,
+    "toml": 40,
+    "bank": 8,
+    "journal": 40,
+    "observations": 40,
+    "arguments": 25,
+}
+
+
+@pytest.mark.parametrize("kind", N)
+def test_mutants_are_read_or_refused(kind: str) -> None:
+    words = ["--kind", kind, "--n", str(N[kind]), "--seed", "1"]
+    done = subprocess.run(
+        [sys.executable, "-P", "-m", "fuzzing", *words], text=True, check=False,
+        capture_output=True,
+        env={**os.environ, "PYTHONPATH": os.pathsep.join([str(ROOT / "tools"), str(ROOT)])},
+    )  # fmt: skip
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert f"{N[kind]} mutants" in done.stdout
+    if kind == "pddl":
+        share = int(done.stdout.split("%")[0].split()[-1])
+        assert share >= 70, "most mutants get past the tokens"
