@@ -70,6 +70,43 @@ def test_inferences_are_tables(inference: hrcplan.Inference) -> None:
     check_table(rows)
 
 
+def test_plans_and_results_are_short_tables_and_pictures(problem: hrcplan.Problem) -> None:
+    result = hrcplan.plan(problem)
+    assert repr(result.plan) == "<Plan: 8 actions, makespan 200.003 s>"
+    assert repr(result.plan.actions[0]) == "<PlannedAction (move robot wp0 wp3) at 0 s>"
+    assert repr(result).startswith("<Result: solved-optimally by exact: <Plan: 8 actions,")
+    assert len(repr(result)) <= 200
+    assert list(result.rows()[0].values()) == [0.0, 50.0, "move", "robot wp0 wp3", 3.0]
+    check_table(result.rows())
+    check_table(result.plan.rows())
+    assert "grasp blue wp4, 50.001 to 100.001 s" in text_of(result.plan._repr_html_())
+    assert "solved-optimally" in text_of(f"<div>{result._repr_html_()}</div>")
+
+
+def test_a_result_without_a_plan_is_shown_too(problem: hrcplan.Problem) -> None:
+    nothing = hrcplan.Result(hrcplan.Status.UNSOLVED, "auto", None, None, 0.1, HOSTILE)
+    assert repr(nothing) == "<Result: unsolved by auto: None>"
+    assert nothing.rows() == []
+    text_of(f"<div>{nothing._repr_html_()}</div>")
+
+
+def test_sequential_and_empty_plans_are_drawn() -> None:
+    plan = hrcplan.Plan((hrcplan.PlannedAction(HOSTILE, ()), hrcplan.PlannedAction("b", ("x",))))
+    assert repr(plan) == "<Plan: 2 actions>"
+    assert "<script>" not in plan._repr_html_()
+    assert "2 steps" in text_of(plan._repr_html_())
+    text_of(hrcplan.Plan()._repr_html_())
+
+
+def test_runs_are_tables_and_pictures(problem: hrcplan.Problem) -> None:
+    run = hrcplan.execute(problem, human="uncooperative", seed=3)
+    check_table(run.rows())
+    assert len(repr(run)) <= 200
+    failed = [row for row in run.rows() if row["outcome"] == "failed"]
+    assert run._repr_html_().count("stroke-dasharray") == len(failed)
+    text_of(f"<div>{run._repr_html_()}</div>")
+
+
 def check_table(rows: list[dict[str, Any]]) -> None:
     """Hold rows to what a table needs: the same keys in the same order, and plain values."""
     assert rows

@@ -5,16 +5,18 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from html import escape
 from pathlib import Path
 
 from hrcplan.agents import Profile, load_profile
 from hrcplan.core.deprecation import warn_old_name
 from hrcplan.core.numbers import Number
+from hrcplan.core.svg import LaneBar, gantt
 from hrcplan.core.text import type_text
 from hrcplan.errors import MissingPlannerError, UsageError
 from hrcplan.execution.changes import WorldChange
 from hrcplan.execution.driver import PlanProvider, RunWatch
-from hrcplan.execution.events import Command, Event
+from hrcplan.execution.events import FAILED, Command, Event
 from hrcplan.execution.journal import Journal, JournalFile, JournalWriter, RunSetup
 from hrcplan.execution.model import ExecutionModel
 from hrcplan.execution.monitor import Monitor
@@ -57,6 +59,27 @@ class Execution:
 
     def __repr__(self) -> str:
         return f"Execution({self.outcome!r}, {len(self.timeline.bars)} actions)"
+
+    def rows(self) -> list[dict[str, str | float | None]]:
+        """Return one row per action, in the order in which they began, for ``pandas.DataFrame``.
+
+        Keys: ``agent``, ``action``, ``args`` (separated by spaces), ``start_s``, ``end_s``,
+        ``outcome`` (None if it was still running).
+        """
+        return [
+            {"agent": bar.agent or None, "action": bar.action, "args": " ".join(bar.args),
+             "start_s": bar.start_s, "end_s": bar.end_s, "outcome": bar.outcome or None}
+            for bar in self.timeline.bars.values()
+        ]  # fmt: skip
+
+    def _repr_html_(self) -> str:
+        """Return what was done as a picture, failed actions with a dashed frame."""
+        bars = [
+            LaneBar(bar.agent, " ".join([bar.action, *(a for a in bar.args if a != bar.agent)]),
+                    bar.start_s, bar.end_s, bar.outcome == FAILED)
+            for bar in self.timeline.bars.values()
+        ]  # fmt: skip
+        return f"{gantt(bars)}<p>{escape(repr(self.outcome))}</p>"
 
 
 @dataclass(frozen=True, slots=True)

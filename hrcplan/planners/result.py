@@ -6,8 +6,10 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from html import escape
 
 from hrcplan.core.numbers import Number, exact, number_text
+from hrcplan.core.text import cut
 from hrcplan.errors import CostGuardError, MissingPlannerError, PlannerError, UnsupportedError
 from hrcplan.pddl.inlining import remaining
 from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, Problem
@@ -80,6 +82,22 @@ class Result:
             return 0.0
         apart = abs(Fraction(self.objective - self.bound)) - self.gaps
         return round(max(0.0, float(apart / Fraction(self.bound))), 9)
+
+    def __repr__(self) -> str:
+        what = repr(self.plan) if self.report is None else f"{self.plan!r}, {self.report!r}"
+        return f"<Result: {self.status.value} by {cut(self.planner, 40)}: {cut(what, 120)}>"
+
+    def rows(self) -> list[dict[str, str | float | None]]:
+        """Return the rows of the plan with the ``cost`` of each action; none without a plan."""
+        if self.plan is None or self.report is None:
+            return []
+        costs = self.report.step_costs
+        return [{**row, "cost": float(c)} for row, c in zip(self.plan.rows(), costs, strict=True)]
+
+    def _repr_html_(self) -> str:
+        """Return the plan as a picture with the result below it."""
+        picture = "" if self.plan is None else self.plan._repr_html_()
+        return f"{picture}<p>{escape(repr(self))}</p>"
 
 
 def ask(planner: Planner, request: Request, lanes: bool, why: str) -> Result:

@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from hrcplan.core.numbers import Number, decimal_of
+from hrcplan.core.svg import LaneBar, gantt
+from hrcplan.core.text import cut, plural
 from hrcplan.pddl.model import Problem
 
 EPSILON_S = Fraction(1, 1000)
@@ -33,6 +35,10 @@ class PlannedAction:
     def __str__(self) -> str:
         return f"({' '.join([self.name, *self.args])})"
 
+    def __repr__(self) -> str:
+        when = "" if self.start_s is None else f" at {float(self.start_s):g} s"
+        return f"<PlannedAction {cut(str(self), 150)}{when}>"
+
 
 @dataclass(frozen=True, slots=True)
 class Plan:
@@ -54,6 +60,40 @@ class Plan:
 
     def __str__(self) -> str:
         return format_plan(self)
+
+    def __repr__(self) -> str:
+        makespan = self.makespan_s
+        time = "" if makespan is None else f", makespan {float(makespan):g} s"
+        return f"<Plan: {plural(len(self.actions), 'action')}{time}>"
+
+    def rows(self) -> list[dict[str, str | float | None]]:
+        """Return one row per action, for ``pandas.DataFrame``.
+
+        Keys: ``start_s``, ``duration_s`` (both None in a sequential plan), ``action``, ``args``
+        (separated by spaces).
+        """
+        return [
+            {
+                "start_s": None if a.start_s is None else float(a.start_s),
+                "duration_s": None if a.duration_s is None else float(a.duration_s),
+                "action": a.name,
+                "args": " ".join(a.args),
+            }
+            for a in self.actions
+        ]
+
+    def _repr_html_(self) -> str:
+        """Return the plan as a picture; the lane of an action is its first argument."""
+        bars = [
+            LaneBar(
+                a.args[0] if a.args else "",
+                " ".join([a.name, *a.args[1:]]),
+                float(i if a.start_s is None else a.start_s),
+                float(i + 1 if a.start_s is None else a.start_s + (a.duration_s or 1)),
+            )
+            for i, a in enumerate(self.actions)
+        ]
+        return gantt(bars, "s" if self.is_schedule else "steps")
 
 
 def lane(args: Iterable[str], problem: Problem) -> str | None:
