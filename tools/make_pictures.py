@@ -37,16 +37,16 @@ FLOORS = [
     "agents", "bank", "planners", "validation, plans", "search", "task", "pddl", "core, errors",
 ]  # fmt: skip
 BOXES = [  # concept, what it is, x, y
-    ("Task", "what can be done, by whom, at what cost", 20, 130),
-    ("Plan", "who does what, when; replayed and proven", 330, 30),
-    ("Run", "a plan carried out; replans before it fails", 660, 30),
-    ("Bank", "all plans of all goals, counted exactly", 330, 230),
-    ("Belief", "which goal the human pursues; the robot's help", 660, 230),
+    ("Task", "what can be done, by whom, at what cost", 10, 130),
+    ("Plan", "who does what, when; replayed, proven", 300, 30),
+    ("Run", "a plan carried out; replanned before it fails", 590, 30),
+    ("Bank", "all plans of all goals, counted exactly", 300, 230),
+    ("Belief", "what the human wants; what the robot does", 590, 230),
 ]
 ARROWS = [  # from, to, label
-    (0, 1, "planners"), (1, 2, "execution"), (0, 3, "goals"), (3, 4, "observed steps"),
+    (0, 1, "planners"), (1, 2, "execution"), (0, 3, "goals"), (3, 4, "observe"),
 ]  # fmt: skip
-WIDTH, HEIGHT = 220, 80
+WIDTH, HEIGHT = 205, 84
 
 
 def main() -> None:
@@ -64,47 +64,47 @@ def main() -> None:
 
 def architecture() -> str:
     """Return the five concepts with their arrows, and the floors of the package."""
-    parts = [_text(20, 24, "PDDL files are the only description of a task", "#1a237e", 15)]
+    parts = [_text(10, 24, "PDDL files are the only description of a task", "#1a237e", 16)]
     for start, end, label in ARROWS:
         parts += _arrow(BOXES[start][2:], BOXES[end][2:], label)
     for name, words, x, y in BOXES:
         parts += _box(name, words, x, y)
     parts += _arrow_from_file(BOXES[0][2:])
-    parts.append(_text(920, 24, "floors: imports point down", "#1a237e", 15))
+    parts.append(_text(825, 24, "floors, from the top", "#1a237e", 16))
     for i, floor in enumerate(FLOORS):
         y = 40 + 24 * i
         shade = f"hsl(231 48% {94 - 3 * i}%)"
-        parts.append(f'<rect x="920" y="{y}" width="200" height="22" rx="3" fill="{shade}"/>')
+        parts.append(f'<rect x="825" y="{y}" width="175" height="22" rx="3" fill="{shade}"/>')
         color = "#111" if i < 10 else "#fff"
-        parts.append(_text(1020, y + 16, floor, color, 13, "middle"))
+        parts.append(_text(912, y + 16, floor, color, 14, "middle"))
     return (
-        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 1140 390" font-family="sans-serif" '
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 1010 390" font-family="sans-serif" '
         'role="img"><title>The five concepts of hrcplan and the floors of its package</title>'
         '<defs><marker id="head" viewBox="0 0 10 10" refX="9" refY="5" markerWidth="7" '
         'markerHeight="7" orient="auto-start-reverse"><path d="M0 0 10 5 0 10z" fill="#3949ab"/>'
-        '</marker></defs><rect width="1140" height="390" fill="#fff"/>'
+        '</marker></defs><rect width="1010" height="390" fill="#fff"/>'
         f"{''.join(parts)}</svg>\n"
     )
 
 
 def _box(name: str, words: str, x: int, y: int) -> list[str]:
-    half = words.rfind(" ", 0, 30)
+    half = words.rfind(" ", 0, 27)
     return [
         f'<rect x="{x}" y="{y}" width="{WIDTH}" height="{HEIGHT}" rx="6" fill="#e8eaf6" '
         'stroke="#3949ab"/>',
         _text(x + WIDTH // 2, y + 26, name, "#1a237e", 18, "middle", bold=True),
-        _text(x + WIDTH // 2, y + 48, words[:half], "#333", 13, "middle"),
-        _text(x + WIDTH // 2, y + 66, words[half + 1 :], "#333", 13, "middle"),
+        _text(x + WIDTH // 2, y + 48, words[:half], "#333", 14, "middle"),
+        _text(x + WIDTH // 2, y + 66, words[half + 1 :], "#333", 14, "middle"),
     ]
 
 
 def _arrow(start: tuple[int, int], end: tuple[int, int], label: str) -> list[str]:
     x1, y1, x2, y2 = start[0] + WIDTH, start[1] + 40, end[0], end[1] + 40
-    below = 34 if y2 > y1 else -14
+    below = 44 if y2 > y1 else (-10 if y2 == y1 else -34)
     return [
         f'<line x1="{x1}" y1="{y1}" x2="{x2 - 2}" y2="{y2}" stroke="#3949ab" stroke-width="2" '
         'marker-end="url(#head)"/>',
-        _text((x1 + x2) // 2, (y1 + y2) // 2 + below, label, "#333", 12, "middle"),
+        _text((x1 + x2) // 2, (y1 + y2) // 2 + below, label, "#333", 14, "middle"),
     ]
 
 
@@ -113,7 +113,7 @@ def _arrow_from_file(end: tuple[int, int]) -> list[str]:
     return [
         f'<line x1="{x}" y1="36" x2="{x}" y2="{y - 2}" stroke="#3949ab" stroke-width="2" '
         'marker-end="url(#head)"/>',
-        _text(x + 8, 86, "read, check", "#333", 12),
+        _text(x + 8, 86, "read, check", "#333", 14),
     ]
 
 

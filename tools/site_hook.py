@@ -1,14 +1,18 @@
-"""Pages of the site that are made from the code: the reference of all commands.
+"""What the site makes from the code: the reference of all commands, and examples of docstrings.
 
-MkDocs calls ``on_files`` when it has collected the pages and before it reads them.
+MkDocs calls ``on_config`` and ``on_files`` before it reads the pages.
 """
 
 from __future__ import annotations
 
+import inspect
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
 import click
+from markdown import Extension, Markdown
+from markdown.preprocessors import Preprocessor
 from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.structure.files import File, Files
 
@@ -19,6 +23,39 @@ HEAD = """# Commands
 Made from the commands themselves: `hrcplan COMMAND --help` prints the same. What every command has
 in common (exit codes, `--json`, names and paths) is in [JSON and files](json.md).
 """
+
+
+class _Examples(Preprocessor):
+    """Paragraphs that begin with ``>>> `` are Python sessions, not quotations."""
+
+    def run(self, lines: list[str]) -> list[str]:
+        """Return the lines with a fence around each such paragraph outside of fences."""
+        result: list[str] = []
+        is_fenced = is_example = False
+        for line in [*lines, ""]:
+            is_fenced ^= bool(re.match(r"\s*```", line))
+            if is_example and not line.strip():
+                result.append("```")
+                is_example = False
+            elif line.startswith(">>> ") and not is_example and not is_fenced:
+                result += ["", "```pycon"]
+                is_example = True
+            result.append(line)
+        return result[:-1]
+
+
+class Examples(Extension):
+    """The Markdown extension of ``_Examples``."""
+
+    def extendMarkdown(self, md: Markdown) -> None:  # noqa: N802 - the name is Markdown's
+        """Run before fenced code is read."""
+        md.preprocessors.register(_Examples(md), "hrcplan-examples", 200)
+
+
+def on_config(config: MkDocsConfig) -> MkDocsConfig:
+    """Add the extension for examples in docstrings."""
+    config.markdown_extensions.append(Examples())
+    return config
 
 
 def on_files(files: Files, config: MkDocsConfig) -> Files:
@@ -38,7 +75,7 @@ def _section(command: click.Command, context: click.Context) -> Iterator[str]:
     """Yield the text of a command and of those below it."""
     if context.parent is not None:
         usage = " ".join(command.collect_usage_pieces(context))
-        summary = (command.help or "").replace("\b", "").strip()
+        summary = inspect.cleandoc((command.help or "").replace("\b", ""))
         yield f"\n## `{context.command_path}`\n\n```text\n{context.command_path} {usage}\n```\n\n"
         yield f"{_escape(summary)}\n"
         yield from _options(command)
