@@ -56,7 +56,7 @@ class LiftedState:
 
 def ground_key(function: Function | Atom, binding: Binding) -> tuple[str, ...]:
     """Return ``(name, *objects)`` of a function or atom under a binding."""
-    return (function.name, *(binding.get(arg, arg) for arg in function.args))
+    return (function.name, *[binding.get(arg, arg) for arg in function.args])
 
 
 def evaluate(expression: Expr, values: Values, binding: Binding) -> Number:

@@ -10,6 +10,7 @@ import time
 from collections import defaultdict, deque
 from collections.abc import Iterator
 from math import inf
+from pathlib import Path
 from typing import NamedTuple
 
 from hrcplan.errors import LimitError
@@ -17,8 +18,11 @@ from hrcplan.pddl.joins import FactIndex, Join, JoinBinding, conjuncts, lifted_n
 from hrcplan.pddl.model import DURATION, Action, Atom, Domain, Fact, Formula, Problem
 from hrcplan.pddl.semantics import LiftedState, ground_key, holds, instances
 
-MAX_GROUND_ACTIONS = 200_000
+MIN_FREE_BYTES = 512 << 20
+"""What grounding leaves to others: with less memory free it gives up."""
 _CHECK = 256  # ground actions between two looks at the clock
+_CHECK_MEMORY = 4096
+_HINT = "use a planner that does not need them: enhsp, kairos"
 
 
 class SchemaInstance(NamedTuple):
@@ -32,10 +36,11 @@ class SchemaInstance(NamedTuple):
 def reachable(problem: Problem, deadline: float = inf) -> tuple[list[SchemaInstance], set[Fact]]:
     """Return the reachable instances, by schema and then by objects, and the reachable facts.
 
-    Every fact is taken in once and joined with those before it (semi-naive evaluation).
+    Facts that no action adds are there from the beginning; every other one is taken in once and
+    joined with those before it (semi-naive evaluation).
 
     Raises:
-        LimitError: if there are more than ``MAX_GROUND_ACTIONS`` instances, or at the deadline.
+        LimitError: at the deadline, or if memory becomes short.
     """
     search = _Search(problem, deadline)
     search.run()
@@ -44,6 +49,14 @@ def reachable(problem: Problem, deadline: float = inf) -> tuple[list[SchemaInsta
     found = list(search.found.values())
     found.sort(key=lambda i: (order[i.action.name], [rank[arg] for arg in i.args]))
     return found, search.index.facts
+
+
+def available_bytes() -> int:
+    """Return how much memory new data may take without swapping, as Linux estimates it."""
+    for line in Path("/proc/meminfo").read_text(encoding="ascii").splitlines():
+        if line.startswith("MemAvailable:"):
+            return int(line.split()[1]) << 10
+    return MIN_FREE_BYTES
 
 
 class _Search:
@@ -57,14 +70,20 @@ class _Search:
         self._start = LiftedState(problem.facts, problem.values)
         self._rules = [_Rule(action, problem) for action in problem.domain.actions]
         self._users: dict[str, list[tuple[_Rule, int]]] = defaultdict(list)
+        self._added = {atom.name for rule in self._rules for _, atom in rule.adds}
         for rule in self._rules:
             for position, atom in enumerate(rule.join.atoms):
-                self._users[atom.name].append((rule, position))
-        self._waiting = deque(sorted(problem.facts))
+                if atom.name in self._added:
+                    self._users[atom.name].append((rule, position))
+        facts = sorted(problem.facts)
+        self._waiting = deque(fact for fact in facts if fact[0] in self._added)
+        for fact in facts:
+            if fact[0] not in self._added:
+                self.index.add(fact)
 
     def run(self) -> None:
         for rule in self._rules:
-            if not rule.join.atoms:
+            if self._added.isdisjoint(atom.name for atom in rule.join.atoms):
                 self._take(rule, rule.join.bindings(self.index))
         while self._waiting:
             fact = self._waiting.popleft()
@@ -85,12 +104,12 @@ class _Search:
                     self._waiting.append(ground_key(atom, inner))
 
     def _check(self) -> None:
-        n_found, hint = len(self.found), "use a planner that does not need them: enhsp, kairos"
-        if n_found > MAX_GROUND_ACTIONS:
-            message = f"the task has more than {MAX_GROUND_ACTIONS} ground actions"
-            raise LimitError(message, hint=hint)
+        n_found = len(self.found)
         if n_found % _CHECK == 0 and time.monotonic() > self.deadline:
-            raise LimitError(f"no time for more than {n_found} ground actions", hint=hint)
+            raise LimitError(f"no time for more than {n_found} ground actions", hint=_HINT)
+        if n_found % _CHECK_MEMORY == 0 and available_bytes() < MIN_FREE_BYTES:
+            message = f"no memory for more than {n_found} ground actions"
+            raise LimitError(message, hint=_HINT)
 
     def _can_hold(self, fixed: tuple[Formula, ...], binding: JoinBinding) -> bool:
         return all(holds(part, self._start, binding, self.problem) for part in fixed)

@@ -159,9 +159,11 @@ def test_too_many_alternatives_are_refused(tmp_path: Path) -> None:
         Task(problem)
 
 
-def test_too_many_ground_actions_are_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(reachable, "MAX_GROUND_ACTIONS", 100)
-    with pytest.raises(LimitError, match="more than 100 ground actions"):
+def test_grounding_gives_up_where_memory_is_short(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(reachable, "_CHECK_MEMORY", 100)
+    assert reachable.available_bytes() > 0
+    monkeypatch.setattr(reachable, "available_bytes", lambda: reachable.MIN_FREE_BYTES - 1)
+    with pytest.raises(LimitError, match="no memory for more than 100 ground actions"):
         Task(read("transport", "two-boxes"))
 
 
