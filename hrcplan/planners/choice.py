@@ -10,6 +10,7 @@ from hrcplan.pddl.inlining import remaining
 from hrcplan.pddl.model import TOTAL_COST
 from hrcplan.planners import registry
 from hrcplan.planners.contract import Capabilities, Planner, Request
+from hrcplan.planners.relaxed_bound import RelaxedBound
 
 _SEQUENCES = ("fast-downward", "enhsp")
 """Planners that read a temporal task as a sequence of actions, and that search in two ways: for a
@@ -54,7 +55,12 @@ def jobs(request: Request) -> list[Job]:
         raise UnsupportedError("no planner here can hold this task")
     found = [Job(p, any_plan, _merit(p.card, request, any_plan))
              for p in able for any_plan in _modes(p.card, request)]  # fmt: skip
-    return sorted(found, key=lambda job: _rank(job, request))
+    found.sort(key=lambda job: _rank(job, request))
+    bound = RelaxedBound()
+    if unable(bound.card, request) is None:
+        place = len(found) if request.any_plan else min(2, len(found))
+        found.insert(place, Job(bound, False, "it bounds the metric"))
+    return found
 
 
 def _modes(card: Capabilities, request: Request) -> tuple[bool, ...]:

@@ -76,10 +76,6 @@ class LazyTask:
             except LimitError:
                 return
 
-    def is_small(self, most: int) -> bool:
-        """Return whether the task is grounded already, with at most so many ground actions."""
-        return self._task is not None and len(self._task.actions) <= most
-
     def ground(self, problem: Problem, deadline: float) -> Task:
         """Return the task; what failed once is not tried again for the next planner.
 

@@ -133,7 +133,8 @@ def _input(request: Request) -> _Input:
     numeric = bool(domain.changed_functions - {TOTAL_COST})
     exact = decides_exactly(problem, _FLOAT_BITS) and never_lowers_cost(problem)
     clash = _may_undo_itself(request)
-    if domain.is_temporal or numeric or not plain_metric or not exact or clash:
+    counts = exact or request.any_plan  # rounding is no matter where nothing is proven
+    if domain.is_temporal or numeric or not plain_metric or not counts or clash:
         with contextlib.suppress(*(() if domain.is_temporal else (UnsupportedError, LimitError))):
             lowered = lower(request.task)
             texts = lowered.domain_text, lowered.problem_text

@@ -13,8 +13,9 @@ from tempfile import TemporaryDirectory
 
 from hrcplan.errors import MissingPlannerError, PlannerError
 from hrcplan.pddl.constructs import AXIOMS
+from hrcplan.pddl.inlining import remaining
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
-from hrcplan.planners.fast_downward_input import DownwardInput, downward_input
+from hrcplan.planners.fast_downward_input import DownwardInput, downward_input, grounded_input
 from hrcplan.planners.lowering import NO_SEQUENCE
 from hrcplan.planners.process import FinishedProcess, ProcessEnd, ProcessLimits, run
 
@@ -42,7 +43,7 @@ _ANYTIME = (
     "iterated([lazy_greedy([hff1,hlm1],preferred=[hff1,hlm1],cost_type=one,reopen_closed=false),"
     "lazy_greedy([hff2,hlm2],preferred=[hff2,hlm2],reopen_closed=false),"
     + ",".join(f"lazy_wastar([hff2,hlm2],preferred=[hff2,hlm2],w={w})" for w in (5, 3, 2, 1))
-    + "],continue_on_fail=true)))))"
+    + "])))))"
 )
 _MOST = 200  # plans of one search
 
@@ -84,9 +85,19 @@ class FastDownward:
         if missing is not None or binary is None:
             raise MissingPlannerError(f"fast-downward cannot run here: {missing}")
         given = downward_input(request)
-        if given.solved:
-            return _solved(request, given, "; cost = 0")
-        return _Search(request, given).run(binary)
+        try:
+            return _answered(request, given, binary)
+        except PlannerError:
+            if given.lowered is not None or remaining(request.problem):
+                raise
+        # A cost without a value, for one: the action cannot run, but the translator gives up.
+        return _answered(request, grounded_input(request), binary)
+
+
+def _answered(request: Request, given: DownwardInput, binary: Path) -> Answer:
+    if given.solved:
+        return _solved(request, given, "; cost = 0")
+    return _Search(request, given).run(binary)
 
 
 def find_binary() -> Path | None:

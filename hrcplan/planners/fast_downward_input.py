@@ -1,8 +1,10 @@
-"""What Fast Downward is given: the lowered task, or the lifted files where that grows too large."""
+"""What Fast Downward is given: the files as they are where it reads them, else the lowered task.
+
+It finds invariants in the files that a ground task no longer shows, and searches faster with them.
+"""
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
@@ -31,9 +33,6 @@ from hrcplan.planners.contract import Request
 from hrcplan.planners.lowering import Lowered, lower
 from hrcplan.plans import Plan, parse_plan
 
-MOST_ACTIONS = 3000
-"""Ground actions up to which a lowered task is not larger than what Fast Downward makes itself."""
-GROUNDING_S = 1.0
 _MAX_INT = 2**31
 _MAX_PRICE = _MAX_INT // 10**6  # no heuristic value of a lifted task overflows then
 
@@ -85,15 +84,18 @@ def downward_input(request: Request) -> DownwardInput:
         if lifted is None:
             raise UnsupportedError("fast-downward knows no numbers beside derived predicates")
         return lifted
-    if lifted is not None:
-        grounding_s = min(GROUNDING_S, request.time_left_s / 10)
-        request.lazy_task.begin(problem, time.monotonic() + grounding_s)
-        if not request.lazy_task.is_small(MOST_ACTIONS):
-            return lifted
-    return _grounded(request)
+    if lifted is not None and (lifted.exact or request.any_plan):
+        return lifted
+    return grounded_input(request)
 
 
-def _grounded(request: Request) -> DownwardInput:
+def grounded_input(request: Request) -> DownwardInput:
+    """Return the lowered task, in which costs are whole numbers.
+
+    Raises:
+        UnsupportedError: if it cannot be lowered, or costs exceed 32 bits.
+        LimitError: if the task cannot be grounded within the limits.
+    """
     task = request.task
     lowered = lower(task)
     if not lowered.fits_32_bits:

@@ -47,6 +47,16 @@ def landmarks(ops: Sequence[Operator], state: int, goal: Tests) -> tuple[Landmar
     return tuple(found[:MAX_LANDMARKS])
 
 
+def longest_chain(ops: Sequence[Operator], state: int, goal: Tests) -> int | None:
+    """Return the cost of the dearest chain of ops that the goal needs (h-max).
+
+    None if the goal is out of reach even if nothing true ever becomes false.
+    """
+    relaxation = _Relaxation(ops, state, goal)
+    bound = relaxation.h_max()[relaxation.goal]
+    return None if bound == _INFINITE else int(bound)
+
+
 class _Relaxation:
     """The relaxed task, whose costs are used up by the landmarks that are cut out of it."""
 

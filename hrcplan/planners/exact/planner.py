@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import time
+from fractions import Fraction
 
-from hrcplan.core.numbers import Number
+from hrcplan.core.numbers import Number, exact
 from hrcplan.errors import LimitError, UnsupportedError
 from hrcplan.pddl.model import TOTAL_COST, Problem
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
@@ -141,12 +142,19 @@ def _answer(task: Task, kept: _Kept, wanted: Metric, deadline: float, any_plan: 
         kept.frame, graph, costs, ahead, frozenset(goals), deadline,
         GREED if any_plan else 1,
     )  # fmt: skip
-    path = search.run(task.initial)
+    try:
+        path = search.run(task.initial)
+    except LimitError as error:
+        reached = None if any_plan else exact(Fraction(search.bound, costs.scale) + wanted.constant)
+        return Answer(Status.UNSOLVED, note=error.message, bound=reached)
     assert path is not None  # the sequential plan is a schedule too
     plan = kept.gaps.plan(task, path, kept.frame)
     price = sum(task.costs[ord(letter)] for letter in path if letter != WAIT)
-    status = Status.SOLVED if any_plan else Status.OPTIMAL
-    return Answer(status, plan, _objective(task.problem, wanted, plan, price))
+    value = _objective(task.problem, wanted, plan, price)
+    if any_plan:
+        return Answer(Status.SOLVED, plan, value)
+    bound = exact(Fraction(search.bound, costs.scale) + wanted.constant)
+    return Answer(Status.OPTIMAL, plan, value, bound=bound)
 
 
 def _objective(problem: Problem, wanted: Metric, plan: Plan, price: Number) -> Number | None:

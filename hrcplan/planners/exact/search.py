@@ -39,7 +39,8 @@ when they have ended, and the actions that should have started before (as bits).
 class Search:
     """One search: what it moves in, the bound (``ahead``), and until when.
 
-    ``greed`` multiplies the bound; above 1 it finds plans sooner and proves nothing.
+    ``greed`` multiplies the bound; above 1 it finds plans sooner and proves nothing. With 1,
+    ``bound`` is what no plan is better than, as far as the search has got.
     """
 
     frame: StaticMasks
@@ -53,6 +54,7 @@ class Search:
 
     def __post_init__(self) -> None:
         self._open: list[_Node] = []
+        self.bound = 0
         self._best: dict[tuple[int, RunningActions], tuple[int, str]] = {}
 
     def run(self, initial: int) -> str | None:
@@ -66,9 +68,10 @@ class Search:
             self._push("", 0, initial, (), state, 0)
         while self._open:
             node = heappop(self._open)
-            _, path, spent, facts, running, state, _ = node
+            value, path, spent, facts, running, state, _ = node
             if self._best[facts, running] != (spent, path):
                 continue
+            self.bound = max(self.bound, value)
             if state in self.goals:
                 return path
             if self.n_expanded & _CHECK == 0:

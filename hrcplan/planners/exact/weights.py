@@ -67,12 +67,14 @@ class Weights:
     Whoever is busy, no tick passes without it: if each agent gets a share of ``tick``, the shares
     of all busy agents are at most what the time costs. ``share`` is the sum over the agents that an
     action keeps busy, and ``work`` what the action adds at least: its cost and its time's share.
+    ``scale`` is what the metric was multiplied with.
     """
 
     cost: tuple[int, ...]
     tick: int
     share: tuple[int, ...]
     work: tuple[int, ...]
+    scale: int
 
 
 def weights(
@@ -94,7 +96,7 @@ def weights(
     parts = shares(whole, _rates(frame, costs))
     share = tuple(sum(parts[agent] for agent in agents) for agents in held)
     work = tuple(c + s * t for c, s, t in zip(costs, share, frame.ticks, strict=True))
-    return Weights(costs, whole, share, work)
+    return Weights(costs, whole, share, work, scale)
 
 
 def _rates(frame: StaticMasks, costs: Sequence[int]) -> dict[str, int]:
