@@ -31,11 +31,15 @@ _BEST = (
 
 @dataclass(frozen=True)
 class Job:
-    """One planner to be asked: for its first plan, or for the best one; and why it is asked."""
+    """One planner to be asked: for its first plan, or for the best one; and why it is asked.
+
+    ``finds_plans`` is False where only a bound, or a proof that there is no plan, can come of it.
+    """
 
     planner: Planner
     any_plan: bool
     why: str
+    finds_plans: bool = True
 
     @property
     def name(self) -> str:
@@ -59,7 +63,7 @@ def jobs(request: Request) -> list[Job]:
     bound = RelaxedBound()
     if unable(bound.card, request) is None:
         place = len(found) if request.any_plan else min(2, len(found))
-        found.insert(place, Job(bound, False, "it bounds the metric"))
+        found.insert(place, Job(bound, False, "it bounds the metric", finds_plans=False))
     return found
 
 

@@ -76,6 +76,11 @@ class LazyTask:
             except LimitError:
                 return
 
+    @property
+    def is_ready(self) -> bool:
+        """Whether the task is grounded already."""
+        return self._task is not None
+
     def ground(self, problem: Problem, deadline: float) -> Task:
         """Return the task; what failed once is not tried again for the next planner.
 
@@ -171,7 +176,7 @@ class Answer:
     plan: Plan | None = None
     objective: Number | None = None
     note: str = ""
-    bound: Number | None = None
+    bound: Number | None = field(default=None, compare=False)
 
     def __post_init__(self) -> None:
         """Hold status and plan together.

@@ -5,6 +5,7 @@ It finds invariants in the files that a ground task no longer shows, and searche
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
@@ -84,8 +85,12 @@ def downward_input(request: Request) -> DownwardInput:
         if lifted is None:
             raise UnsupportedError("fast-downward knows no numbers beside derived predicates")
         return lifted
-    if lifted is not None and (lifted.exact or request.any_plan):
+    if lifted is not None and lifted.exact:
         return lifted
+    if lifted is not None and request.any_plan:
+        request.lazy_task.begin(problem, time.monotonic() + request.time_left_s / 10)
+        if not request.lazy_task.is_ready:
+            return lifted  # without costs, but without the wait
     return grounded_input(request)
 
 

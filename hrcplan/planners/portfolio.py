@@ -71,6 +71,12 @@ class Portfolio:
         self._last = result
         self.take_plan(result)
 
+    def take_bound(self, result: Result) -> None:
+        """Take what is known from a search for bounds; it is no planner that has been asked."""
+        self._take_bound(result.bound)
+        if result.claim is Status.UNSOLVABLE:
+            self.take(result)
+
     def take_failure(self, planner: str, error: HrcplanError, wall_s: float) -> None:
         """Take that a planner could not hold the task, or failed."""
         self._failures.append(error)

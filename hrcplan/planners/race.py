@@ -135,8 +135,11 @@ class _Race:
                 self.portfolio.take_plan(result)
             case Result() as result:
                 lane.has_answered = True
-                self.portfolio.take(result)
-            case HrcplanError() as error if not lane.has_answered:
+                if lane.job.finds_plans:
+                    self.portfolio.take(result)
+                else:
+                    self.portfolio.take_bound(result)
+            case HrcplanError() as error if lane.job.finds_plans and not lane.has_answered:
                 lane.has_answered = True
                 wall_s = time.monotonic() - lane.begun
                 self.portfolio.take_failure(lane.job.name, error, wall_s)

@@ -84,9 +84,15 @@ def in_turn(request: Request, waiting: Sequence[Job], lanes: bool) -> Portfolio:
         share_s = left_s if position == len(waiting) - 1 else left_s / 2
         turn = replace(request, deadline=begun + share_s, any_plan=job.any_plan or request.any_plan)
         try:
-            portfolio.take(ask(job.planner, turn, lanes, job.why))
+            result = ask(job.planner, turn, lanes, job.why)
         except HrcplanError as error:
-            portfolio.take_failure(job.name, error, time.monotonic() - begun)
+            if job.finds_plans:
+                portfolio.take_failure(job.name, error, time.monotonic() - begun)
+            continue
+        if job.finds_plans:
+            portfolio.take(result)
+        else:
+            portfolio.take_bound(result)
         if portfolio.is_settled or request.time_left_s <= 0:
             break
     return portfolio
