@@ -61,6 +61,21 @@ def test_any_plan_is_not_called_optimal(parfait: Problem) -> None:
     assert validate(parfait, answer.plan).metric == answer.objective
 
 
+def test_plans_improve_until_the_search_ends(parfait: Problem) -> None:
+    """The search for better plans is one that the installed program accepts."""
+    costs: list[float] = []
+    request = Request(
+        read("transport", "two-boxes"),
+        any_plan=True,
+        improves=True,
+        on_plan=lambda plan: costs.append(len(plan.actions)),
+        deadline=time.monotonic() + 30,
+    )
+    answer = FastDownward().solve(request)
+    assert answer.status is Status.SOLVED
+    assert costs
+
+
 def test_the_sequential_reading_of_a_temporal_problem_is_no_proof() -> None:
     problem = read("transport", "two-boxes")
     answer = FastDownward().solve(Request(problem))
