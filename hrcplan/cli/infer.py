@@ -10,7 +10,7 @@ import rich_click as click
 from hrcplan.cli import options, output
 
 if TYPE_CHECKING:
-    from hrcplan.inference import Inference
+    from hrcplan.inference import GoalChange, Inference
 
 N_SHOWN = 3
 MAX_NAME = 28
@@ -76,7 +76,7 @@ def as_text(found: Inference) -> str:
     ignored = {ignored.at: ignored for ignored in found.ignored}
     for row, posterior in enumerate(found.posterior):
         if row - 1 in changes:
-            lines.append(f"{'':>4}  -- goal change ({changes[row - 1].probability:.2f}) --")
+            lines.append(f"{'':>4}  -- {_change(changes[row - 1], names)} --")
         action = found.actions[row - 1] if row else ""
         what = _likeliest(posterior, names)
         if row - 1 in ignored:
@@ -84,9 +84,21 @@ def as_text(found: Inference) -> str:
         lines.append(f"{row or '':>4}  {action:<{width}}  {what}")
     if long:
         lines += ["", *(f"{name}: {goal}" for name, goal in zip(names, found.goals, strict=True))]
+    if found.changed is not None:
+        lines += ["", f"probability that the goal has changed: {found.changed:.2f}"]
     if found.note:
         lines += ["", f"note: {found.note}"]
     return "\n".join(lines)
+
+
+def _change(change: GoalChange, names: list[str]) -> str:
+    """Return a change in words; observations are numbered from 1."""
+    text = f"goal change ({change.probability:.2f})"
+    if change.before is not None and change.after is not None:
+        text += f" from {names[change.before]} to {names[change.after]}"
+    if change.first is not None and change.last is not None and change.first != change.last:
+        text += f"; 90 %: before {change.first + 1} to {change.last + 1}"
+    return text
 
 
 def _likeliest(posterior: tuple[float, ...], names: list[str]) -> str:

@@ -8,7 +8,7 @@ has its methods, and does without where it has not. `hrcplan.testing.check_belie
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol, TypeVar, runtime_checkable
 
 from hrcplan.bank import StepTable
@@ -66,10 +66,33 @@ class Belief(Protocol[S]):
 
 @dataclass(frozen=True, slots=True)
 class GoalChange:
-    """A change of goal just before observation ``at`` (0-based), and how probable it is."""
+    """A change of goal just before observation ``at`` (0-based), and how probable it is.
+
+    Attributes:
+        at: The most probable place.
+        probability: How probable it is that the change happened.
+        first: The first place of an interval that holds the change with 90 %, given that it
+            happened; None where the belief does not say.
+        last: The last place of that interval.
+        before: The index of the goal that was given up; None where the belief does not say.
+        after: The index of the goal that was changed to.
+    """
 
     at: int
     probability: float
+    first: int | None = None
+    last: int | None = None
+    before: int | None = None
+    after: int | None = None
+
+    def moved(self, places: Sequence[int]) -> GoalChange:
+        """Return the same change where each place p is called ``places[p]``.
+
+        >>> GoalChange(1, 0.9, 0, 1).moved([3, 7])
+        GoalChange(at=7, probability=0.9, first=3, last=7, before=None, after=None)
+        """
+        first, last = (None if p is None else places[p] for p in (self.first, self.last))
+        return replace(self, at=places[self.at], first=first, last=last)
 
 
 @runtime_checkable
@@ -78,6 +101,15 @@ class DetectsChanges(Protocol[S_contra]):
 
     def changes(self, states: Sequence[S_contra]) -> tuple[GoalChange, ...]:
         """Return the probable changes, given the belief after each observation, in order."""
+        ...
+
+
+@runtime_checkable
+class WeighsChanges(Protocol[S_contra]):
+    """A belief that tells, looking back, how probable it is that the goal has changed at all."""
+
+    def changed(self, states: Sequence[S_contra]) -> float:
+        """Return that probability, given the belief after each observation, in order."""
         ...
 
 

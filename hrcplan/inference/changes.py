@@ -1,14 +1,16 @@
-"""A goal that may change: a filter over (goal, changes so far, mistake rate), and its smoother."""
+"""A goal that may change: a filter over (goal, changes so far, mistake rate), and its read-outs."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
 from hrcplan.core.arrays import Floats
 from hrcplan.inference.belief import GoalChange
+from hrcplan.inference.change_points import ChangePoints
 
 # Tuned on randomly generated kitchens, not on the shipped one (docs/papers/changed-mind.md).
 HAZARD = 0.1
@@ -16,7 +18,6 @@ NEVER = 0.3
 SETTLES = 0.9
 MAX_CHANGES = 4
 DECLARED = 0.5
-SPREAD = 2  # a change is that sure within so many steps around its likeliest place
 
 _TINY = 1e-300
 
@@ -98,43 +99,35 @@ class ChangeFilter:
         found: Floats = filtered.weights.sum(axis=(0, 1))
         return found
 
-    def changes(self, steps: Sequence[tuple[int, FilterState]]) -> tuple[GoalChange, ...]:
-        """Return the changes that are probable once everything was seen, in order of time.
 
-        Args:
-            steps: For each human step its place among the observations, and the filter after it.
-        """
-        places = [at for at, _ in steps]
-        left = self._smoothed([filtered for _, filtered in steps])
-        found: list[GoalChange] = []
-        while len(left) and left.max() > 0:
-            peak = int(left.argmax())
-            near = slice(max(0, peak - SPREAD), peak + SPREAD + 1)
-            mass = float(left[near].sum())
-            if mass <= DECLARED:
-                break
-            found.append(GoalChange(places[peak], min(1.0, mass)))
-            left[near] = 0
-        return tuple(sorted(found, key=lambda change: change.at))
+class _HumanStep(Protocol):
+    """The state of a belief that filters changes of goal."""
 
-    def _smoothed(self, steps: Sequence[FilterState]) -> Floats:
-        """Return for each human step the probability, given all, that a change precedes it."""
-        found = np.zeros(len(steps))
-        if not steps or self.n_goals < 2:
-            return found
-        behind = np.ones_like(steps[0].weights)
-        for t in range(len(steps) - 1, 0, -1):
-            likelihood = steps[t].likelihood
-            assert likelihood is not None
-            ahead = likelihood[:, None, :] * behind
-            moved = ahead.sum(axis=2, keepdims=True) - ahead
-            moved *= self.hazard / (self.n_goals - 1)
-            behind = self._kept(ahead)
-            after_change = np.concatenate([moved[:, 1:-1], moved[:, -2:-1]], axis=1)
-            after_change = self.settles * moved[:, -1:] + (1 - self.settles) * after_change
-            behind[:, :-1] += after_change
-            before = steps[t - 1].weights
-            total = float((before * behind).sum())
-            found[t] = float((before[:, :-1] * after_change).sum()) / max(total, _TINY)
-            behind /= max(float(behind.max()), _TINY)
-        return found
+    @property
+    def is_human(self) -> bool: ...
+
+    @property
+    def filtered(self) -> FilterState: ...
+
+
+def change_points(states: Sequence[_HumanStep]) -> tuple[list[int], ChangePoints]:
+    """Return the places of the human steps, and the posterior of the changes before them.
+
+    It looks back from the last step with a prior of its own (`ChangePoints`), for reports; the
+    filter is for acting, and for declaring changes as they happen.
+
+    Args:
+        states: The belief after each observation, in order.
+    """
+    seen = {
+        at: likelihood
+        for at, state in enumerate(states)
+        if state.is_human and (likelihood := state.filtered.likelihood) is not None
+    }
+    return list(seen), ChangePoints(np.array(list(seen.values()) or [np.ones((1, 1))]))
+
+
+def changes_before(states: Sequence[_HumanStep]) -> tuple[GoalChange, ...]:
+    """Return the probable changes, with the places of observations instead of human steps."""
+    places, points = change_points(states)
+    return tuple(change.moved(places) for change in points.changes())

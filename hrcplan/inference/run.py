@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence, Set
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol, runtime_checkable
@@ -21,6 +21,7 @@ from hrcplan.inference.belief import (
     HasSteps,
     Remarks,
     S,
+    WeighsChanges,
 )
 from hrcplan.inference.observations import Observations, ObservedWords, Resolver, observed_words
 from hrcplan.inference.registry import BANK_METHOD, GOALS_METHOD, METHODS, takes_goals
@@ -49,6 +50,8 @@ class Inference:
         ignored: The observations without effect; their row repeats the one before.
         method: The name of the method.
         note: A remark of the method, such as that it used estimates; None if there is none.
+        changed: The probability, given all observations, that the goal has changed at all; None if
+            the method does not say.
     """
 
     goals: tuple[str, ...]
@@ -58,6 +61,7 @@ class Inference:
     ignored: tuple[Ignored, ...]
     method: str
     note: str | None = None
+    changed: float | None = None
 
     def __repr__(self) -> str:
         row = self.posterior[-1]
@@ -93,10 +97,22 @@ class Inference:
         return {
             "goals": list(self.goals),
             "posterior": [list(row) for row in self.posterior],
-            "changes": [{"at": c.at, "probability": c.probability} for c in self.changes],
+            "changed": self.changed,
+            "changes": [self._change(change) for change in self.changes],
             "ignored": [{"at": i.at, "action": i.action, "reason": i.reason} for i in self.ignored],
             "method": self.method,
             "note": self.note,
+        }
+
+    def _change(self, change: GoalChange) -> dict[str, Any]:
+        goals = [None if i is None else self.goals[i] for i in (change.before, change.after)]
+        return {
+            "at": change.at,
+            "probability": change.probability,
+            "first": change.at if change.first is None else change.first,
+            "last": change.at if change.last is None else change.last,
+            "from": goals[0],
+            "to": goals[1],
         }
 
 
@@ -177,24 +193,19 @@ def run(
         states.append(belief.observe(states[-1], resolved.step, robot=resolved.robot))
         if states[-1].ignored is not None:
             ignored.append(Ignored(at, action, states[-1].ignored))
+    places = [at for at in range(len(observed)) if at not in {i.at for i in ignored}]
+    effective = [states[at + 1] for at in places]
+    changes = belief.changes(effective) if isinstance(belief, DetectsChanges) else ()
     return Inference(
         tuple(belief.names),
         tuple(f"({' '.join(words)})" for words in observed),
         tuple(tuple(belief.posterior(state).tolist()) for state in states),
-        _changes(belief, states, {i.at for i in ignored}),
+        tuple(change.moved(places) for change in changes),
         tuple(ignored),
         method,
         _note(states[-1]) or _note(belief),
+        belief.changed(effective) if isinstance(belief, WeighsChanges) else None,
     )
-
-
-def _changes(belief: Belief[S], states: Sequence[S], ignored: Set[int]) -> tuple[GoalChange, ...]:
-    """Return the changes of goal among the observations that had an effect."""
-    if not isinstance(belief, DetectsChanges):
-        return ()
-    places = [at for at in range(len(states) - 1) if at not in ignored]
-    changes = belief.changes([states[at + 1] for at in places])
-    return tuple(GoalChange(places[change.at], change.probability) for change in changes)
 
 
 def _note(part: Belief[S] | BeliefState) -> str | None:

@@ -17,6 +17,8 @@ from hrcplan.inference.changes import (
     SETTLES,
     ChangeFilter,
     FilterState,
+    change_points,
+    changes_before,
 )
 from hrcplan.inference.probabilities import weights_to_posterior
 
@@ -110,4 +112,8 @@ class SwitchingBelief:
         Args:
             states: The belief after each observation, in order.
         """
-        return self.filter.changes([(i, s.filtered) for i, s in enumerate(states) if s.is_human])
+        return changes_before(states)
+
+    def changed(self, states: Sequence[SwitchingState]) -> float:
+        """Return the probability, given all observations, that the goal has changed at all."""
+        return change_points(states)[1].changed

@@ -122,22 +122,6 @@ def test_switching_equals_all_histories(bank, walk):
             assert rows[length].tolist() == pytest.approx((expected / expected.sum()).tolist())
 
 
-def test_smoothed_changes_equal_all_histories(bank, walk):
-    rates, chances = (0.01, 0.2), {"hazard": 0.15, "never": 0.3, "settles": 0.6}
-    belief = SwitchingBelief(bank, mistake_rates=rates, **chances)
-    for steps in [run[:4] for run in runs(bank, walk)]:
-        states = [belief.start()]
-        for step in steps:
-            states.append(belief.observe(states[-1], step))
-        found = belief.filter._smoothed([state.filtered for state in states[1:]])
-        expected = np.zeros(len(steps))
-        total = 0.0
-        for _, changed, weight in enumerated_beliefs.histories(bank, steps, rates, **chances):
-            expected += weight * np.array(changed)
-            total += weight
-        assert found.tolist() == pytest.approx((expected / total).tolist())
-
-
 def test_more_changes_than_are_counted_keep_their_weight():
     """Changes beyond the cap stay in the last count: nothing is lost."""
     chain = ChangeFilter(3, 1, hazard=0.9, never=0.0, settles=0.0)

@@ -17,7 +17,13 @@ import numpy as np
 from hrcplan.bank import Goals, StepTable
 from hrcplan.core.arrays import Floats
 from hrcplan.inference.belief import IMPOSSIBLE, GoalChange
-from hrcplan.inference.changes import NEVER, ChangeFilter, FilterState
+from hrcplan.inference.changes import (
+    NEVER,
+    ChangeFilter,
+    FilterState,
+    change_points,
+    changes_before,
+)
 from hrcplan.inference.probabilities import normalized
 from hrcplan.inference.recognition.optimal import FastDownwardProver
 from hrcplan.search.distances import Distances, GoalDistance
@@ -171,7 +177,11 @@ class CostBelief:
 
     def changes(self, states: Sequence[CostState]) -> tuple[GoalChange, ...]:
         """Return the changes that are probable given all observations."""
-        return self.filter.changes([(i, s.filtered) for i, s in enumerate(states) if s.is_human])
+        return changes_before(states)
+
+    def changed(self, states: Sequence[CostState]) -> float:
+        """Return the probability, given all observations, that the goal has changed at all."""
+        return change_points(states)[1].changed
 
     def _note(self, places: Sequence[GoalDistance]) -> str | None:
         n = sum(place.way is None and place.estimate is not None for place in places)
