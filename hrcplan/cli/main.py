@@ -82,7 +82,9 @@ def _old_names_on_stderr() -> Iterator[None]:
             message: Warning | str, category: type[Warning], filename: str, lineno: int,
             file: TextIO | None = None, line: str | None = None,
         ) -> None:  # fmt: skip
-            if issubclass(category, OldNameWarning):
+            if category.__name__ == "OwnFileWarning":  # its module is not imported for --help
+                output.note(f"note: {message}")
+            elif issubclass(category, OldNameWarning):
                 output.warn(str(message))
             else:
                 show(message, category, filename, lineno, file, line)

@@ -10,6 +10,8 @@ from __future__ import annotations
 
 import os
 import re
+import warnings
+from collections.abc import Sequence
 from pathlib import Path
 
 from hrcplan.core.text import nearest
@@ -19,6 +21,10 @@ _PACKAGE = Path(__file__).resolve().parent.parent
 _HEADING = 100_000  # characters: comments may come first
 _SPACE = r"(?:\s|;[^\r\n]*(?:[\r\n]|$))*+"
 _DOMAIN = re.compile(rf"{_SPACE}\({_SPACE}define{_SPACE}\({_SPACE}domain{_SPACE}([^\s();]+)")
+
+
+class OwnFileWarning(UserWarning):
+    """A file of the user's is taken instead of a shipped one of the same name."""
 
 
 def root() -> Path:
@@ -40,7 +46,10 @@ def problem_names(domain: str) -> tuple[str, ...]:
 
 
 def find_domain(name: str) -> Path:
-    """Return the file of a domain given by path or shipped name; a path that exists wins.
+    """Return the file of a domain given by path or name; a path that exists wins.
+
+    A name is looked up in the current folder (``NAME.pddl``, ``domains/NAME.pddl``) and then among
+    the shipped domains.
 
     Raises:
         InputError: if there is neither; the message lists what there is.
@@ -48,6 +57,9 @@ def find_domain(name: str) -> Path:
     if os.path.isfile(name) or _is_path(name):
         return Path(name)
     path = root() / "domains" / f"{name}.pddl"
+    own = _own([Path(f"{name}.pddl"), Path("domains", f"{name}.pddl")], path, _DOMAIN)
+    if own is not None:
+        return own
     if os.path.isfile(path):
         return path
     hint = nearest(name, domain_names()) or f"shipped: {', '.join(domain_names())}"
@@ -55,7 +67,10 @@ def find_domain(name: str) -> Path:
 
 
 def find_problem(domain: str, name: str) -> Path:
-    """Return the file of a problem of ``domain`` given by path or shipped name.
+    """Return the file of a problem of ``domain`` given by path or name; a path that exists wins.
+
+    A name is looked up in the current folder (``problems/DOMAIN/NAME.pddl``,
+    ``problems/NAME.pddl``, ``NAME.pddl``) and then among the shipped problems.
 
     Raises:
         InputError: if there is neither; the message lists what there is.
@@ -64,6 +79,11 @@ def find_problem(domain: str, name: str) -> Path:
         return Path(name)
     shipped = Path(domain).stem
     path = root() / "problems" / shipped / f"{name}.pddl"
+    file = f"{name}.pddl"
+    places = [Path("problems", shipped, file), Path("problems", file), Path(file)]
+    own = _own(places, path, _problem_of(domain))
+    if own is not None:
+        return own
     if os.path.isfile(path):
         return path
     known = problem_names(shipped)
@@ -92,16 +112,41 @@ def domain_file_for(name: str, problem: Path | None) -> Path | None:
     return next((p for p in (*beside, shipped) if os.path.isfile(p) and _defines(p, name)), None)
 
 
+def _own(places: Sequence[Path], shipped: Path, heading: re.Pattern[str]) -> Path | None:
+    """Return the first of the user's files that begins as it should.
+
+    A warning says that it is not the shipped one of the same name.
+    """
+    found = next((p for p in places if os.path.isfile(p) and heading.match(_heading(p))), None)
+    if found is not None and os.path.isfile(shipped):
+        if os.path.samefile(found, shipped):
+            return None
+        message = f"'{found.stem}' is ./{found} here, not the shipped file of that name"
+        warnings.warn(message, OwnFileWarning, stacklevel=4)
+    return found
+
+
+def _problem_of(domain: str) -> re.Pattern[str]:
+    """Return what the beginning of a problem of a domain reads like."""
+    found = _DOMAIN.match(_heading(Path(domain) if os.path.isfile(domain) else find_domain(domain)))
+    name = re.escape(found[1] if found else Path(domain).stem.lower())
+    group = rf"{_SPACE}\({_SPACE}define{_SPACE}\({_SPACE}problem{_SPACE}[^\s();]++{_SPACE}\)"
+    return re.compile(rf"{group}{_SPACE}\({_SPACE}:domain{_SPACE}{name}{_SPACE}\)")
+
+
+def _heading(path: Path) -> str:
+    try:
+        with path.open(encoding="utf-8-sig", errors="replace") as file:
+            return file.read(_HEADING).lower()
+    except OSError:
+        return ""
+
+
 def _is_path(name: str) -> bool:
     return "/" in name or name.endswith(".pddl")
 
 
 def _defines(path: Path, name: str) -> bool:
     """Whether the beginning of a file reads ``(define (domain NAME)``."""
-    try:
-        with path.open(encoding="utf-8-sig", errors="replace") as file:
-            text = file.read(_HEADING).lower()
-    except OSError:
-        return False
-    found = _DOMAIN.match(text)
+    found = _DOMAIN.match(_heading(path))
     return found is not None and found[1] == name

@@ -1,0 +1,44 @@
+"""Files of a user's own project have short names like shipped ones, and win over these."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from hrcplan.pddl.inputs import read
+from hrcplan.pddl.library import OwnFileWarning, find_domain, find_problem
+
+DOMAIN = """; mine
+(define (domain {name}) (:requirements :strips) (:predicates (p)) (:action a :effect (p)))"""
+PROBLEM = "(define (problem {name}) (:domain {domain}) (:init) (:goal (p)))"
+
+
+@pytest.mark.parametrize("where", ["firstaid.pddl", "domains/firstaid.pddl"])
+@pytest.mark.parametrize("at", ["problems/firstaid/x.pddl", "problems/x.pddl", "x.pddl"])
+def test_own_names(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, where: str, at: str) -> None:
+    monkeypatch.chdir(tmp_path)
+    for path in (where, at):
+        Path(path).parent.mkdir(parents=True, exist_ok=True)
+    Path(where).write_text(DOMAIN.format(name="firstaid"))
+    Path(at).write_text(PROBLEM.format(name="x", domain="firstaid"))
+    assert (find_domain("firstaid"), find_problem("firstaid", "x")) == (Path(where), Path(at))
+    assert read("firstaid/x").name == "x"
+
+
+def test_an_own_file_wins_over_a_shipped_one_with_a_warning(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("transport.pddl").write_text(DOMAIN.format(name="transport"))
+    with pytest.warns(OwnFileWarning, match=r"./transport.pddl here"):
+        assert find_domain("transport") == Path("transport.pddl")
+
+
+def test_a_file_of_something_else_does_not_hide_a_shipped_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("transport.pddl").write_text(PROBLEM.format(name="transport", domain="other"))
+    Path("two-boxes.pddl").write_text(PROBLEM.format(name="two-boxes", domain="other"))
+    assert read("transport/two-boxes").domain.name == "transport"
