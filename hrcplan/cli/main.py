@@ -67,7 +67,7 @@ class _Commands(click.RichGroup):
             signal.signal(signal.SIGTERM, lambda *_: sys.exit(TERMINATED))
         run = super().main
         with _old_names_on_stderr():
-            code = _exit_code(lambda: run(words, **{**kwargs, "standalone_mode": False}))
+            code = _exit_code(words, lambda: run(words, **{**kwargs, "standalone_mode": False}))
         sys.exit(code)
 
 
@@ -93,10 +93,10 @@ def _old_names_on_stderr() -> Iterator[None]:
         yield
 
 
-def _exit_code(run: Callable[[], Any]) -> int:
+def _exit_code(words: list[str], run: Callable[[], Any]) -> int:
     """Return the exit code of a command, after its errors were printed as far as that can be."""
     try:
-        code = _guarded(run)
+        code = _guarded(words, run)
     except output.PrintError as error:
         code = _unprinted(error)
     fault = streams.flush()
@@ -111,9 +111,11 @@ def _unprinted(error: output.PrintError) -> int:
     return UsageError.exit_code
 
 
-def _guarded(run: Callable[[], Any]) -> int:
+def _guarded(words: list[str], run: Callable[[], Any]) -> int:
     """Return the exit code of a command; what it raises is printed first."""
     try:
+        if "\0" in "".join(words):
+            raise UsageError("an argument holds a NUL character")
         result = run()
     except Exit as stop:
         return int(stop.exit_code)
