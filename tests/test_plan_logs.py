@@ -7,6 +7,7 @@ from fractions import Fraction
 import pytest
 
 from hrcplan.errors import PlanFormatError
+from hrcplan.inference.observations import observed_words
 from hrcplan.pddl.model import Problem
 from hrcplan.plans import PlannedAction, find_plans, read_plan
 from tests.worlds import problem_from
@@ -105,3 +106,9 @@ def test_a_plan_with_a_broken_line_is_no_log(fault: str, walk: Problem) -> None:
 def test_a_log_without_a_plan_is_no_plan(walk: Problem) -> None:
     with pytest.raises(PlanFormatError):
         read_plan("best first search space empty! problem proven unsolvable.", walk)
+
+
+@pytest.mark.parametrize("text", ["1. (go a b)\n2. (go b c)", "go(a, b)\ngo(b, c)", LPG])
+def test_observed_actions_are_read_like_plans(text: str) -> None:
+    lines = [line for line in text.splitlines() if "go" in line.lower()]
+    assert observed_words("\n".join(lines)) == (("go", "a", "b"), ("go", "b", "c"))

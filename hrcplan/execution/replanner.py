@@ -11,6 +11,7 @@ from hrcplan.execution import events as ev
 from hrcplan.execution.model import ExecutionModel
 from hrcplan.pddl.model import Problem
 from hrcplan.planners import registry
+from hrcplan.planners.choice import fixed_order
 from hrcplan.planners.contract import Planner, Status
 from hrcplan.planners.solve import Result, solve
 from hrcplan.task import Task
@@ -35,7 +36,7 @@ class Replanner:
     ) -> None:  # fmt: skip
         self.model = model
         self.timeout_s = timeout_s
-        self.planners = list(with_successors(planners))
+        self.planners = list(with_successors(planners, model.problem))
         self.wall_s: list[float] = []
         self._groundings = Groundings()
         self._answers: dict[_Key, ev.Planned] = {}
@@ -109,10 +110,12 @@ class Replanner:
             return problem, None
 
 
-def with_successors(planners: Sequence[str | Planner]) -> tuple[str | Planner, ...]:
-    """Return planners with the built-in ones after them, each once; ``auto`` means ours first."""
+def with_successors(
+    planners: Sequence[str | Planner], problem: Problem
+) -> tuple[str | Planner, ...]:
+    """Return planners with the built-in ones after them, each once; ``auto`` means these alone.
+
+    The order is fixed, whatever the clock says, so that runs can be repeated.
+    """
     named = [p for p in planners if p != "auto"]
-    return (*named, *(name for name in PREFERRED if name not in named))
-
-
-PREFERRED = ("exact", *(name for name in registry.BUILT_IN if name != "exact"))
+    return (*named, *(name for name in fixed_order(problem) if name not in named))

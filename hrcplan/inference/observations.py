@@ -10,10 +10,10 @@ from pathlib import Path
 from hrcplan.bank import Goals, StepTable
 from hrcplan.bank.ramirez_geffner import read_actions
 from hrcplan.core.text import nearest
-from hrcplan.errors import UsageError
+from hrcplan.errors import PlanFormatError, UsageError
 from hrcplan.pddl.conventions import robots
 from hrcplan.pddl.source import read_text
-from hrcplan.plans import Plan, PlannedAction
+from hrcplan.plans import Plan, PlannedAction, parse_plan
 
 _TIMES = re.compile(r"^[^\S\n]*+[\d.]++[^\S\n]*+:|\[[\d.]++\]", re.MULTILINE)
 
@@ -65,7 +65,11 @@ def _words_of(action: ObservedAction) -> ObservedWords:
 
 
 def _words_in(text: str) -> tuple[ObservedWords, ...]:
-    return read_actions(_TIMES.sub(" ", text))
+    """Return the actions of a plan in any form that ``validate`` reads, or one a line."""
+    try:
+        return tuple((action.name, *action.args) for action in parse_plan(text).actions)
+    except PlanFormatError:
+        return read_actions(_TIMES.sub(" ", text))
 
 
 def _no_action(value: Hashable, what: str) -> UsageError:

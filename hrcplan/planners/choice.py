@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from hrcplan.errors import LimitError, MissingPlannerError, UnsupportedError, UsageError
 from hrcplan.pddl.inlining import remaining
-from hrcplan.pddl.model import TOTAL_COST
+from hrcplan.pddl.model import TOTAL_COST, Problem
 from hrcplan.planners import registry
 from hrcplan.planners.contract import Capabilities, Planner, Request
 from hrcplan.planners.relaxed_bound import RelaxedBound
@@ -65,6 +65,20 @@ def jobs(request: Request) -> list[Job]:
         place = len(found) if request.any_plan else min(2, len(found))
         found.insert(place, Job(bound, False, "it bounds the metric", finds_plans=False))
     return found
+
+
+def fixed_order(problem: Problem) -> tuple[str, ...]:
+    """Return the built-in planners in the order in which they are asked one after the other.
+
+    Planners that read a temporal task as a sequence of actions come last there.
+
+    >>> from hrcplan.pddl.inputs import read
+    >>> fixed_order(read("transport", "two-boxes"))[:2]
+    ('exact', 'kairos')
+    """
+    names = dict.fromkeys(name for name, _ in _BEST)
+    temporal = problem.domain.is_temporal
+    return tuple(sorted(names, key=lambda name: temporal and name in _SEQUENCES))
 
 
 def _modes(card: Capabilities, request: Request) -> tuple[bool, ...]:

@@ -15,6 +15,7 @@ from hrcplan.errors import LimitError, PlannerError, UnsupportedError
 from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import Problem
 from hrcplan.planners import registry
+from hrcplan.planners.choice import fixed_order
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
 from hrcplan.planners.solve import Result, solve
 from hrcplan.plans import Plan, parse_plan
@@ -215,3 +216,10 @@ def test_memory_is_for_all_planners_together(cast: Callable[..., None]) -> None:
 def test_shipped_problems_are_still_proven_by_exact() -> None:
     found = solve(read("transport", "two-boxes"))
     assert (found.planner, found.status, found.gap) == ("exact", Status.OPTIMAL, 0)
+
+
+def test_planners_of_sequences_come_last_where_time_counts() -> None:
+    order = fixed_order(read("transport", "two-boxes"))
+    assert order.index("kairos") < order.index("fast-downward")
+    order = fixed_order(read("kitchen", "pasta-bean"))
+    assert order.index("fast-downward") < order.index("kairos")
