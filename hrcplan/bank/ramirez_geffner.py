@@ -13,17 +13,19 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from hrcplan.bank.goals import Goals, SourceFile
-from hrcplan.errors import InputError, PddlError
+from hrcplan.errors import InputError, PddlError, PlanFormatError
 from hrcplan.pddl.check import domain_in, problem_in
 from hrcplan.pddl.generate import with_goal
 from hrcplan.pddl.model import TRUE, And, Formula, Problem
 from hrcplan.pddl.reader import GroupNode, WordNode, read
-from hrcplan.pddl.source import SourceText, read_source
+from hrcplan.pddl.source import SourceText, read_source, read_text
+from hrcplan.plans import Plan, parse_plan, plans_of_log
 
 KIND = "ramirez-geffner"
 TEMPLATE, HYPOTHESES = "template.pddl", "hyps.dat"
 OBSERVATIONS, TRUE_HYPOTHESIS, DOMAIN = "obs.dat", "real_hyp.dat", "domain.pddl"
 _PLACE = re.compile(r"<hypothesis>", re.IGNORECASE)
+_NO_WORD = re.compile(r"^\s*+(?:step\s++)?[\d.]++\s*+:|\[[^\]]*+\]|[()]", re.IGNORECASE)
 _BETWEEN = re.compile(r"\)\s*,\s*")
 
 
@@ -56,20 +58,40 @@ def read_instance(folder: Path) -> RecognitionInstance:
         raise InputError(message, code="no-goals", path=str(folder))
     goals = goals_of(*(SourceFile.read(folder / part) for part in (DOMAIN, TEMPLATE, HYPOTHESES)))
     observed = folder / OBSERVATIONS
-    actions = read_actions(read_source(observed).text) if observed.is_file() else ()
+    actions = read_actions(read_text(observed), goals.problem) if observed.is_file() else ()
     return RecognitionInstance(goals, actions, _true_goal(folder / TRUE_HYPOTHESIS, goals))
 
 
-def read_actions(text: str) -> tuple[tuple[str, ...], ...]:
-    r"""Return the actions of a text, one a line, as ``(name, *objects)`` in lower case.
+def read_actions(text: str, problem: Problem | None = None) -> tuple[tuple[str, ...], ...]:
+    r"""Return the actions of a text as ``(name, *objects)`` in lower case, in order of time.
+
+    The text is a plan as `parse_plan` reads it, a planner's log with one plan (if a problem is
+    given), or it has one action a line, with or without parentheses.
 
     >>> read_actions("(TAKE plate)\n\n(take bread)\n")
     (('take', 'plate'), ('take', 'bread'))
+    >>> read_actions("0: (take plate) [1]\n1: (take bread) [1]")
+    (('take', 'plate'), ('take', 'bread'))
     """
-    lines = (
-        re.sub(r"[()]", " ", line.split(";", 1)[0]).lower().split() for line in text.splitlines()
-    )
-    return tuple(tuple(words) for words in lines if words)
+    try:
+        return _words(parse_plan(text))
+    except PlanFormatError:
+        plans = [] if problem is None else plans_of_log(text, problem)
+    if problem is not None and (len(plans) == 1 or (plans and problem.domain.is_temporal)):
+        return _words(plans[-1])
+    return tuple(action for line in text.splitlines() for action in _actions_of_line(line))
+
+
+def _words(plan: Plan) -> tuple[tuple[str, ...], ...]:
+    return tuple((action.name, *action.args) for action in plan.actions)
+
+
+def _actions_of_line(line: str) -> tuple[tuple[str, ...], ...]:
+    try:
+        return _words(parse_plan(line))
+    except PlanFormatError:
+        words = _NO_WORD.sub(" ", line.split(";", 1)[0]).lower().split()
+        return (tuple(words),) if words else ()
 
 
 def goals_of(domain: SourceFile, template: SourceFile, hypotheses: SourceFile) -> Goals:

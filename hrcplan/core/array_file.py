@@ -27,6 +27,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from hrcplan.core.files import UNPACK_HINT, archive_kind
 from hrcplan.errors import InputError
 
 _PREFIX = struct.Struct("<8sIIQQ")
@@ -129,6 +130,9 @@ class Format:
             InputError: if it has another format, is of another version, cut short or damaged.
         """
         view, begin = memoryview(data), _PREFIX.size + _HASH
+        if (kind := archive_kind(view)) is not None:
+            message = f"'{shown}' is a file packed by {kind}, no {self.title}"
+            raise InputError(message, code="archive", path=shown, hint=UNPACK_HINT)
         if view[: len(self.magic)] != self.magic:
             raise self._refusal(shown, f"not-a-{self.noun}", f"is no {self.title}")
         if len(view) < begin:

@@ -38,6 +38,23 @@ def read_bytes(path: str | Path, limit: int | None = MAX_BYTES) -> bytes:
     return data
 
 
+_ARCHIVES = {b"BZh": "bzip2", b"\x1f\x8b": "gzip", b"\xfd7zXZ\0": "xz", b"PK\x03\x04": "zip",
+             b"7z\xbc\xaf": "7z", b"\x28\xb5\x2f\xfd": "zstd"}  # fmt: skip
+_TAR_MAGIC = slice(257, 262)
+UNPACK_HINT = "unpack it first, for example with: tar xf ARCHIVE, or unzip ARCHIVE"
+
+
+def archive_kind(data: bytes | memoryview) -> str | None:
+    """Return what kind of archive or compressed file bytes are; None if they are neither.
+
+    >>> archive_kind(b"BZh91AY"), archive_kind(b"(define (domain d))")
+    ('bzip2', None)
+    """
+    if data[_TAR_MAGIC] == b"ustar":
+        return "tar"
+    return next((kind for magic, kind in _ARCHIVES.items() if data[: len(magic)] == magic), None)
+
+
 def reason_of(error: Exception) -> str:
     """Return why a file could not be used, without the path."""
     return getattr(error, "strerror", None) or harmless(str(error))

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Hashable, Iterable, Sequence
+from collections.abc import Hashable, Iterable, Sequence, Set
 from dataclasses import dataclass
 from pathlib import Path
 
 from hrcplan.bank import Goals, StepTable
 from hrcplan.bank.ramirez_geffner import read_actions
-from hrcplan.core.text import nearest
-from hrcplan.errors import PlanFormatError, UsageError
+from hrcplan.core.text import cut, nearest, quote
+from hrcplan.errors import InputError, UsageError
 from hrcplan.pddl.conventions import robots
+from hrcplan.pddl.model import Problem
 from hrcplan.pddl.source import read_text
-from hrcplan.plans import Plan, PlannedAction, parse_plan
-
-_TIMES = re.compile(r"^[^\S\n]*+[\d.]++[^\S\n]*+:|\[[\d.]++\]", re.MULTILINE)
+from hrcplan.plans import Plan, PlannedAction
 
 ObservedWords = tuple[str, ...]
 """An action's name and its objects, in lower case."""
@@ -25,11 +23,14 @@ Observations = str | Path | Plan | Iterable[ObservedAction]
 """Actions as text or a file's path (one a line), as a plan, or one after the other."""
 
 
-def observed_words(actions: Observations) -> tuple[ObservedWords, ...]:
+def observed_words(
+    actions: Observations, problem: Problem | None = None
+) -> tuple[ObservedWords, ...]:
     r"""Return observed actions as words.
 
     Args:
         actions: Text has parentheses, or it is the path of a file.
+        problem: Its domain names the actions, so that a planner's log can be read.
 
     Raises:
         InputError: if a file cannot be read.
@@ -45,7 +46,7 @@ def observed_words(actions: Observations) -> tuple[ObservedWords, ...]:
     if isinstance(actions, Path) or (isinstance(actions, str) and "(" not in actions):
         actions = read_text(actions)
     if isinstance(actions, str):
-        return _words_in(actions)
+        return read_actions(actions, problem)
     if not isinstance(actions, Iterable):
         raise _no_action(actions, "a list of actions")
     return tuple(_words_of(action) for action in actions)
@@ -55,7 +56,7 @@ def _words_of(action: ObservedAction) -> ObservedWords:
     if isinstance(action, PlannedAction):
         return (action.name, *action.args)
     if isinstance(action, str):
-        lines = _words_in(action)
+        lines = read_actions(action)
         if len(lines) != 1:
             raise _no_action(action, "one action")
         return lines[0]
@@ -64,17 +65,40 @@ def _words_of(action: ObservedAction) -> ObservedWords:
     return tuple(word.lower() for word in action)
 
 
-def _words_in(text: str) -> tuple[ObservedWords, ...]:
-    """Return the actions of a plan in any form that ``validate`` reads, or one a line."""
-    try:
-        return tuple((action.name, *action.args) for action in parse_plan(text).actions)
-    except PlanFormatError:
-        return read_actions(_TIMES.sub(" ", text))
-
-
 def _no_action(value: Hashable, what: str) -> UsageError:
     hint = "an action is '(get human yogurt)' or ('get', 'human', 'yogurt')"
     return UsageError(f"{value!r:.80} is not {what}", code="bad-action", hint=hint)
+
+
+def check_observations(
+    observed: Sequence[ObservedWords], goals: Goals, path: str | None = None
+) -> None:
+    """Check that observations speak of actions at all.
+
+    Raises:
+        InputError: if none of them has the name of an action.
+    """
+    names = _action_names(goals)
+    named = [words for words in observed if words]
+    if not named or any(words[0] in names for words in named):
+        return
+    if _is_fact(named[0], goals):
+        what = cut(" ".join(named[0]), 80)
+        message = f"the observations are facts such as ({what}), not actions"
+    else:
+        message = f"no observation is an action of domain {quote(goals.problem.domain.name)}"
+    hint = f"actions: {cut(', '.join(sorted(names)), 120)}"
+    raise InputError(message, code="no-actions", path=path, hint=hint)
+
+
+def _action_names(goals: Goals) -> Set[str]:
+    aliases = goals.aliases or {}
+    return {action.name for action in goals.problem.domain.actions} | aliases.keys()
+
+
+def _is_fact(words: ObservedWords, goals: Goals) -> bool:
+    name = words[1] if words[0] == "not" and len(words) > 1 else words[0]
+    return name in goals.problem.domain.predicates and name not in _action_names(goals)
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,13 +118,21 @@ class Resolver:
     """
 
     def __init__(self, table: StepTable, goals: Goals) -> None:
-        self.table, self.problem = table, goals.problem
+        self.table, self.goals, self.problem = table, goals, goals.problem
         self.aliases = goals.aliases or {}
         self.robots = robots(goals.problem)
         self.agents = frozenset(goals.problem.agents)
         self._named: dict[tuple[str, ...], list[int]] = {}
         for step in range(len(table)):
             self._named.setdefault(table[step].name, []).append(step)
+
+    @property
+    def note(self) -> str | None:
+        """Which actions are declared more than once; None if none is."""
+        if not self.aliases:
+            return None
+        names = ", ".join(f"{name} ({len(given)})" for name, given in self.aliases.items())
+        return f"actions are declared more than once, and the applicable one is meant: {names}"
 
     def find(self, words: tuple[str, ...], world: int) -> Resolved | str:
         """Return the step and whether the robot did it, or why there is none.
@@ -127,7 +159,9 @@ class Resolver:
         return sorted(steps, key=lambda step: not self.robots.isdisjoint(self.table[step].words))
 
     def _why_not(self, words: tuple[str, ...]) -> str:
-        known = {action.name for action in self.problem.domain.actions} | self.aliases.keys()
+        known = _action_names(self.goals)
+        if _is_fact(words, self.goals):
+            return "this is a fact, not an action"
         if words[0] not in known:
             hint = nearest(words[0], sorted(known))
             return f"there is no action '{words[0]}'" + (f" ({hint})" if hint else "")

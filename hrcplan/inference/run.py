@@ -23,7 +23,13 @@ from hrcplan.inference.belief import (
     S,
     WeighsChanges,
 )
-from hrcplan.inference.observations import Observations, ObservedWords, Resolver, observed_words
+from hrcplan.inference.observations import (
+    Observations,
+    ObservedWords,
+    Resolver,
+    check_observations,
+    observed_words,
+)
 from hrcplan.inference.registry import BANK_METHOD, GOALS_METHOD, METHODS, takes_goals
 
 BUILD_S = 20.0  # for plan graphs of a folder that is no bank
@@ -145,19 +151,27 @@ def infer(
     <Inference by switching: 1 action, 0 changes, now 98% pasta-bean>
     """
     loaded, observed_in_folder = _load(source)
-    words = observed_in_folder if actions is None else observed_words(actions)
+    goals = loaded.goals if isinstance(loaded, Bank) else loaded
+    words = observed_in_folder if actions is None else observed_words(actions, goals.problem)
     if words is None:
         hint = "a file with one action a line"
         raise InputError("no observed actions are given", code="no-actions", hint=hint)
+    check_observations(words, goals, _path_of(source if actions is None else actions))
     name = method or (BANK_METHOD if isinstance(loaded, Bank) else GOALS_METHOD)
     kind = METHODS.find(name)
     if takes_goals(kind):
-        goals = loaded.goals if isinstance(loaded, Bank) else loaded
         belief = METHODS.make(name, goals, **options)
         return run(belief, Resolver(steps_of(belief, StepTable(goals.task)), goals), words, name)
     bank = loaded if isinstance(loaded, Bank) else _built(loaded)
     belief = METHODS.make(name, bank, **options)
     return run(belief, Resolver(steps_of(belief, bank.table), bank.goals), words, name)
+
+
+def _path_of(actions: object) -> str | None:
+    """Return the path that observations are read from; None if they are no file."""
+    if isinstance(actions, Path):
+        return str(actions / OBSERVATIONS if actions.is_dir() else actions)
+    return _path_of(Path(actions)) if isinstance(actions, str) and "(" not in actions else None
 
 
 def steps_of(belief: Belief[S], default: StepTable) -> StepTable:
@@ -203,7 +217,7 @@ def run(
         tuple(change.moved(places) for change in changes),
         tuple(ignored),
         method,
-        _note(states[-1]) or _note(belief),
+        "; ".join(filter(None, [_note(states[-1]) or _note(belief), resolver.note])) or None,
         belief.changed(effective) if isinstance(belief, WeighsChanges) else None,
     )
 

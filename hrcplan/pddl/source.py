@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from hrcplan.core.files import read_bytes
+from hrcplan.core.files import UNPACK_HINT, archive_kind, read_bytes
 from hrcplan.core.text import cut, nearest
 from hrcplan.errors import Diagnostic, InputError
 
@@ -114,17 +114,23 @@ def read_text(path: str | Path) -> str:
     source = read_source(path)
     if source.has_errors:
         fault = source.diagnostics[0]
-        raise InputError(fault.message, code=fault.code, path=fault.path, line=fault.line)
+        raise InputError(fault.message, code=fault.code, path=fault.path, line=fault.line,
+                         hint=fault.hint)  # fmt: skip
     return source.text
 
 
 def decode(path: str, data: bytes) -> SourceText:
     """Return ``data`` as a Source.
 
-    A few bytes that are not UTF-8 are one error, and the rest is read all the same; UTF-16 and
-    binary content is one error and no text.
+    A few bytes that are not UTF-8 are one error, and the rest is read all the same; UTF-16, an
+    archive, and binary content are one error and no text.
     """
     data = data.removeprefix(_BOM)
+    kind = archive_kind(data)
+    if kind is not None:
+        source = SourceText(path, "")
+        source.error(0, "archive", f"this is a file packed by {kind}, not text", UNPACK_HINT)
+        return source
     if b"\0" in data or data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         return _not_text(path, data)
     try:

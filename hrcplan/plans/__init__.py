@@ -1,6 +1,6 @@
 """Plans, and their texts as people, standards and planners write them."""
 
-from hrcplan.plans.logs import as_plan, find_plans, read_plan
+from hrcplan.plans.logs import as_plan, find_plans, plans_of_log, read_plan
 from hrcplan.plans.model import (
     EPSILON_S,
     Plan,
@@ -22,6 +22,7 @@ __all__ = [
     "lane",
     "occupied",
     "parse_plan",
+    "plans_of_log",
     "read_plan",
     "seconds_text",
 ]

@@ -51,10 +51,18 @@ def read_plan(text: str, problem: Problem, path: str = "<plan>") -> tuple[Plan, 
     try:
         return parse_plan(text, path), 1
     except PlanFormatError as error:
-        plans = list(find_plans(text, problem)) if _is_log(text, problem) else []
+        plans = plans_of_log(text, problem)
         if not plans:
             raise error from None
         return plans[-1], len(plans)
+
+
+def plans_of_log(text: str, problem: Problem) -> list[Plan]:
+    """Return the plans in a planner's log; none if a line names an action and is no action.
+
+    Such a line is a fault of a plan, not a line of a log.
+    """
+    return list(find_plans(text, problem)) if _is_log(text, problem) else []
 
 
 def as_plan(plan: Plan | str | os.PathLike[str], problem: Problem | None = None) -> Plan:
@@ -114,10 +122,7 @@ def _actions(line: str, names: Collection[str]) -> tuple[PlannedAction, ...]:
 
 
 def _is_log(text: str, problem: Problem) -> bool:
-    """Return whether all lines without an action speak of something else than actions.
-
-    A line that names an action and cannot be read is a fault of a plan, not a line of a log.
-    """
+    """Return whether all lines without an action speak of something else than actions."""
     names = {action.name for action in problem.domain.actions}
     return all(
         _actions(line.strip(), names) or names.isdisjoint(re.findall(r"[^\s()\[\]:;,]+", line))

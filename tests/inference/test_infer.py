@@ -2,6 +2,7 @@
 
 import json
 import re
+import tarfile
 
 import pytest
 from click.testing import CliRunner
@@ -198,3 +199,71 @@ def test_a_belief_from_goals_of_an_earlier_version(kitchen, monkeypatch, tmp_pat
     with pytest.warns(OldNameWarning, match="'table' is deprecated; its name is 'steps'"):
         found = infer(some, ["(get human lentils)"], method="earlier:Earlier")
     assert found.posterior == infer(some, ["(get human lentils)"], method="cost").posterior
+
+
+@pytest.fixture
+def corridor(tmp_path):
+    """A recognition folder: from m one door leads to l, another one to r and on to k."""
+    parts = {
+        "domain.pddl": """(define (domain corridor) (:predicates (here ?p) (door ?a ?b))
+ (:action walk :parameters (?a ?b) :precondition (and (here ?a) (door ?a ?b))
+  :effect (and (here ?b) (not (here ?a)))))""",
+        "template.pddl": """(define (problem h) (:domain corridor) (:objects m l r k)
+ (:init (here m) (door m l) (door m r) (door r k)) (:goal (and <HYPOTHESIS>)))""",
+        "hyps.dat": "(here l)\n(here k)\n",
+        "obs.dat": "(walk m r)\n(walk r k)\n",
+    }
+    for name, text in parts.items():
+        (tmp_path / name).write_text(text)
+    return tmp_path
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "0: (WALK m r)\n1: (walk r k)",
+        "2.001: (walk r k) [2]\n0.000: (walk m r) [2.000]",
+        "1. (walk m r)\n2. (walk r k)",
+        "walk(m, r)\nwalk(r, k)",
+        "(walk m r) (walk\n  r k)",
+        "walk m r\nwalk r k",
+        "found legal plan as follows\n\nstep 0: WALK M R\n     1: WALK R K\n\ntime spent: 0",
+    ],
+)
+def test_observations_as_planners_write_them(corridor, text):
+    (corridor / "obs.dat").write_text(text)
+    found = infer(corridor)
+    assert found.actions == ("(walk m r)", "(walk r k)")
+    assert found.ignored == ()
+    assert found.posterior[-1][1] > 0.9
+
+
+def test_facts_are_no_observations(corridor):
+    (corridor / "obs.dat").write_text("(here m)\n0.5: (not (here m))\n")
+    found = call(corridor, code=3)
+    assert "obs.dat: the observations are facts such as (here m)" in found.stderr
+    (corridor / "obs.dat").write_text("(walk m r)\n(here r)\n(run r k)")
+    reasons = [ignored.reason for ignored in infer(corridor).ignored]
+    assert reasons == ["this is a fact, not an action", "there is no action 'run'"]
+
+
+@pytest.mark.parametrize("text", ["(run m r)", "nothing of this kind", '{"actions": []}'])
+def test_observations_without_any_action_are_bad_input(corridor, text):
+    (corridor / "obs.dat").write_text(text)
+    assert "no observation is an action of domain 'corridor'" in call(corridor, code=3).stderr
+
+
+def test_archives_are_to_be_unpacked(corridor):
+    for mode in ("w", "w:gz", "w:bz2", "w:xz"):
+        packed = corridor / "p01.tar"
+        with tarfile.open(packed, mode) as archive:
+            archive.add(corridor / "domain.pddl")
+        for words in ((packed,), (corridor, packed)):
+            assert "unpack it first" in call(*words, code=3).stderr
+
+
+def test_infer_says_that_actions_are_declared_more_than_once(corridor):
+    domain = corridor / "domain.pddl"
+    again = "(:action walk :parameters (?p) :precondition (here ?p) :effect (not (here ?p)))"
+    domain.write_text(domain.read_text()[:-1] + again + ")")
+    assert "declared more than once" in call(corridor).stdout
