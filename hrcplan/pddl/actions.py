@@ -23,12 +23,12 @@ _CLOSE = SECTION_SIMILARITY
 _CLASSICAL = (":parameters", ":precondition", ":effect")
 _DURATIVE = (":parameters", ":duration", ":condition", ":effect")
 
-
 _OTHER_PARTS = {
     ":vars": ("PDDL 1.2", "add the variables to :parameters"),
     ":observe": ("contingent planning", None),
     ":agent": ("MA-PDDL", "make the agent the first of the :parameters"),
 }
+_TYPED_PARTS = (":agent", ":vars")  # not supported, but what they bind is no further fault
 
 
 def read_actions(
@@ -64,7 +64,12 @@ def _action(node: GroupNode, scope: Scope) -> Action | None:
         return None
     durative = node.head == ":durative-action"
     parts = _parts(node, source, durative)
-    params = read_params(parts[":parameters"], scope) if ":parameters" in parts else ()
+    params = tuple(
+        param
+        for part in (":parameters", *_TYPED_PARTS)
+        if part in parts
+        for param in read_params(parts[part], scope)
+    )
     inner = scope.binding(params)
     timed = inner.knowing(DURATION) if durative else inner
     moment = None if durative else "start"
@@ -110,6 +115,9 @@ def _parts(node: GroupNode, source: SourceText, durative: bool) -> dict[str, Par
             source.error(key.at, "stray-word", "a keyword such as :effect is expected here")
             continue
         name = _known_part(key, known, source)
+        if key in _TYPED_PARTS:
+            found.setdefault(str(key), _typed_part(key, rest))
+            continue
         if not rest or (isinstance(rest[0], WordNode) and rest[0].startswith(":")):
             source.error(key.at, "missing-part", f"nothing follows {quote(key)}")
             continue
@@ -120,6 +128,17 @@ def _parts(node: GroupNode, source: SourceText, durative: bool) -> dict[str, Par
             found[name] = value
             last = name
     return found
+
+
+def _typed_part(key: WordNode, rest: deque[ParseNode]) -> GroupNode:
+    """Take the typed list that follows a keyword, with or without parentheses."""
+    if rest and isinstance(first := rest[0], GroupNode):
+        rest.popleft()
+        return first
+    part = GroupNode(key.at)
+    while rest and not (isinstance(rest[0], WordNode) and rest[0].startswith(":")):
+        part.append(rest.popleft())
+    return part
 
 
 def _report_second(node: GroupNode, part: str, source: SourceText) -> None:
@@ -169,10 +188,12 @@ def _durations(
 
 
 def _duration_cure(node: ParseNode) -> str:
-    if isinstance(node, WordNode):
+    if isinstance(node, WordNode) and node not in (DURATION, "="):
         return f"write (= ?duration {node})"
-    if not node:
+    if isinstance(node, GroupNode) and not node:
         return "for any duration write (>= ?duration 0)"
+    if isinstance(node, WordNode):
+        return "write (= ?duration …), (<= ?duration …) or (>= ?duration …)"
     if node.head in ("=", "<=", ">=", "<", ">") and len(node) == 3 and node[2] == DURATION:
         return "?duration stands first: (= ?duration …), (<= ?duration …) or (>= ?duration …)"
     return "write (= ?duration …), (<= ?duration …) or (>= ?duration …)"

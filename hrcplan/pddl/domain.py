@@ -217,6 +217,10 @@ def _signatures(
         if isinstance(node, GroupNode) and node.head == ":private":
             hint = "declare its predicates beside the others: hrcplan has no private facts"
             source.error(node.at, "unsupported", "(:private …) of MA-PDDL is not supported", hint)
+            inner = [part for part in node if isinstance(part, GroupNode)]
+            private = GroupNode(node.at)
+            private.extend([node[0], *inner])
+            found |= _signatures(private, source, types, kind)
             continue
         if not isinstance(node, GroupNode) or not node.head:
             source.error(node.at, f"bad-{kind}", f"a {kind} such as (name ?x - type) is expected")

@@ -10,6 +10,7 @@ from hrcplan.pddl.formulas import (
     COMPARISONS,
     has_parts,
     is_unsupported,
+    loose_cure,
     read_atom,
     read_conditions,
     read_expression,
@@ -30,7 +31,8 @@ _NO_EFFECTS = COMPARISONS | {"or", "imply", "exists", "not", "over"}
 def read_effects(node: ParseNode, scope: Scope, when: str | None) -> Iterator[Effect]:
     """Yield the effects of an action; ``when`` is None where a durative one must still say it."""
     if not isinstance(node, GroupNode) or (node and not node.head):
-        scope.source.error(node.at, "not-an-effect", "an effect such as (p ?x) is expected here")
+        message = "an effect such as (p ?x) is expected here"
+        scope.source.error(node.at, "not-an-effect", message, loose_cure(node, "effects"))
         return
     timed = time_of(node) if when is None else None
     if timed is not None and timed[0] != "all":
@@ -145,7 +147,9 @@ def _is_no_effect(node: GroupNode, scope: Scope) -> bool:
 def _cure(node: GroupNode, inner: ParseNode) -> str | None:
     """Return how to write what was meant, where that is plain."""
     head = inner.head if isinstance(inner, GroupNode) else ""
-    if inner is not node and head in _LOGIC:
+    if node.head == "not" and inner is not node and head == "not":
+        return "a fact that is not deleted is added: write (p)"
+    if node.head == "not" and (inner is node or head in _LOGIC):
         return "'not' of an effect takes one fact: write (and (not (p)) (not (q)))"
     if head == "=":
         return "write (assign (f) VALUE) to set a function"

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Set
 
 from hrcplan.core.numbers import to_number
 from hrcplan.core.text import plural, quote
+from hrcplan.pddl.foreign import FOREIGN, OF_FACTS, is_infix
 from hrcplan.pddl.model import (
     CONTINUOUS,
     DURATION,
@@ -26,7 +27,7 @@ from hrcplan.pddl.model import (
     Quantified,
 )
 from hrcplan.pddl.reader import GroupNode, ParseNode, WordNode
-from hrcplan.pddl.scope import FOREIGN, Scope, decimal_cure, looks_numeric
+from hrcplan.pddl.scope import Scope, decimal_cure, looks_numeric
 from hrcplan.pddl.typed_lists import read_params
 
 COMPARISONS = frozenset(["<", "<=", "=", ">=", ">"])
@@ -46,6 +47,7 @@ UNSUPPORTED = {
     "hold-during": "trajectory constraints",
     "hold-after": "trajectory constraints",
 }
+_ONE_BODY = frozenset(["when", "forall", "exists", "not"])  # whose last part is one group
 OBJECT_FLUENTS = (
     "functions with objects as values are not supported: use a predicate such as (f-is ?x ?value)"
 )
@@ -55,7 +57,8 @@ _TIMES = {("at", "start"): "start", ("at", "end"): "end", ("over", "all"): "all"
 def read_formula(node: ParseNode, scope: Scope) -> Formula:
     """Return the condition that a tree stands for; a faulty part becomes ``TRUE``."""
     if isinstance(node, WordNode) or (node and not node.head):
-        scope.source.error(node.at, "not-a-condition", "a condition such as (p ?x) is expected")
+        message = "a condition such as (p ?x) is expected"
+        scope.source.error(node.at, "not-a-condition", message, loose_cure(node, "conditions"))
         return TRUE
     match node.head:
         case "":
@@ -96,12 +99,35 @@ def read_atom(node: GroupNode, scope: Scope) -> Atom | None:
     return None if args is None else Atom(str(head), args)
 
 
+def loose_cure(node: ParseNode, kind: str) -> str | None:
+    """Return how to write what has no head: a bare word, or a group of groups."""
+    if isinstance(node, WordNode):
+        return f"write ({node})"
+    if len(node) == 1:
+        return "one pair of parentheses is too much"
+    return f"put the {kind} in one (and …)"
+
+
 def is_foreign(node: GroupNode, scope: Scope) -> bool:
     """Report an operator of another language, with what PDDL writes instead."""
+    if node.head in scope.domain.predicates or node.head in scope.domain.functions:
+        return _is_infix(node, scope)
     cure = FOREIGN.get(str(node.head))
-    if cure is None or node.head in scope.domain.predicates:
-        return False
+    takes_terms = not any(isinstance(part, GroupNode) for part in node[1:])
+    if cure is None or (takes_terms and node.head in OF_FACTS):
+        return _is_infix(node, scope)
     scope.source.error(node[0].at, "foreign-operator", f"PDDL has no {quote(node.head)}", cure)
+    return True
+
+
+def _is_infix(node: GroupNode, scope: Scope) -> bool:
+    """Report an operator between its operands."""
+    if not is_infix(node) or node[1] in scope.objects:
+        return False
+    operator = node[1]
+    assert isinstance(operator, WordNode)
+    hint = FOREIGN.get(str(operator), f"write ({operator} A B)")
+    scope.source.error(operator.at, "foreign-operator", "in PDDL the operator stands first", hint)
     return True
 
 
@@ -188,7 +214,7 @@ def read_function(node: ParseNode, scope: Scope) -> Function | None:
     if not isinstance(head, WordNode):
         scope.source.error(node.at, "not-a-function", "a function such as (f ?x) is expected here")
         return None
-    if is_unsupported(node, scope):
+    if is_unsupported(node, scope) or is_foreign(node, scope):
         return None
     signature = scope.signature(head, "function")
     if signature is None:
@@ -213,7 +239,8 @@ def has_parts(node: GroupNode, n_parts: int, scope: Scope) -> bool:
     if len(node) == n_parts + 1:
         return True
     message = f"{quote(node.head)} takes {plural(n_parts, 'part')}, not {len(node) - 1}"
-    scope.source.error(node.at, "wrong-arity", message)
+    hint = "put them in one (and …)" if node.head in _ONE_BODY and len(node) > n_parts + 1 else None
+    scope.source.error(node.at, "wrong-arity", message, hint)
     return False
 
 

@@ -11,27 +11,10 @@ from itertools import count
 
 from hrcplan.core.numbers import to_number
 from hrcplan.core.text import plural, quote
+from hrcplan.pddl.foreign import FOREIGN
 from hrcplan.pddl.model import OBJECT, TOTAL_TIME, Domain, Param, Signature
 from hrcplan.pddl.reader import GroupNode, WordNode
 from hrcplan.pddl.source import SourceText
-
-FOREIGN = {
-    "==": "write = instead",
-    "!=": "write (not (= …)) instead",
-    "<>": "write (not (= …)) instead",
-    "&&": "write and instead",
-    "||": "write or instead",
-    "!": "write not instead",
-    "implies": "write imply instead",
-    "=>": "write imply instead",
-    "->": "write imply instead",
-    "if": "write (imply …) in a condition, (when CONDITION EFFECT) in an effect",
-    "+=": "write (increase (f) AMOUNT) instead",
-    "-=": "write (decrease (f) AMOUNT) instead",
-    ":=": "write (assign (f) VALUE) instead",
-    "set": "write (assign (f) VALUE) instead",
-}
-"""Operators of other languages, and what PDDL writes instead."""
 
 
 @dataclass(frozen=True)
@@ -109,7 +92,8 @@ class Scope:
         terms = [term for term in group[1:] if isinstance(term, WordNode)]
         if len(terms) < len(group) - 1:
             inner = next(t for t in group[1:] if isinstance(t, GroupNode))
-            self.source.error(inner.at, "not-a-term", "a variable or object is expected here")
+            message = "a variable or object is expected here"
+            self.source.error(inner.at, "not-a-term", message, _bare_term(inner))
             return None
         if len(terms) != len(signature.params):
             expected = f"{quote(signature.name)} takes {plural(len(signature.params), 'argument')}"
@@ -156,6 +140,14 @@ class Scope:
             message = f"{kind} {quote(word)} is not declared"
             self.source.unknown(word.at, code, message, word, known, FOREIGN.get(word))
         return None
+
+
+def _bare_term(group: GroupNode) -> str | None:
+    """Return a hint for a term in parentheses, or for an argument list such as ``p(?x)``."""
+    if all(isinstance(word, WordNode) for word in group):
+        inside = " ".join(str(word) for word in group)
+        return f"write {inside} without parentheses" if inside else "leave the parentheses out"
+    return None
 
 
 def looks_numeric(word: str) -> bool:

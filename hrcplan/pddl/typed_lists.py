@@ -108,8 +108,10 @@ def report_types(source: SourceText, known: Collection[str], has_section: bool =
 def read_params(node: ParseNode, scope: Scope) -> tuple[Param, ...]:
     """Return the parameters in a group such as ``(?a - agent ?w)``."""
     if isinstance(node, WordNode):
-        scope.source.error(node.at, "not-a-list", "a parameter list in parentheses is expected")
-        return ()
+        hint = f"write ({node})"
+        message = "a parameter list in parentheses is expected"
+        scope.source.error(node.at, "not-a-list", message, hint)
+        return params_of([node], scope.source, scope.domain.types) if node[0] == "?" else ()
     return params_of(node, scope.source, scope.domain.types)
 
 

@@ -1,0 +1,75 @@
+"""Every fault is one message, and its hint says what to write instead."""
+
+import pytest
+
+from hrcplan.pddl.check import check_files
+
+
+def faults(folder, text):
+    path = folder / "domain.pddl"
+    path.write_text(text)
+    return check_files([path])
+
+
+def errors(folder, text):
+    return [fault for fault in faults(folder, text) if fault.severity == "error"]
+
+
+ONE_ACTION = """(define (domain d) (:requirements :adl :numeric-fluents)
+ (:predicates (p ?x) (q)) (:functions (f))
+ (:action a :parameters (?x ?y) :precondition {} :effect {}))"""
+
+
+@pytest.mark.parametrize(
+    ("condition", "effect", "cure"),
+    [
+        ("(q)", "(*= (f) 2)", "scale-up"),
+        ("(q)", "(inc (f) 2)", "increase"),
+        ("(q)", "(delete (q))", "write (not (p))"),
+        ("(xor (q) (p ?x))", "(q)", "write (or (and"),
+        ("(neq ?x ?y)", "(q)", "write (not (= …))"),
+        ("(gt (f) 2)", "(q)", "write >"),
+        ("((f) > 3)", "(q)", "put the conditions"),
+        ("(f > 3)", "(q)", "write (> A B)"),
+        ("(?x != ?y)", "(q)", "write (not (= …))"),
+        ("((q) (p ?x))", "(q)", "put the conditions in one (and …)"),
+        ("(q)", "((q) (p ?x))", "put the effects in one (and …)"),
+        ("(q)", "((q))", "one pair of parentheses is too much"),
+        ("(not q)", "(q)", "write (q)"),
+        ("(p (?x))", "(q)", "write ?x without parentheses"),
+        ("(exists ?z (p ?z))", "(q)", "write (?z)"),
+        ("(q)", "(when (q) (p ?x) (p ?y))", "put them in one (and …)"),
+        ("(q)", "(not (q) (p ?x))", "write (and (not (p)) (not (q)))"),
+    ],
+)
+def test_one_fault_is_one_message_with_its_cure(tmp_path, condition, effect, cure):
+    found = [
+        d for d in faults(tmp_path, ONE_ACTION.format(condition, effect)) if d.severity == "error"
+    ]
+    assert len(found) == 1
+    assert cure in (found[0].hint or "")
+
+
+@pytest.mark.parametrize(
+    ("head", "message"),
+    [
+        (":vars (?z - box)", ":vars (PDDL 1.2)"),
+        (":agent ?z - box", ":agent (MA-PDDL)"),
+        (":agent (?z - box)", ":agent (MA-PDDL)"),
+    ],
+)
+def test_variables_of_other_languages_are_one_fault(tmp_path, head, message):
+    text = f"""(define (domain d) (:requirements :typing) (:types box)
+ (:predicates (open ?b - box) (:private ?a - box (shut ?b - box)))
+ (:action a {head} :parameters (?x - box) :precondition (open ?z)
+  :effect (and (shut ?x) (not (open ?z)))))"""
+    private, other = errors(tmp_path, text)
+    assert private.message.startswith("(:private …) of MA-PDDL")
+    assert other.message.startswith(message)
+
+
+def test_words_of_other_languages_can_be_names(tmp_path):
+    text = """(define (domain d) (:requirements :strips) (:constants + and)
+ (:predicates (add ?x ?y) (neq ?x ?y) (sum ?x ?y))
+ (:action a :parameters (?x) :precondition (and (neq ?x and) (sum + and)) :effect (add ?x and)))"""
+    assert not faults(tmp_path, text)
