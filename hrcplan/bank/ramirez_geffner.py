@@ -25,7 +25,7 @@ KIND = "ramirez-geffner"
 TEMPLATE, HYPOTHESES = "template.pddl", "hyps.dat"
 OBSERVATIONS, TRUE_HYPOTHESIS, DOMAIN = "obs.dat", "real_hyp.dat", "domain.pddl"
 _PLACE = re.compile(r"<hypothesis>", re.IGNORECASE)
-_NO_WORD = re.compile(r"^\s*+(?:step\s++)?[\d.]++\s*+:|\[[^\]]*+\]|[()]", re.IGNORECASE)
+_NO_WORD = re.compile(r"^\s*+(?:step\s++)?[\d.]++\s*+:|\[[^\[\]]*+\]|[()]", re.IGNORECASE)
 _BETWEEN = re.compile(r"\)\s*,\s*")
 
 
