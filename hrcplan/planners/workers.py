@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
+import faulthandler
 import gc
 import os
 import pickle
@@ -97,6 +98,7 @@ def _become(work: Work, write: int, parent: int) -> NoReturn:
     """Do the work in this forked copy, and end."""
     try:
         gc.freeze()  # what is shared stays shared
+        faulthandler.disable()  # a request to end may abort an extension that is being imported
         os.setpgid(0, 0)  # Ctrl-C in a terminal is for the parent alone
         quiet = os.open(os.devnull, os.O_RDWR)
         for stream in (0, 1, 2):  # what libraries print while they are ended is of no use
