@@ -8,21 +8,44 @@ import hrcplan
 from hrcplan.errors import PddlError
 
 PUBLIC = Path(__file__).parents[1] / "data" / "public"
-PLANNED = """
-plansys2/elevator plansys2/factory plansys2/road-trip plansys2/simple plansys2/simple-constants
-unified-planning/counters unified-planning/depot unified-planning/depots-temporal
-unified-planning/farmland unified-planning/fn-counters unified-planning/matchcellar
-unified-planning/miconic unified-planning/parking_action_cost unified-planning/plant-watering
-unified-planning/rovers-numeric unified-planning/safe_road unified-planning/sailing
-unified-planning/tpp unified-planning/tpp_metric unified-planning/viplan_hh
-unified-planning/visit_precedence
-pddlgym/conditionalferry pddlgym/derivedblocks pddlgym/elevator pddlgym/equalityblocks
-pddlgym/hanoi pddlgym/quantifiedblocks
-""".split()
-CONTINUOUS = """
-unified-planning/car-linear unified-planning/car_nl val/coffee val/drive val/sleeping-beauty
-val/tanks val/vending
-""".split()
+PLANNED = [
+    "plansys2/elevator",
+    "plansys2/factory",
+    "plansys2/road-trip",
+    "plansys2/simple",
+    "plansys2/simple-constants",
+    "unified-planning/counters",
+    "unified-planning/depot",
+    "unified-planning/depots-temporal",
+    "unified-planning/farmland",
+    "unified-planning/fn-counters",
+    "unified-planning/matchcellar",
+    "unified-planning/miconic",
+    "unified-planning/parking_action_cost",
+    "unified-planning/plant-watering",
+    "unified-planning/rovers-numeric",
+    "unified-planning/safe_road",
+    "unified-planning/sailing",
+    "unified-planning/tpp",
+    "unified-planning/tpp_metric",
+    "unified-planning/viplan_hh",
+    "unified-planning/visit_precedence",
+    "pddlgym/conditionalferry",
+    "pddlgym/derivedblocks",
+    "pddlgym/elevator",
+    "pddlgym/equalityblocks",
+    "pddlgym/hanoi",
+    "pddlgym/quantifiedblocks",
+]
+CONTINUOUS = [
+    "unified-planning/car-linear",
+    "unified-planning/car_nl",
+    "val/coffee",
+    "val/drive",
+    "val/sleeping-beauty",
+    "val/tanks",
+    "val/vending",
+]
 READ = ["plansys2/charging", "unified-planning/citycar", "unified-planning/robot_fastener"]
 REFUSED = {
     "pddlgym/river": "probabilistic effects",
