@@ -157,7 +157,9 @@ def _text(found: dict[str, Any], folder: Path) -> str:
 
 
 def _mean(mean: float | None, se: float | None) -> str:
-    return "-" if mean is None else f"{mean:.2f} ± {se:.2f}"
+    if mean is None:
+        return "-"
+    return f"{mean:.2f}" if se is None else f"{mean:.2f} ± {se:.2f}"
 
 
 def _bar() -> AbstractContextManager[Callable[[int, int], None] | None]:

@@ -53,6 +53,20 @@ class Measure:
         suffix = self.unit if self.suffix is None else self.suffix
         return f"{text} {suffix}".rstrip()
 
+    def interval(self, e: MeanEstimate) -> Interval:
+        """Return the 95 % interval of a mean; that of a share lies within 0 to 100 %.
+
+        >>> Measure("right", "right", "%").interval(MeanEstimate(99.0, 2.0, 9)).high
+        100.0
+        """
+        is_share = self.unit.startswith("%")
+        return e.interval.clipped(0.0, 100.0) if is_share and e.is_known else e.interval
+
+    def span(self, e: MeanEstimate) -> tuple[float, float]:
+        """Return the ends of the interval for a plot; both are the mean where it is not known."""
+        interval = self.interval(e)
+        return (interval.low, interval.high) if e.is_known else (e.mean, e.mean)
+
     def verdict(self, difference: Interval) -> str:
         """Return whether a difference is wholly ``better`` or ``worse`` than 0, or nothing.
 
@@ -110,8 +124,10 @@ def mean_text(e: MeanEstimate) -> str:
 
     >>> mean_text(MeanEstimate(1.5, 0.25, 9))
     '1.50 ± 0.25'
+    >>> mean_text(MeanEstimate(1.5, 0.0, 1))
+    '1.50'
     """
-    return f"{number(e.mean)} ± {number(e.se)}"
+    return number(e.mean) + (f" ± {number(e.se)}" if e.is_known else "")
 
 
 def difference_text(e: MeanEstimate) -> str:
@@ -120,9 +136,10 @@ def difference_text(e: MeanEstimate) -> str:
     >>> difference_text(MeanEstimate(1.5, 0.25, 9))
     '+1.50 ± 0.25'
     """
-    return f"{signed(e.mean)} ± {number(e.se)}"
+    return signed(e.mean) + (f" ± {number(e.se)}" if e.is_known else "")
 
 
 def mean_html(e: MeanEstimate) -> str:
     """Return a mean and its standard error as HTML."""
-    return f'{number(e.mean)} <span class="se">± {number(e.se)}</span>'
+    error = f' <span class="se">± {number(e.se)}</span>' if e.is_known else ""
+    return number(e.mean) + error

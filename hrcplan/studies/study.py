@@ -96,8 +96,9 @@ class Study:
     ``inputs`` returns the text of the files that rows depend on; where it has changed, rows made
     before are not added to. ``prepare`` makes what all episodes need, with a number of processes,
     and is given a function that tells the user. ``runs`` is how many runs a cell has by default.
-    ``unit`` names the columns of which each value counts once in a standard error: means over its
-    rows are taken first; without it every row counts. ``renamed`` holds, by key column or option,
+    ``unit`` names the columns of which each combination counts once in a standard error: means over
+    its rows are taken first, and those that share a value of a column are not taken as independent;
+    without it every row counts. ``renamed`` holds, by key column or option,
     the names of earlier versions with the present ones: they still work in options, and in rows
     that were written before.
     """

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from hrcplan.studies.changed_mind import scenario
 from hrcplan.studies.changed_mind.episodes import UNIT
 from hrcplan.studies.changed_mind.measures import DECLARED
-from hrcplan.studies.estimate import Interval, MeanEstimate, two_way_bootstrap
+from hrcplan.studies.estimate import Interval, MeanEstimate, estimate_clustered
 from hrcplan.studies.report import cells_of, estimates
 from hrcplan.studies.study import StudyOptions, StudyRow
 
@@ -72,8 +72,8 @@ class Cells:
     def difference(self, human: str, ours: str, theirs: str, measure: str) -> Interval | None:
         """Return the mean of ours minus theirs over the runs in which both have a value.
 
-        The interval is that of the two-way cluster bootstrap over first and second goals. None if
-        there is no such run, or no value at all of a method.
+        The interval is cluster-robust by first and by second goal. None if there is no such run, or
+        no value at all of a method.
         """
         key = (human, ours, theirs, measure)
         if key not in self._gaps:
@@ -88,5 +88,5 @@ class Cells:
         for row in self.rows[human, ours]:
             a, b = row[measure], beside.get(row["run"], {}).get(measure)
             if a is not None and b is not None:
-                values.append((row["first"], row["second"], float(a) - float(b)))
-        return two_way_bootstrap(values) if values else None
+                values.append(((row["first"], row["second"]), float(a) - float(b)))
+        return estimate_clustered(values).interval if values else None

@@ -9,7 +9,6 @@ from hrcplan.plots import style as plots
 from hrcplan.studies.changed_mind.cells import Cells
 from hrcplan.studies.changed_mind.episodes import ORACLE
 from hrcplan.studies.changed_mind.measures import MEASURES
-from hrcplan.studies.estimate import CONFIDENT
 from hrcplan.studies.page import keys
 
 COLORS = {
@@ -78,8 +77,7 @@ def dots(cells: Cells, measure: str, title: str, name: str) -> str:
         for i, method in enumerate(methods):
             if (e := cells.mean(human, method, measure)) is not None:
                 at, tone = x + (i - (n - 1) / 2) * 0.6 / n, color(method, cells.methods)
-                half = CONFIDENT * e.se
-                axes.plot([at, at], [e.mean - half, e.mean + half], color=tone, linewidth=2.2,
+                axes.plot([at, at], MEASURES[measure].span(e), color=tone, linewidth=2.2,
                           alpha=0.45, solid_capstyle="round")  # fmt: skip
                 axes.plot([at], [e.mean], "o", color=tone, markersize=5.5)
     _humans(axes, cells.humans, measure, title)
@@ -105,8 +103,7 @@ def variants(cells: Cells, measures: Sequence[str]) -> str:
             fill = plots.INK if i == 0 else "white"
             for y, method in enumerate(cells.methods):
                 if (e := cells.mean(human, method, measure)) is not None:
-                    half = CONFIDENT * e.se
-                    axes.plot([e.mean - half, e.mean + half], [y, y], color=plots.SOFT,
+                    axes.plot(MEASURES[measure].span(e), [y, y], color=plots.SOFT,
                               linewidth=1.6, alpha=0.6)  # fmt: skip
                     axes.plot([e.mean], [y], "o", markersize=5.5, markerfacecolor=fill,
                               markeredgecolor=plots.INK)  # fmt: skip

@@ -169,8 +169,8 @@ def differences(cells: Cells) -> Section | None:
         return None
     words = (
         f"<p>Differences to the method <em>{BESIDE}</em> in the same runs (same goals, time of "
-        "change and seed), with 95 % intervals of a bootstrap that draws first and second goals "
-        f"anew. {COLORED} The best baseline is the one with the best mean in that column.</p>"
+        "change and seed), with 95 % intervals whose errors are cluster-robust by first and second "
+        f"goal. {COLORED} The best baseline is the one with the best mean in that column.</p>"
     )
     return Section("Paired differences", words + "\n".join(parts))
 

@@ -8,7 +8,7 @@ from hrcplan.studies.changed_mind import figures
 from hrcplan.studies.changed_mind.cells import Cells
 from hrcplan.studies.changed_mind.episodes import ORACLE
 from hrcplan.studies.changed_mind.measures import MEASURES
-from hrcplan.studies.estimate import CONFIDENT, Interval, MeanEstimate
+from hrcplan.studies.estimate import Interval, MeanEstimate
 from hrcplan.studies.measure import ends, interval_text, mean_html, number, signed
 from hrcplan.studies.page import escape, key, table
 
@@ -19,7 +19,7 @@ _MARKS = {"better": "in", "worse": "out", "": ""}
 def means(cells: Cells, human: str, measures: Sequence[str]) -> str:
     """Return a line per method: mean, standard error and 95 % interval of each measure."""
     lines = [
-        [named(cells, method), *(_mean(cells.mean(human, method, name)) for name in measures)]
+        [named(cells, method), *(_mean(cells.mean(human, method, name), name) for name in measures)]
         for method in cells.methods_of(human)
     ]
     return table(["", *(MEASURES[name].head for name in measures)], lines)
@@ -32,11 +32,10 @@ def named(cells: Cells, method: str) -> str:
     return f"{key(figures.color(method, cells.methods))}{escape(method)}"
 
 
-def _mean(e: MeanEstimate | None) -> str:
+def _mean(e: MeanEstimate | None, measure: str) -> str:
     if e is None:
         return NOTHING
-    half = CONFIDENT * e.se
-    interval = f"{number(e.mean - half)} to {number(e.mean + half)}" if e.n > 1 else "n = 1"
+    interval = ends(MEASURES[measure].interval(e)) if e.is_known else f"n = {e.n}"
     return f"{mean_html(e)}<small>{interval}</small>"
 
 

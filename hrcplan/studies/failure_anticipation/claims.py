@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from hrcplan.agents.state import MOST
-from hrcplan.studies.estimate import CONFIDENT, MeanEstimate, difference
+from hrcplan.studies.estimate import MeanEstimate, difference, t_quantile
 from hrcplan.studies.failure_anticipation import scenario
 from hrcplan.studies.failure_anticipation.measures import MEASURES
 from hrcplan.studies.measure import difference_text, number
@@ -174,9 +174,10 @@ def _band(measure: str, low: float, high: float) -> str:
 
 
 def _shown(measure: str, e: MeanEstimate) -> str:
-    return f"{MEASURES[measure].amount(number(e.mean))} ± {number(e.se)}"
+    amount = MEASURES[measure].amount(number(e.mean))
+    return f"{amount} ± {number(e.se)}" if e.is_known else amount
 
 
 def is_far(ours: MeanEstimate, printed: float, runs: int) -> bool:
     """Whether a printed mean over ``runs`` simulations is unlikely to be one of ours."""
-    return abs(ours.mean - printed) > CONFIDENT * ours.se_of(runs)
+    return abs(ours.mean - printed) > t_quantile(runs - 1) * ours.se_of(runs)

@@ -10,7 +10,7 @@ from hrcplan.agents.state import MOST
 from hrcplan.core.text import plural
 from hrcplan.plots import lanes as charts
 from hrcplan.plots import style as plots
-from hrcplan.studies.estimate import CONFIDENT, estimate
+from hrcplan.studies.estimate import MeanEstimate, estimate
 from hrcplan.studies.failure_anticipation.claims import BASELINE
 from hrcplan.studies.failure_anticipation.measures import MEASURES
 from hrcplan.studies.study import Cell, StudyRow
@@ -40,7 +40,7 @@ def measures(
             case, method = map(str, cell)
             e = estimate(float(row[measure] or 0) for row in by_cell[cell])
             color = CASE_COLORS.get(case, plots.GRAY)
-            axes.plot([e.mean - CONFIDENT * e.se, e.mean + CONFIDENT * e.se], [y, y],
+            axes.plot(MEASURES[measure].span(e), [y, y],
                       color=color, linewidth=2.2, alpha=0.45, solid_capstyle="round")  # fmt: skip
             axes.plot([e.mean], [y], "o", color=color, markersize=6)
             if method == BASELINE and measure in printed.get(case, {}):
@@ -140,8 +140,7 @@ def levels(lines: Mapping[str, Sequence[StudyRow]], names: Sequence[str]) -> str
                 estimate(float(r[measure] or 0) for r in rows if r["value"] == v) for v in values
             ]
             means = [e.mean for e in points]
-            low = [e.mean - CONFIDENT * e.se for e in points]
-            high = [e.mean + CONFIDENT * e.se for e in points]
+            low, high = zip(*map(MEASURES[measure].span, points), strict=True)
             axes.fill_between(values, low, high, color=color, alpha=0.15, linewidth=0)
             axes.plot(values, means, "o-", color=color, markersize=4, label=name)
         axes.set_title(MEASURES[measure].title)
@@ -164,13 +163,19 @@ def sweeps(by_cell: Mapping[Cell, Sequence[StudyRow]], names: Sequence[str]) -> 
             axes = grid[line][column]
             means = [estimate(float(row[measure] or 0) for row in rows) for _, rows in cells]
             axes.errorbar([v for v, _ in cells], [e.mean for e in means],
-                          [CONFIDENT * e.se for e in means], fmt="o-", markersize=4,
+                          _errors(measure, means), fmt="o-", markersize=4,
                           color=plots.BLUE, elinewidth=1, linewidth=1.4)  # fmt: skip
             if column == 0:
                 axes.set_ylabel(MEASURES[measure].title)
             plots.bare(axes, "y")
         grid[-1][column].set_xlabel(parameter)
     return plots.svg(figure, "sweeps", "Measures against the numbers of the interactions")
+
+
+def _errors(measure: str, means: Sequence[MeanEstimate]) -> list[list[float]]:
+    """Return how far the intervals of means reach below and above them."""
+    spans = [(e.mean, *MEASURES[measure].span(e)) for e in means]
+    return [[mean - low for mean, low, _ in spans], [high - mean for mean, _, high in spans]]
 
 
 @plots.styled
