@@ -144,14 +144,9 @@ def fail(
 ) -> None:  # fmt: skip
     """Print an error: JSON on stdout if asked for, else words on stderr."""
     if JSON:
-        fault = {
-            "code": code,
-            "message": message,
-            "path": path,
-            "line": line,
-            "column": column,
-            "hint": hint,
-        }
+        fault = {"code": code, "message": message, "path": path, "line": line, "hint": hint}
+        if column is not None:
+            fault["column"] = column
         document({"error": fault})
         return
     place = _place(path, line, column, message)

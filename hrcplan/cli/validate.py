@@ -57,7 +57,7 @@ def command(names: tuple[str, ...], epsilon: str) -> int:
             "metric": output.number(report.metric),
             "failed_step": report.failed_step,
             "reason": report.reason,
-            "hint": _hint(report),
+            **({} if report.gap_s is None else {"hint": _hint(report)}),
         })  # fmt: skip
     elif report.valid:
         output.result(f"valid: {len(plan.actions)} actions{_figures(report)}")

@@ -19,4 +19,11 @@ exactly.
 promising first (`choice`), each in a copy of this process that can be ended at any time
 (`workers`), and puts together what they say (`portfolio`). ``execute`` asks them one after the
 other in a fixed order. A planner object is asked in this process.
+
+``names()`` lists the planners that have a name of their own, and ``make(name)`` returns one.
 """
+
+from hrcplan.planners.contract import Answer, Capabilities, Planner, Request, Status
+from hrcplan.planners.registry import make, names
+
+__all__ = ["Answer", "Capabilities", "Planner", "Request", "Status", "make", "names"]

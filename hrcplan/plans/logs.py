@@ -21,6 +21,7 @@ from hrcplan.plans.text import parse_plan
 _NUMBER = re.compile(r"(?:step\b\s*)?\d+\s*:\s*")
 _WORDS = re.compile(r"[^\s()\[\]:;,]+(?:\s+[^\s()\[\]:;,]+)*")
 _PRICE = re.compile(r"\s\(\d+\)$")  # "go a b (1)" of Fast Downward
+_OF_A_LOG = re.compile(r"\b(?:plan|solution|cost|time|search|heuristic|states|steps)\b")
 # What ENHSP prints between actions, and the last action that FF adds to a plan.
 _NO_ACTION = re.compile(r"(?<!-)-{2,}+\s*+waiting\s*+--|\breach-goal\b")
 
@@ -124,7 +125,7 @@ def _actions(line: str, names: Collection[str]) -> tuple[PlannedAction, ...]:
 def _is_log(text: str, problem: Problem) -> bool:
     """Return whether all lines without an action speak of something else than actions."""
     names = {action.name for action in problem.domain.actions}
-    return all(
-        _actions(line.strip(), names) or names.isdisjoint(re.findall(r"[^\s()\[\]:;,]+", line))
-        for line in text.lower().splitlines()
-    )
+    rest = [line for line in text.lower().splitlines() if not _actions(line.strip(), names)]
+    if any(not names.isdisjoint(re.findall(r"[^\s()\[\]:;,]+", line)) for line in rest):
+        return False
+    return any(_OF_A_LOG.search(line) for line in rest)

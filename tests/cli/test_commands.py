@@ -208,7 +208,7 @@ def test_a_text_that_is_no_plan(plan_file: Path) -> None:
     plan_file.write_text("(move human wp1 wp4)\nhello\n")
     found = run("validate", "transport/two-boxes", str(plan_file))
     assert found.exit_code == 3
-    assert "two.plan:2: 'hello' is not an action of a plan" in found.stderr
+    assert "two.plan:2:1: 'hello' is not an action of a plan" in found.stderr
 
 
 # check, new-problem, planners, doctor
