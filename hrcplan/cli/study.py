@@ -140,6 +140,9 @@ def report(folder: Path, name: str | None) -> int:
     return 0
 
 
+_VERDICTS = {"holds": "holds", "fails": "does not hold", "too-few": "too few runs"}
+
+
 def _text(found: dict[str, Any], folder: Path) -> str:
     """Return means by cell and the claims, as plain lines."""
     names = list(found["rows"][0]["measures"]) if found["rows"] else []
@@ -150,7 +153,7 @@ def _text(found: dict[str, Any], folder: Path) -> str:
     lines = output.columns(table, right=range(1, len(names) + 1))
     lines.append("")
     for claim in found["claims"]:
-        lines.append(f"{'holds         ' if claim['holds'] else 'does not hold '} {claim['claim']}")
+        lines.append(f"{_VERDICTS[claim['verdict']]:<14} {claim['claim']}")
         lines.append(f"               {claim['evidence']}")
     lines += ["", f"{found['n_rows']} rows; wrote {folder}/report.html and report.json"]
     return "\n".join(lines)

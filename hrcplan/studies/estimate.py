@@ -39,6 +39,11 @@ class Interval:
         """Whether the whole interval is below 0."""
         return self.high < 0
 
+    @property
+    def negative(self) -> Interval:
+        """The interval of the same difference the other way round."""
+        return Interval(-self.mean, -self.high, -self.low, self.n)
+
     def clipped(self, least: float, most: float) -> Interval:
         """Return the interval without what lies outside of the possible values."""
         return Interval(self.mean, max(least, self.low), min(most, self.high), self.n)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from hrcplan.studies.estimate import Interval, MeanEstimate
+from hrcplan.studies.verdict import BoundTest
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +67,16 @@ class Measure:
         """Return the ends of the interval for a plot; both are the mean where it is not known."""
         interval = self.interval(e)
         return (interval.low, interval.high) if e.is_known else (e.mean, e.mean)
+
+    def beats(self, difference: Interval, margin: float | None = None) -> BoundTest:
+        """Return the test that a difference is better than 0, or not worse by a margin or more.
+
+        >>> Measure("steps", "steps", "timesteps").beats(Interval(-1, -2, -0.5, 9)).holds
+        True
+        """
+        least = 0.0 if margin is None else -margin
+        oriented = difference if self.more_is_better else difference.negative
+        return BoundTest(oriented, least=least, is_strict=margin is None)
 
     def verdict(self, difference: Interval) -> str:
         """Return whether a difference is wholly ``better`` or ``worse`` than 0, or nothing.

@@ -9,8 +9,17 @@ from pathlib import Path
 from typing import Any
 
 from hrcplan.studies.study import Claim, Findings, Section
+from hrcplan.studies.verdict import FAILS, HOLDS, TOO_FEW
 
 STYLE = Path(__file__).with_name("page.css")
+_VERDICTS = {
+    HOLDS: ("yes", "holds"),
+    FAILS: ("no", "does not hold"),
+    TOO_FEW: ("few", "too few runs to tell"),
+}
+_INTERVAL = re.compile(
+    r"± [\d.]+(?:</span><small>[\u2212\d.]+ to [\u2212\d.]+)?|\d\.\d\d to \u2212?\d+\.\d\d"
+)
 
 
 def html(title: str, about: Mapping[str, Any], n_rows: int, findings: Findings) -> str:
@@ -36,6 +45,7 @@ def html(title: str, about: Mapping[str, Any], n_rows: int, findings: Findings) 
 <h1>{escape(title)}</h1>
 <p class="lead">{findings.lead}</p>
 <p class="facts">{_facts(about, n_rows)}</p>
+<p class="facts">{_multiplicity(sections)}</p>
 <nav>{contents}</nav>
 </header>
 <main>
@@ -52,6 +62,17 @@ def _facts(about: Mapping[str, Any], n_rows: int) -> str:
     return " · ".join(escape(part) for part in parts if part)
 
 
+def _multiplicity(sections: str) -> str:
+    """Return how many intervals a page holds, and what that means."""
+    n = len(_INTERVAL.findall(sections))
+    if not n:
+        return ""
+    return (
+        f"{n:,} means and differences stand here with an error or a 95 % interval. They are not "
+        "corrected for their number: about one in twenty misses its true value by chance."
+    )
+
+
 def _claims(claims: Sequence[Claim]) -> list[Section]:
     """Return a section per group of claims, in the order of their first ones."""
     groups = dict.fromkeys(c.group for c in claims)
@@ -61,7 +82,7 @@ def _claims(claims: Sequence[Claim]) -> list[Section]:
 
 
 def _claim(claim: Claim) -> str:
-    kind, verdict = ("yes", "holds") if claim.holds else ("no", "does not hold")
+    kind, verdict = _VERDICTS[claim.verdict]
     return (
         f'<article class="claim {kind}"><p class="verdict">{verdict}</p>'
         f"<div><h3>{escape(claim.claim)}</h3><p>{escape(claim.evidence)}</p></div></article>"

@@ -69,7 +69,8 @@ def _document(
         "n_rows": len(rows[main.name]),
         "rows": [_summary(study, cell, found) for cell, found in by_cell.items() if found],
         "claims": [
-            {"claim": c.claim, "holds": c.holds, "evidence": c.evidence} for c in findings.claims
+            {"claim": c.claim, "verdict": c.verdict, "holds": c.holds, "evidence": c.evidence}
+            for c in findings.claims
         ],
         "about": about,
     }

@@ -13,6 +13,7 @@ from itertools import islice
 from hrcplan.core.deprecation import warn_old_name
 from hrcplan.core.registry import ObjectRegistry
 from hrcplan.errors import UsageError
+from hrcplan.studies.verdict import verdict_of
 
 CellValue = int | float | str | None
 StudyRow = dict[str, CellValue]
@@ -60,12 +61,20 @@ class StudyTable:
 
 @dataclass(frozen=True, slots=True)
 class Claim:
-    """A statement that the rows support or not; the page shows claims group by group."""
+    """A statement that the rows support or not; the page shows claims group by group.
+
+    ``holds`` is None where there are too few runs to tell.
+    """
 
     claim: str
-    holds: bool
+    holds: bool | None
     evidence: str
     group: str = "Claims"
+
+    @property
+    def verdict(self) -> str:
+        """``holds``, ``fails`` or ``too-few``."""
+        return verdict_of(self.holds)
 
 
 @dataclass(frozen=True, slots=True)

@@ -168,8 +168,8 @@ def test_the_keys_of_the_report(tmp_path: Path) -> None:
     first = {case: document["rows"][cases.index(case)]["cell"]["method"] for case in cases}
     assert set(first.values()) == {"replan-always"}
     for claim in document["claims"]:
-        assert set(claim) == {"claim", "holds", "evidence"}
-        assert isinstance(claim["holds"], bool)
+        assert set(claim) == {"claim", "verdict", "holds", "evidence"}
+        assert claim["verdict"] == {True: "holds", False: "fails", None: "too-few"}[claim["holds"]]
         assert claim["evidence"]
 
 

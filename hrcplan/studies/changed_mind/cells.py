@@ -38,7 +38,7 @@ class Cells:
             if any(row["n_detected"] or row["false_changes"] for row in had)
         }
         self._means: dict[tuple[str, str, str], MeanEstimate | None] = {}
-        self._gaps: dict[tuple[str, str, str, str], Interval | None] = {}
+        self._gaps: dict[tuple[str, str, str, str, float], Interval | None] = {}
 
     def methods_of(self, human: str) -> list[str]:
         """Return the methods that have rows of a human."""
@@ -69,18 +69,22 @@ class Cells:
         found = estimates(rows, (measure,), UNIT)[measure]
         return found if found.n else None
 
-    def difference(self, human: str, ours: str, theirs: str, measure: str) -> Interval | None:
-        """Return the mean of ours minus theirs over the runs in which both have a value.
+    def difference(
+        self, human: str, ours: str, theirs: str, measure: str, share: float = 1.0
+    ) -> Interval | None:
+        """Return the mean of ours minus theirs, or minus a share of theirs.
 
-        The interval is cluster-robust by first and by second goal. None if there is no such run, or
-        no value at all of a method.
+        It is taken over the runs in which both have a value. The interval is cluster-robust by
+        first and by second goal. None if there is no such run, or no value at all of a method.
         """
-        key = (human, ours, theirs, measure)
+        key = (human, ours, theirs, measure, share)
         if key not in self._gaps:
             self._gaps[key] = self._difference(*key)
         return self._gaps[key]
 
-    def _difference(self, human: str, ours: str, theirs: str, measure: str) -> Interval | None:
+    def _difference(
+        self, human: str, ours: str, theirs: str, measure: str, share: float
+    ) -> Interval | None:
         if not all(self.mean(human, method, measure) for method in (ours, theirs)):
             return None
         beside = {row["run"]: row for row in self.rows[human, theirs]}
@@ -88,5 +92,5 @@ class Cells:
         for row in self.rows[human, ours]:
             a, b = row[measure], beside.get(row["run"], {}).get(measure)
             if a is not None and b is not None:
-                values.append(((row["first"], row["second"]), float(a) - float(b)))
+                values.append(((row["first"], row["second"]), float(a) - share * float(b)))
         return estimate_clustered(values).interval if values else None

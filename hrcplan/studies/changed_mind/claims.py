@@ -16,6 +16,7 @@ from hrcplan.studies.changed_mind.measures import MEASURES
 from hrcplan.studies.estimate import Interval
 from hrcplan.studies.measure import interval_text, mean_text, number
 from hrcplan.studies.study import Claim, StudyOptions
+from hrcplan.studies.verdict import BoundTest, judge
 
 GROUP = "Claims of the changed-mind paper"
 OTHER_TASK = "Claims on this task"
@@ -103,18 +104,17 @@ def claims(options: StudyOptions, cells: Cells) -> list[Claim]:
 
 def ahead(wanted: Superiority, cells: Cells) -> Claim | None:
     """Return that a method is better than each of the others, by paired differences."""
-    words, n, holds = [], [], True
+    words, n, tests = [], [], []
     for human in wanted.humans:
         for ours in wanted.ours:
             found = differences(cells, human, ours, wanted.others, wanted.measure)
             if found is None:
                 return None
-            holds &= all(
-                MEASURES[wanted.measure].verdict(one) == "better" for one in found.values()
-            )
+            tests += [MEASURES[wanted.measure].beats(one) for one in found.values()]
             n += [one.n for one in found.values()]
             words.append(f"{human}, {ours}: {_measured(cells, human, ours, wanted, found)}")
-    evidence = f"{'; '.join(words)}. {JUDGED}; {_runs(n)}."
+    holds, telling = judge(tests)
+    evidence = f"{'; '.join(words)}. {JUDGED}; {_runs(n)}.{telling}"
     return Claim(wanted.claim, holds, f"{evidence} {wanted.note}".strip(), GROUP)
 
 
@@ -156,7 +156,7 @@ def _runs(n: Sequence[int]) -> str:
 def bounds(cells: Cells) -> Claim | None:
     """Return that the methods for fixed goals guess worse than both others when goals change."""
     names = ("first_correct", "last_incorrect_pct", "correct_pct")
-    n, behind = [], []
+    n, behind, tests = [], [], []
     for human in CHANGING:
         for measure in names:
             for bound in BOUNDS:
@@ -164,6 +164,7 @@ def bounds(cells: Cells) -> Claim | None:
                 if found is None:
                     return None
                 n += [one.n for one in found.values()]
+                tests += [MEASURES[measure].beats(one.negative) for one in found.values()]
                 behind += [
                     f"{human}, {MEASURES[measure].name}: {bound} {interval_text(one)} "
                     f"against {other}"
@@ -180,7 +181,8 @@ def bounds(cells: Cells) -> Claim | None:
     )
     if behind:
         words += f"; not these: {'; '.join(behind)}"
-    return Claim(claim, not behind, f"{words}. {JUDGED}; {_runs(n)}.", GROUP)
+    holds, telling = judge(tests)
+    return Claim(claim, holds, f"{words}. {JUDGED}; {_runs(n)}.{telling}", GROUP)
 
 
 def midpoint(printed: Mapping[str, Any], cells: Cells) -> Claim | None:
@@ -199,7 +201,8 @@ def midpoint(printed: Mapping[str, Any], cells: Cells) -> Claim | None:
         f"{words} of the episode. “Around the midpoint” is read as {low} to {high} %; how soon a "
         "fixed goal shows depends on how much the goals have in common."
     )
-    return Claim(claim, all(low <= e.mean <= high for e in had.values()), evidence, GROUP)
+    holds, telling = judge(BoundTest(e.interval, low, high) for e in had.values())
+    return Claim(claim, holds, evidence + telling, GROUP)
 
 
 def minimal(printed: Mapping[str, Any], cells: Cells) -> Claim | None:
@@ -215,7 +218,8 @@ def minimal(printed: Mapping[str, Any], cells: Cells) -> Claim | None:
         "mistakes too, as in the changed-mind paper."
     )
     claim = "The number of extra steps is minimal for all three humans"
-    return Claim(claim, all(e.mean < most for e in had.values()), evidence, GROUP)
+    holds, telling = judge(BoundTest(e.interval, most=most, is_strict=True) for e in had.values())
+    return Claim(claim, holds, evidence + telling, GROUP)
 
 
 def length(printed: Mapping[str, Any], cells: Cells) -> Claim | None:
@@ -230,4 +234,5 @@ def length(printed: Mapping[str, Any], cells: Cells) -> Claim | None:
         "are ours: the paper does not list its own."
     )
     claim = f"Combinations of two goals take {mean:g} steps on average"
-    return Claim(claim, abs(found.mean - mean) <= within, evidence, GROUP)
+    holds, telling = judge([BoundTest(found.interval, mean - within, mean + within)])
+    return Claim(claim, holds, evidence + telling, GROUP)

@@ -11,6 +11,7 @@ from hrcplan.studies.changed_mind.measures import MEASURES
 from hrcplan.studies.estimate import Interval, MeanEstimate
 from hrcplan.studies.measure import interval_text, mean_text, number
 from hrcplan.studies.study import Claim
+from hrcplan.studies.verdict import BoundTest, judge
 
 GROUP = "Aims of hrcplan"
 
@@ -33,37 +34,45 @@ def wanted(one: Mapping[str, Any], method: str, cells: Cells) -> Claim | None:
     name, unit = MEASURES[measure].name, MEASURES[measure].unit
     start = f"{human}: {name} ({unit})"
     if "most" in one:
-        evidence = f"{mean_text(ours)}; n = {cells.n_runs(human, method):,}"
-        return Claim(f"{start} at most {one['most']:g}", ours.mean <= one["most"], evidence, GROUP)
+        test = BoundTest(ours.interval, most=one["most"])
+        evidence = f"{mean_text(ours)}; n = {cells.n_runs(human, method):,}."
+        return _judged(f"{start} at most {one['most']:g}", test, evidence)
     theirs = cells.mean(human, one["beside"], measure)
     gap = cells.difference(human, method, one["beside"], measure)
     if theirs is None or gap is None:
         return None
-    goal, holds = _judged(one, ours, theirs, gap)
+    share = cells.difference(human, method, one["beside"], measure, one.get("share", 1.0))
+    goal, test = _goal(one, share or gap)
     evidence = (
         f"{mean_text(ours)} beside {mean_text(theirs)} ({_share(ours, theirs)}); paired difference "
-        f"{interval_text(gap)}, n = {gap.n:,}"
+        f"{interval_text(gap)}, n = {gap.n:,}."
     )
-    return Claim(f"{start} {goal}", holds, evidence, GROUP)
+    return _judged(f"{start} {goal}", test, evidence)
 
 
-def _judged(
-    one: Mapping[str, Any], ours: MeanEstimate, theirs: MeanEstimate, gap: Interval
-) -> tuple[str, bool]:
-    """Return the goal in words, and whether it is reached."""
+def _judged(claim: str, test: BoundTest, evidence: str) -> Claim:
+    """Return a claim judged by the interval; where that does not tell, what the mean says."""
+    holds, telling = judge([test])
+    if holds is None:
+        is_met = test.least <= test.interval.mean <= test.most
+        telling = f" {'Met' if is_met else 'Not met'} on average.{telling}"
+    return Claim(claim, holds, evidence + telling, GROUP)
+
+
+def _goal(one: Mapping[str, Any], gap: Interval) -> tuple[str, BoundTest]:
+    """Return the goal in words, and its test."""
     whose = f"{one['beside']}'s"
     if "share" in one:
-        return f"at most {100 * one['share']:g} % of {whose}", ours.mean <= one[
-            "share"
-        ] * theirs.mean
+        return f"at most {100 * one['share']:g} % of {whose}", BoundTest(gap, most=0.0)
     if "above" in one:
-        return f"at most {one['above']:g} above {whose}", gap.mean <= one["above"]
+        return f"at most {one['above']:g} above {whose}", BoundTest(gap, most=one["above"])
     if "below" in one:
-        return f"at least {one['below']:g} below {whose}", gap.mean <= -one["below"]
+        return f"at least {one['below']:g} below {whose}", BoundTest(gap, most=-one["below"])
     if "over" in one:
-        return f"at least {one['over']:g} above {whose}", gap.mean >= one["over"]
-    is_worse = MEASURES[one["measure"]].verdict(gap) == "worse"
-    return f"no worse than {whose}", gap.is_known and not is_worse
+        return f"at least {one['over']:g} above {whose}", BoundTest(gap, least=one["over"])
+    margin, unit = one["no_worse"], MEASURES[one["measure"]].unit
+    words = f"no worse than {whose} (non-inferior by a margin of {margin:g} {unit})"
+    return words, MEASURES[one["measure"]].beats(gap, margin)
 
 
 def _share(ours: MeanEstimate, theirs: MeanEstimate) -> str:
@@ -71,8 +80,8 @@ def _share(ours: MeanEstimate, theirs: MeanEstimate) -> str:
 
 
 def as_good(human: str, data: Mapping[str, Any], cells: Cells) -> Claim | None:
-    """Return that no baseline is better in any measure that is counted in timesteps."""
-    ours, verdicts, worse, n_unknown = data["method"], [], [], 0
+    """Return that no baseline is better by a margin in any measure counted in timesteps."""
+    ours, margin, verdicts, worse, tests = data["method"], data["margin"], [], [], []
     if not all(cells.n_runs(human, method) for method in (ours, *data["baselines"])):
         return None
     changes = scenario.human_data(human)["changes"]
@@ -81,17 +90,22 @@ def as_good(human: str, data: Mapping[str, Any], cells: Cells) -> Claim | None:
         for other in data["baselines"]:
             gap = cells.difference(human, ours, other, measure)
             if gap is not None:
-                n_unknown += not gap.is_known
+                tests.append(MEASURES[measure].beats(gap, margin))
                 verdicts.append(MEASURES[measure].verdict(gap))
-                if verdicts[-1] == "worse":
+                if not tests[-1].holds:
                     worse.append(_worse(measure, other, gap, human, data, cells))
-    claim = f"{human}: at least as good as every baseline in every measure counted in steps"
-    n_better = verdicts.count("better")
-    evidence = f"Better in {n_better} of {len(verdicts)} paired comparisons (95 %), worse in "
-    evidence += f"{len(worse)}{': ' if worse else ''}{'; '.join(worse)}. "
+    claim = (
+        f"{human}: no worse than any baseline in any measure counted in steps (non-inferior by a "
+        f"margin of {margin:g} steps)"
+    )
+    holds, telling = judge(tests)
+    evidence = (
+        f"Better in {verdicts.count('better')} of {len(verdicts)} paired comparisons (95 %), "
+    )
+    evidence += f"not shown in {len(worse)}{': ' if worse else ''}{'; '.join(worse)}. "
     names = ", ".join(MEASURES[measure].name for measure in measures)
     evidence += f"Measures: {names}; baselines: {', '.join(data['baselines'])}."
-    return Claim(claim, not worse and not n_unknown, evidence, GROUP)
+    return Claim(claim, holds, evidence + telling, GROUP)
 
 
 def _worse(
@@ -120,7 +134,10 @@ def waste(data: Mapping[str, Any], beyond: Cells) -> Claim | None:
     many = f"{min(n):,}" if min(n) == max(n) else f"{min(n):,} to {max(n):,}"
     claim = f"More changes than one: at most {most:g} wasted robot step per change of goal"
     evidence = f"{words}. Means over {many} pairs of goals each."
-    return Claim(claim, all(mean <= most for mean in per_change.values()), evidence, GROUP)
+    holds, telling = judge(
+        BoundTest(e.interval, most=most * n_changes(human)) for human, e in had.items()
+    )
+    return Claim(claim, holds, evidence + telling, GROUP)
 
 
 def n_changes(human: str) -> int:

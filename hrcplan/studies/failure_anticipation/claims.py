@@ -13,6 +13,7 @@ from hrcplan.studies.failure_anticipation.measures import MEASURES
 from hrcplan.studies.measure import difference_text, number
 from hrcplan.studies.report import estimates
 from hrcplan.studies.study import Claim, StudyOptions, StudyRow, StudyRows
+from hrcplan.studies.verdict import BoundTest, judge
 
 H1 = "H1: the model raises success and lowers failed actions and replans"
 BASELINE = "replan-always"
@@ -55,34 +56,36 @@ def effect(rows: Sequence[StudyRow], case: str, measure: str) -> MeanEstimate:
 
 def hypothesis_1(rows: StudyRows) -> Claim:
     """Return H1: success up, failed actions and replans down, in both cases."""
-    holds, words = True, []
+    tests, words = [], []
     for case in "12":
         names = ("success_pct", "failed_pct", "replans")
         effects = {m: effect(rows["rows"], case, m) for m in names}
-        holds &= effects["success_pct"].is_above_zero
-        holds &= effects["failed_pct"].is_below_zero and effects["replans"].is_below_zero
+        tests += [MEASURES[name].beats(e.interval) for name, e in effects.items()]
         words.append(f"case {case}: {_changes(effects)}")
-    evidence = f"{'; '.join(words)}. Means of b minus a over pairs of runs, ± standard error."
-    return Claim(H1, holds, evidence, PAPER)
+    return _hypothesis(H1, tests, words)
 
 
 def hypothesis_2(rows: StudyRows) -> Claim:
     """Return H2: fewer failures, a larger human share, and more of it the more the human can do."""
-    holds, words = True, []
+    tests, words = [], []
     for case in "12":
         effects = {m: effect(rows["rows"], case, m) for m in ("failed_pct", "successful_human_pct")}
-        holds &= effects["failed_pct"].is_below_zero
-        holds &= effects["successful_human_pct"].is_above_zero
+        tests += [MEASURES[name].beats(e.interval) for name, e in effects.items()]
         words.append(f"case {case}: {_changes(effects)}")
     able, unable = (
         by_run(of_cell(rows["rows"], case, BASELINE), "successful_human_pct")
         for case in ("2b", "1b")
     )
     more = difference(able, unable)
-    holds &= more.is_above_zero
+    tests.append(MEASURES["successful_human_pct"].beats(more.interval))
     words.append(f"the human's share is {difference_text(more)} points larger in 2b than in 1b")
+    return _hypothesis(H2, tests, words)
+
+
+def _hypothesis(claim: str, tests: Iterable[BoundTest], words: Iterable[str]) -> Claim:
+    holds, telling = judge(tests)
     evidence = f"{'; '.join(words)}. Means of b minus a over pairs of runs, ± standard error."
-    return Claim(H2, holds, evidence, PAPER)
+    return Claim(claim, holds, evidence + telling, PAPER)
 
 
 def _changes(effects: Mapping[str, MeanEstimate]) -> str:
@@ -105,7 +108,7 @@ def switch(options: StudyOptions, profile: str, rows: Iterable[StudyRow]) -> Cla
     thresholds = {at: last_with_human(points, at) for at in changes}
     when = "known before the first action" if profile == BASELINE else "at any time"
     text = f"Above {MOST} all actions go to the robot ({profile} profile, change {when})"
-    holds = bool(judged) and all(_switches(thresholds[at], points, at) for at in judged)
+    holds = all(_switches(thresholds[at], points, at) for at in judged) if judged else None
     words = [f"{_until(thresholds[at], points)} (before action {at + 1})" for at in changes]
     evidence = f"The human gets actions {', '.join(words)}." if words else "no rows"
     return Claim(text, holds, evidence, PAPER if profile == BASELINE else AIMS)
@@ -142,16 +145,17 @@ def reach(aim: Mapping[str, Any], rows: StudyRows) -> Claim:
     own = of_cell(rows["rows"], case, method)
     bands = {name: band for name, band in aim.items() if name in MEASURES}
     means = estimates(own, list(bands))
-    holds = bool(own) and all(lo <= means[m].mean <= hi for m, (lo, hi) in bands.items())
+    tests = [BoundTest(means[m].interval, lo, hi) for m, (lo, hi) in bands.items()]
     goals = [f"{MEASURES[m].name} {_band(m, lo, hi)}" for m, (lo, hi) in bands.items()]
     words = [f"{MEASURES[m].name} {_shown(m, e)}" for m, e in means.items()]
     if (bound := aim.get("above")) is not None:
         excess, variant = _above(bound, own, rows)
         name = MEASURES[bound["measure"]].name
-        holds &= excess.n > 0 and excess.mean <= bound["by"]
+        tests.append(BoundTest(excess.interval, most=bound["by"]))
         goals.append(f"{name} at most {bound['by']} points above {variant}")
         words.append(f"{name} {difference_text(excess)} points above (n = {excess.n})")
-    evidence = f"{', '.join(words)}; n = {len(own)}"
+    holds, telling = judge(tests)
+    evidence = f"{', '.join(words)}; n = {len(own)}.{telling}"
     return Claim(f"{case} {method}: {', '.join(goals)}", holds, evidence, AIMS)
 
 
