@@ -14,7 +14,7 @@ from typing import Any
 
 from hrcplan.agents.estimate import AgentStateEstimate, Prior
 from hrcplan.agents.memory import Memory
-from hrcplan.agents.state import AgentModel
+from hrcplan.agents.state import AgentModel, failure_probability
 from hrcplan.core.deprecation import current_name, warn_old_name
 from hrcplan.core.numbers import Number, exact
 from hrcplan.core.text import nearest, quote
@@ -93,7 +93,7 @@ class Profile:
         return elements | residuals
 
     def _value(self, value: Number, low: Number, blame: Number) -> Number:
-        p = 0.0 if value <= low else min(1.0, float(value) / 10)
+        p = failure_probability(value, low)
         if self.values == "sensed" and not blame:
             return value
         return low + max(self._excess(p) if self.values == "log" else value - low, blame)

@@ -2,7 +2,8 @@
 
 An *element* of an agent's state is a ground function such as ``("motivation", "human")``: its
 first argument is the agent and it occurs in the cost of an action. A *sensed value* lies in
-[0, 10]; *low* is the problem's initial value, at which the agent contributes.
+[0, 10], or in the range that the domain's note ``;; hrcplan: range`` gives; *low* is the problem's
+initial value, at which the agent contributes.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ import math
 from collections.abc import Iterable, Mapping
 from functools import cached_property
 
-from hrcplan.core.numbers import Number, exact
+from hrcplan.core.numbers import Number, exact, number_text
 from hrcplan.errors import UsageError
 from hrcplan.pddl.conventions import agent_state_functions, robots
 from hrcplan.pddl.model import TOTAL_COST, Action, FluentKey, Function, Problem, functions_in
@@ -21,18 +22,21 @@ LEAST, MOST = 0, 10
 _PLACES = 6  # decimals of a sensed value that are kept, so that journals hold it exactly
 
 
-def sensed_value(value: float | Number) -> Number:
+def sensed_value(
+    value: float | Number, least: Number = LEAST, most: Number = MOST, hint: str | None = None
+) -> Number:
     """Return a sensed value as an exact number with at most six decimals.
 
     Raises:
-        UsageError: if it is not a number in [0, 10].
+        UsageError: if it is not a number in [least, most]; ``hint`` is the error's.
 
     >>> sensed_value(2.5)
     Fraction(5, 2)
     """
     number = float(value)
-    if not math.isfinite(number) or not LEAST <= number <= MOST:
-        raise UsageError(f"{value} is no value in [{LEAST}, {MOST}]", code="bad-sensed-value")
+    if not math.isfinite(number) or not least <= number <= most:
+        limits = f"[{number_text(least)}, {number_text(most)}]"
+        raise UsageError(f"{value} is no value in {limits}", code="bad-sensed-value", hint=hint)
     return exact(f"{number:.{_PLACES}f}")
 
 
@@ -42,7 +46,7 @@ def failure_probability(value: Number, low: Number) -> float:
     >>> failure_probability(1, 1), failure_probability(8, 1)
     (0.0, 0.8)
     """
-    return 0.0 if value <= low else min(1.0, float(value) / MOST)
+    return 0.0 if value <= low else max(0.0, min(1.0, float(value) / MOST))
 
 
 def combined(probabilities: Iterable[float]) -> float:
@@ -122,15 +126,34 @@ class AgentModel:
         low = self.low[key]
         return failure_probability(values.get(key, low), low)
 
+    def value_range(self, key: FluentKey) -> tuple[Number, Number]:
+        """Return the least and greatest value of an element: the domain's note, else [0, 10]."""
+        return self.problem.domain.value_range(key[0]) or (LEAST, MOST)
+
+    def clamp(self, key: FluentKey, value: Number) -> Number:
+        """Return the value in the range of an element that is nearest to a value."""
+        least, most = self.value_range(key)
+        return min(max(value, least), most)
+
     def check(self, key: FluentKey, value: float | Number) -> Number:
         """Return a sensed value as an exact number.
 
         Raises:
-            UsageError: if the problem has no such element, or the value is not in [0, 10].
+            UsageError: if the problem has no such element, or the value is not in its range.
         """
         if key not in self.low:
             raise UsageError(f"({' '.join(key)}) is no agent state here", code="bad-sensed-value")
-        return sensed_value(value)
+        return sensed_value(value, *self.value_range(key), self._range_hint(key, value))
+
+    def _range_hint(self, key: FluentKey, value: float | Number) -> str:
+        """Return how the range of an element could be changed so that it holds a value."""
+        least, most = self.value_range(key)
+        if math.isfinite(value):
+            bound = exact(value)
+            least, most = min(least, bound), max(most, bound)
+        note = f";; hrcplan: range {key[0]} {number_text(least)} {number_text(most)}"
+        reason = f"{MOST} is certain failure"
+        return f"{reason}; a line '{note}' in the domain file changes the range"
 
 
 def _cost_keys(action: Action, args: tuple[str, ...]) -> list[FluentKey]:

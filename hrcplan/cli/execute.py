@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import rich_click as click
 
 from hrcplan.cli import options, output
+from hrcplan.errors import UsageError
+
+if TYPE_CHECKING:
+    from hrcplan.agents import AgentModel
 
 HELP = """Carry out DOMAIN PROBLEM with a simulated human, and replan before actions fail.
 
@@ -127,6 +132,7 @@ def command(
         problem, profile=profile_name, human=human, changes=changes, model=not no_model,
         planner=planner, seed=seed, replan_limit=replan_limit, timeout_s=timeout, world=world,
     )  # fmt: skip
+    _check_initial(prepared.engine.model.agents, settings)
     live = Live(problem, speed)
     watch = None if output.JSON else live.watch
     done = carry_out(prepared, journal=journal, resume=resume, watch=watch)
@@ -139,3 +145,21 @@ def command(
     else:
         live.finish(done.run, outcome)
     return 0 if outcome.success else 1
+
+
+def _check_initial(agents: AgentModel, settings: tuple[str, ...]) -> None:
+    """Refuse settings beyond the range of an agent state; warn of such values in the problem file.
+
+    The file is carried out: what is the initial value counts as no reason to fail.
+    """
+    from hrcplan.pddl.settings import parse_setting
+
+    named = {parse_setting(text, agents.problem)[0] for text in settings}
+    for key, value in agents.low.items():
+        try:
+            agents.check(key, value)
+        except UsageError as error:
+            message = f"({' '.join(key)}): {error.message}"
+            if key in named:
+                raise UsageError(f"--set {message}", code=error.code, hint=error.hint) from None
+            output.warn(f"initial {message}; {error.hint}")

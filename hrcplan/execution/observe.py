@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 
-from hrcplan.agents.state import LEAST, MOST
 from hrcplan.core.numbers import Number, number_text
 from hrcplan.errors import UsageError
 from hrcplan.execution import events as ev
@@ -60,8 +59,7 @@ class Observer:
         """Expect an interaction to have its effect; what is sensed next says whether it had."""
         for key, value in self.actions.influence(step, run.sensed_values).items():
             if key in self.agents.low:
-                expected = min(max(value, LEAST), MOST)
-                run = run.with_sensed(key, expected)
+                run = run.with_sensed(key, self.agents.clamp(key, value))
         return run
 
     def _reverted(self, run: Run, action: RunningAction, outcome: str) -> Run:

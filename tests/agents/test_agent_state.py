@@ -1,6 +1,7 @@
 """Agent state as data of the PDDL, profiles as data of a file, and what failures teach."""
 
 import math
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -12,6 +13,7 @@ from hrcplan.agents.memory import Memory
 from hrcplan.agents.state import combined, failure_probability, sensed_value
 from hrcplan.errors import InputError, UsageError
 from hrcplan.pddl.inputs import read
+from hrcplan.pddl.model import Note
 
 MOTIVATION = ("motivation", "human")
 CAPACITY = ("capacity", "human", "wp4")
@@ -53,6 +55,19 @@ def test_causes_combine() -> None:
 def test_values_outside_the_scale_are_refused(value: float) -> None:
     with pytest.raises(UsageError, match=r"no value in \[0, 10\]"):
         sensed_value(value)
+
+
+def test_a_note_of_the_domain_changes_the_range(agents: AgentModel) -> None:
+    key = ("motivation", "human")
+    with pytest.raises(UsageError, match=r"no value in \[0, 10\]") as refusal:
+        agents.check(key, 12)
+    assert ";; hrcplan: range motivation 0 12" in str(refusal.value.hint)
+    note = Note("range", "motivation", (-2, 12))
+    domain = replace(agents.problem.domain, notes=(note,))
+    wide = AgentModel(replace(agents.problem, domain=domain).with_values({key: -2}))
+    assert [wide.check(key, value) for value in (-2, 12)] == [-2, 12]
+    assert (wide.clamp(key, 20), wide.clamp(key, -5)) == (12, -2)
+    assert [wide.failure_probability(key, {key: value}) for value in (-1, 12)] == [0, 1]
 
 
 def test_unknown_element_is_refused(agents: AgentModel) -> None:
@@ -105,7 +120,7 @@ def test_profile_of_the_user(tmp_path: Path) -> None:
         ('[a]\nreplan_limit = "many"', "a whole number"),
         ("[a]\nreplan_limit = -1", "positive"),
         ("nonsense", "is no TOML"),
-        ("", "no .profile"),
+        ("", "no table"),
     ],
 )
 def test_bad_profiles_are_named(tmp_path: Path, text: str, words: str) -> None:

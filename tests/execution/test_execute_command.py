@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from hrcplan.execution.execute import execute
+from hrcplan.pddl.library import root
 
 
 def hrcplan(*args: str) -> subprocess.CompletedProcess[str]:
@@ -70,6 +71,8 @@ def test_replay_names_the_first_difference(tmp_path: Path) -> None:
         (["--human", "nowhere:Human"], 2, "no module 'nowhere'"),
         (["--change", "motivation human=9"], 2, "@SECONDS"),
         (["--change", "motivation human=11@0"], 2, "[0, 10]"),
+        (["--change", "motivation human=11@0"], 2, ";; hrcplan: range motivation 0 11"),
+        (["--set", "motivation human=12"], 2, ";; hrcplan: range motivation 0 12"),
         (["--change", "mood human=3@0"], 2, "no function 'mood'"),
         (["--change", "motivation human=high@0"], 2, "'high' is no number"),
         (["--change", "motivation human=9@soon"], 2, "'soon' is no number"),
@@ -90,6 +93,16 @@ def test_wrong_use(args: list[str], code: int, words: str) -> None:
     run = hrcplan("execute", "transport/two-boxes", *args)
     assert run.returncode == code
     assert words in run.stdout + run.stderr
+
+
+def test_an_initial_value_beyond_the_range_is_a_warning(tmp_path: Path) -> None:
+    text = root().joinpath("problems/transport/two-boxes.pddl").read_text()
+    problem = tmp_path / "tired.pddl"
+    problem.write_text(text.replace("(= (motivation human) 1)", "(= (motivation human) 15)"))
+    run = hrcplan("execute", "transport", str(problem), "--json")
+    assert run.returncode == 0
+    assert "initial (motivation human): 15 is no value in [0, 10]" in run.stderr
+    assert json.loads(run.stdout)["success"]
 
 
 def test_replay_of_no_journal(tmp_path: Path) -> None:

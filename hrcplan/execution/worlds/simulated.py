@@ -10,7 +10,6 @@ import heapq
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from hrcplan.agents.state import LEAST, MOST
 from hrcplan.core.numbers import Number
 from hrcplan.execution import events as ev
 from hrcplan.execution.action_model import BoundAction, StartEffects
@@ -199,7 +198,7 @@ class SimulatedWorld:
             return []
         name = step.schema.name
         if chance.uniform(self.nature.seed, "interaction", number) < self._success(name):
-            self.values.update({k: min(max(v, LEAST), MOST) for k, v in values.items()})
+            self.values.update({k: self.agents.clamp(k, v) for k, v in values.items()})
         for key in values:
             self._unsensed.pop(key, None)
         return [ev.Sensed(t, {key: self.values[key] for key in values})]
