@@ -264,8 +264,8 @@ SCRIPT = "domain = 'x'\nwanted = {}\nchange_turns = {}\nhuman = {}\nmethods = {}
     ("change", "message"),
     [
         ("", "lacks 'domain'"),
-        ("domain = ", "not TOML"),
-        (None, "cannot read"),
+        ("domain = ", "no TOML"),
+        (None, "there is no file"),
         (SCRIPT.format("['a']", [1], [], "['oracle']"), "one number less"),
         (SCRIPT.format("'a'", [], [], "['oracle']"), "wanted is a list of texts"),
         (SCRIPT.format("['a', 'b']", 5, [], "['oracle']"), "change_turns is a list of numbers"),
