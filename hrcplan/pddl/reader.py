@@ -21,6 +21,13 @@ _SECTION_DEPTH = 3  # groups around the head of a section: everything, define, t
 _TOKEN = re.compile(r"[()]|\?*[^\s();?]+|\?+|;[^\r\n]*")
 _COMMENT_OR_COMMA = re.compile(r";[^\r\n]*|(?<![0-9]),|,(?![0-9])")  # 1,5 is meant as a number
 _NOTE = re.compile(r"(?<!;);++[ \t]*+hrcplan:[ \t]*+([^\r\n;]*)", re.IGNORECASE)
+# Control characters, marks that hide or reverse text, and halves of characters.
+_HIDDEN = (
+    r"[\x00-\x08\x0e-\x1f\x7f-\x84\x86-\x9f\xad\u200b-\u200f\u202a-\u202e\u2060-\u206f"
+    r"\ufeff\ufff9-\ufffb\ud800-\udfff]"
+)
+_HIDDEN_CHARACTER = re.compile(_HIDDEN)
+_COMMENT_OR_HIDDEN = re.compile(r";[^\r\n]*|" + _HIDDEN)
 _BEFORE_A_WORD = frozenset(" \t\r\n\f\v()")
 
 
@@ -83,6 +90,7 @@ def _outside(text: str, has_define: bool) -> tuple[str, str | None]:
 def read_nodes(source: SourceText) -> list[ParseNode]:
     """Return everything that a text holds side by side; faults go into ``source``."""
     text = _without_commas(source)
+    _report_hidden(text, source)
     try:
         return _read_even(text, source)
     except _UnevenError as uneven:
@@ -92,6 +100,22 @@ def read_nodes(source: SourceText) -> list[ParseNode]:
         source.error(at, "unclosed", message, "the file is not read any further")
         return []
     return _build(mend(_tokens(text), source), source)
+
+
+def _report_hidden(text: str, source: SourceText) -> None:
+    """Report each character outside of comments that nobody sees, where it stands first.
+
+    Names with such characters look like others, and could steer a terminal.
+    """
+    if not _HIDDEN_CHARACTER.search(text):
+        return
+    seen: set[str] = set()
+    for match in _COMMENT_OR_HIDDEN.finditer(text):
+        character = match[0]
+        if character[0] != ";" and character not in seen:
+            seen.add(character)
+            message = f"the character U+{ord(character):04X} is not printable"
+            source.error(match.start(), "not-printable", message, "remove it")
 
 
 class _UnevenError(Exception):

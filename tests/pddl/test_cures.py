@@ -73,3 +73,14 @@ def test_words_of_other_languages_can_be_names(tmp_path):
  (:predicates (add ?x ?y) (neq ?x ?y) (sum ?x ?y))
  (:action a :parameters (?x) :precondition (and (neq ?x and) (sum + and)) :effect (add ?x and)))"""
     assert not faults(tmp_path, text)
+
+
+@pytest.mark.parametrize("character", ["\x1b", "\u200b", "\u202e", "\x7f"])
+def test_names_have_no_hidden_characters(tmp_path, character):
+    text = f"""(define (domain d) ; {character} in a comment is no fault
+ (:predicates (p{character}) (q))
+ (:action a{character} :parameters () :precondition (q) :effect (p{character})))"""
+    (fault,) = errors(tmp_path, text)
+    assert (fault.line, fault.column, fault.code) == (2, 17, "not-printable")
+    assert f"U+{ord(character):04X}" in fault.message
+    assert not faults(tmp_path, text.replace(character, ""))
