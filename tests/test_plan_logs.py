@@ -112,3 +112,17 @@ def test_a_log_without_a_plan_is_no_plan(walk: Problem) -> None:
 def test_observed_actions_are_read_like_plans(text: str) -> None:
     lines = [line for line in text.splitlines() if "go" in line.lower()]
     assert observed_words("\n".join(lines)) == (("go", "a", "b"), ("go", "b", "c"))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "1. go a b\n2. go b c\n",
+        "- go a b\n- go b c\n",
+        "STEP 1: go(a,b)\nSTEP 2: go(b,c)\n",
+        "begin_plan\n(go a b)\n(go b c)\nend_plan\n",
+        "```pddl\n(go a b)\n(go b c)\n```\n",
+    ],
+)
+def test_lists_without_a_log_around_them(text: str) -> None:
+    assert read_plan(text, problem_from(WALK, PROBLEM))[0].actions == GO

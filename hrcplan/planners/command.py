@@ -24,6 +24,7 @@ from hrcplan.plans import Plan, find_plans
 from hrcplan.validation import objective, validate
 
 _NO_PLAN = re.compile(r"(?i)goal can be simplified to FALSE|problem proven unsolvable")
+_SIGNAL = 128
 _CRASHED = (1, 2, 126, 127)  # other exit codes are a planner's way to say why it has no plan
 
 
@@ -102,13 +103,18 @@ class CommandPlanner:
             return Answer(Status.UNSOLVABLE)
         lines = [line.strip() for line in output.splitlines() if line.strip()]
         last = " / ".join(lines[-3:])[-300:]
-        if finished.code is None or finished.code < 0 or finished.code in _CRASHED:
+        if finished.code is None or finished.code < 0 or _is_crash(finished.code):
             raise PlannerError(f"{name} ended with exit code {finished.code}: {last}")
         if finished.code != 0:
             return Answer(Status.UNSOLVED, note=f"no plan, exit code {finished.code}: {last}")
         message = f"{name} ended without an error, but no plan could be read in its output"
         hint = f"the output is in {_saved(output)}" if lines else "it printed nothing"
         raise PlannerError(message, code="plan-not-read", hint=hint)
+
+
+def _is_crash(code: int) -> bool:
+    """Whether an exit code says that a program failed; shells add 128 to a signal's number."""
+    return code in _CRASHED or code > _SIGNAL
 
 
 def _saved(output: str) -> str:

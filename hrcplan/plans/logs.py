@@ -18,10 +18,13 @@ from hrcplan.plans.model import Plan, PlannedAction
 from hrcplan.plans.text import parse_plan
 
 # "step    0: GO A B" and "        1: GO B C" of FF; "STEP 2: go(a,b) go(b,c)" of Madagascar.
-_NUMBER = re.compile(r"(?:step\b\s*)?\d+\s*:\s*")
+# "1. go a b" of a list, "- go a b" of another one.
+_NUMBER = re.compile(r"(?:step\b\s*)?\d+\s*(?::|[.)](?=\s))\s*|[-*•]\s+")
 _WORDS = re.compile(r"[^\s()\[\]:;,]+(?:\s+[^\s()\[\]:;,]+)*")
 _PRICE = re.compile(r"\s\(\d+\)$")  # "go a b (1)" of Fast Downward
-_OF_A_LOG = re.compile(r"\b(?:plan|solution|cost|time|search|heuristic|states|steps)\b")
+_OF_A_LOG = re.compile(
+    r"(?:\b|_)(?:plan|solution|cost|time|search|heuristic|states|steps)(?:\b|_)|^```|^[^a-z]+$"
+)
 # What ENHSP prints between actions, and the last action that FF adds to a plan.
 _NO_ACTION = re.compile(r"(?<!-)-{2,}+\s*+waiting\s*+--|\breach-goal\b")
 
@@ -125,7 +128,8 @@ def _actions(line: str, names: Collection[str]) -> tuple[PlannedAction, ...]:
 def _is_log(text: str, problem: Problem) -> bool:
     """Return whether all lines without an action speak of something else than actions."""
     names = {action.name for action in problem.domain.actions}
-    rest = [line for line in text.lower().splitlines() if not _actions(line.strip(), names)]
+    lines = [line.strip() for line in text.lower().splitlines() if line.strip()]
+    rest = [line for line in lines if not _actions(line, names)]
     if any(not names.isdisjoint(re.findall(r"[^\s()\[\]:;,]+", line)) for line in rest):
         return False
-    return any(_OF_A_LOG.search(line) for line in rest)
+    return not rest or any(_OF_A_LOG.search(line) for line in rest)

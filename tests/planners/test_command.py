@@ -103,7 +103,8 @@ def test_an_invalid_plan_is_handed_on_to_be_refused(boxes: Problem, tmp_path: Pa
     assert not validate(boxes, answer.plan).valid
 
 
-@pytest.mark.parametrize("code", ["sys.exit(1)", "os.kill(os.getpid(), 11)", "raise OSError"])
+@pytest.mark.parametrize("code", ["sys.exit(1)", "sys.exit(139)", "os.kill(os.getpid(), 11)",
+                                  "raise OSError"])  # fmt: skip
 def test_a_crash_is_an_error(code: str, boxes: Problem, tmp_path: Path) -> None:
     with pytest.raises(PlannerError, match="exit code"):
         solve(printing(tmp_path, "hello", code), boxes)
