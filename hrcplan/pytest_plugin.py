@@ -106,6 +106,6 @@ class PlanItem(_Item):
         from hrcplan.planners.solve import solve
 
         timeout = self.config.getoption("--hrcplan-timeout")
-        found = solve(read(self.path), timeout_s=timeout, any_plan=True)
-        if found.plan is None:
-            pytest.fail(f"{found.status.value} after {found.wall_s:.1f} s", pytrace=False)
+        result = solve(read(self.path), timeout_s=timeout, any_plan=True)
+        if result.plan is None:
+            pytest.fail(f"{result.status.value} after {result.wall_s:.1f} s", pytrace=False)

@@ -51,16 +51,16 @@ class Prior:
     def causes(self) -> Mapping[Cause, float]:
         """The probability of each cause, given that there is one."""
         names = Counter(key[0] for key in self.lows)
-        found: dict[Cause, float] = {}
+        probabilities: dict[Cause, float] = {}
         for key, low in self.lows.items():
             levels = [level for level in self.levels if level > low]
             for level in levels:
                 share = 1 / len(names) / names[key[0]] / len(levels)
                 p = level / 10
-                found[key, level, _LASTING, True] = share * self.lasting * p
-                found[key, level, _LASTING, False] = share * self.lasting * (1 - p)
-                found[key, level, _ANEW, True] = share * (1 - self.lasting)
-        return found
+                probabilities[key, level, _LASTING, True] = share * self.lasting * p
+                probabilities[key, level, _LASTING, False] = share * self.lasting * (1 - p)
+                probabilities[key, level, _ANEW, True] = share * (1 - self.lasting)
+        return probabilities
 
 
 @dataclass(frozen=True)
@@ -110,18 +110,18 @@ class AgentStateEstimate:
 
     def failing(self) -> dict[FluentKey, float]:
         """Return the same without leaving anything out."""
-        found: dict[FluentKey, float] = {}
+        risks: dict[FluentKey, float] = {}
         for cause, p in self.weights.items():
-            found[cause[0]] = found.get(cause[0], 0.0) + p * _strikes(cause)
-        return found
+            risks[cause[0]] = risks.get(cause[0], 0.0) + p * _strikes(cause)
+        return risks
 
     def levels(self, key: FluentKey) -> dict[int, float]:
         """Return how likely an element has changed to each level."""
-        found = dict.fromkeys(self.prior.levels, 0.0)
+        probabilities = dict.fromkeys(self.prior.levels, 0.0)
         for cause, p in self.weights.items():
             if cause[0] == key:
-                found[cause[1]] += p
-        return found
+                probabilities[cause[1]] += p
+        return probabilities
 
     def _observed(self, touched: frozenset[FluentKey], failure: bool) -> AgentStateEstimate:
         if not touched & self.prior.lows.keys():

@@ -21,10 +21,10 @@ class Memory:
 
     def failed(self, suspects: Iterable[FluentKey]) -> Memory:
         """Return the memory after an action that ``suspects`` touch has failed."""
-        found = frozenset(suspects)
-        if not found:
+        blamed_keys = frozenset(suspects)
+        if not blamed_keys:
             return self
-        return Memory((*self.failures, found), self.cleared)
+        return Memory((*self.failures, blamed_keys), self.cleared)
 
     def went_well(self, touched: Iterable[FluentKey]) -> Memory:
         """Return the memory after an action that ``touched`` touch has succeeded."""

@@ -105,17 +105,18 @@ class Profile:
         on the agent alone (it touches all its actions) and of one element more give together the
         excess of the sum of their probabilities.
         """
-        found: dict[FluentKey, Number] = {}
+        excesses: dict[FluentKey, Number] = {}
         always = {agent: 0.0 for _, agent, *_ in blame}
         for key, p in blame.items():
             always[key[1]] += p if len(key) == _ALONE else 0
         for key, p in blame.items():
             p_all = always[key[1]]
             if len(key) == _ALONE:
-                found[key] = _rounded(Fraction(self._excess(p_all)) * Fraction(p) / Fraction(p_all))
+                share = Fraction(p) / Fraction(p_all)
+                excesses[key] = _rounded(Fraction(self._excess(p_all)) * share)
             else:
-                found[key] = self._excess(min(1.0, p_all + p)) - self._excess(p_all)
-        return found
+                excesses[key] = self._excess(min(1.0, p_all + p)) - self._excess(p_all)
+        return excesses
 
     def _excess(self, p: float) -> Number:
         """Return ``-scale * ln(1 - p)``, at most ``cap``, in hundredths."""

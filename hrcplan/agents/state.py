@@ -109,7 +109,7 @@ class AgentModel:
 
         They are sensed values as the elements are, so planners get them in the same way.
         """
-        found: dict[FluentKey, Number] = {}
+        residuals: dict[FluentKey, Number] = {}
         for action in self.problem.domain.actions:
             for effect in action.effects:
                 source = effect.value
@@ -118,8 +118,8 @@ class AgentModel:
                 key = (source.name, *source.args)
                 lows = [v for k, v in self.low.items() if k[0] == effect.target.name]
                 if effect.kind == "assign" and key in self.problem.values and lows:
-                    found[key] = min([*lows, found.get(key, MOST)])
-        return found
+                    residuals[key] = min([*lows, residuals.get(key, MOST)])
+        return residuals
 
     def failure_probability(self, key: FluentKey, values: Mapping[FluentKey, Number]) -> float:
         """Return how likely one element makes an action fail; unknown values count as low."""

@@ -68,9 +68,9 @@ class Bigrams:
         times = self._times[rows]
         if weights is not None:
             times = times * np.asarray(weights)[self._goal[rows]]
-        found = np.zeros(self.n_labels, dtype=np.int64)
-        np.add.at(found, self._after[rows], times)
-        return found
+        counts = np.zeros(self.n_labels, dtype=np.int64)
+        np.add.at(counts, self._after[rows], times)
+        return counts
 
     def share(self, label: int, after: int) -> float:
         """Return the probability of a label right after another; 0 if that was never seen."""
@@ -98,8 +98,8 @@ class Bigrams:
 
     def _weights(self, goals: tuple[int, ...]) -> Ids:
         if goals != self._weighted[0]:  # one look ahead asks for the same ones again and again
-            found = np.zeros(self._n_goals, dtype=np.int64)
+            weights = np.zeros(self._n_goals, dtype=np.int64)
             for mask in goals:
-                found[list(positions(mask))] += 1
-            self._weighted = goals, found
+                weights[list(positions(mask))] += 1
+            self._weighted = goals, weights
         return self._weighted[1]

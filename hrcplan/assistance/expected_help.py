@@ -43,13 +43,13 @@ class ExpectedHelp(BeliefAssistant[Any]):
 
     def options(self, state: AssistantState[Any]) -> StepChoice:
         """Return the steps that some goal could have next, and what each is expected to save."""
-        found = self._now(state)
+        choice = self._now(state)
         if not self.look_ahead:
-            return found
-        order = np.argsort([-value for value in found.values], kind="stable")[:N_LOOKED]
-        steps = tuple(found.steps[i] for i in order)
+            return choice
+        order = np.argsort([-value for value in choice.values], kind="stable")[:N_LOOKED]
+        steps = tuple(choice.steps[i] for i in order)
         values = tuple(
-            found.values[i] + self._later(self.observe(state, found.steps[i], robot=True))
+            choice.values[i] + self._later(self.observe(state, choice.steps[i], robot=True))
             for i in order
         )
         return StepChoice(steps, values, wait=self._later(state))
@@ -66,10 +66,10 @@ class ExpectedHelp(BeliefAssistant[Any]):
         best = (
             max(self._now(self.observe(state, int(step))).values, default=0.0) for step in likely
         )
-        found = sum(
+        saving = sum(
             p * max(0.0, value) for p, value in zip(chances.take(likely), best, strict=True)
         )
-        return float(found / total)
+        return float(saving / total)
 
     def _now(self, state: AssistantState[Any]) -> StepChoice:
         next_steps = self.step_values.next_steps(state.progress)

@@ -41,10 +41,10 @@ class ImaginedSteps:
         for goal, place in progress.off.items():
             graph, node = place.graph, place.node
             if graph is None:
-                graph, found = self.bank.locate(goal, place.state)
-                if found is None:
+                graph, place_on_graph = self.bank.locate(goal, place.state)
+                if place_on_graph is None:
                     continue
-                node = found
+                node = place_on_graph
             off[goal] = OffGraph(place.state, graph, node)
         return Progress(progress.world, progress.nodes, progress.doable, off)
 
@@ -71,7 +71,7 @@ class ImaginedSteps:
 
     def _off(self, progress: Progress, step: int, world: int) -> dict[int, OffGraph]:
         """Return the progress of the goals that were off their graphs already."""
-        found: dict[int, OffGraph] = {}
+        places: dict[int, OffGraph] = {}
         for goal, place in progress.off.items():
             graph = place.graph
             if graph is None:
@@ -80,8 +80,8 @@ class ImaginedSteps:
             if node is None:
                 node = graph.node_of(world)
             if node is not None:
-                found[goal] = OffGraph(world, graph, node)
-        return found
+                places[goal] = OffGraph(world, graph, node)
+        return places
 
 
 class Branching:
@@ -127,11 +127,11 @@ class Branching:
         """
         is_open = np.zeros(len(self.label), dtype=np.bool_)
         is_open[next_steps.steps] = True
-        found = self._seen(progress, is_open.tolist(), last, agents, plausible)
-        room = self.branching - len(found)
+        steps = self._seen(progress, is_open.tolist(), last, agents, plausible)
+        room = self.branching - len(steps)
         if not room:
-            return found
-        left = [s for s in np.flatnonzero(is_open).tolist() if s not in found]
+            return steps
+        left = [s for s in np.flatnonzero(is_open).tolist() if s not in steps]
         left = list(self._able(progress.world, left, agents))
         if len(left) > room:
             weights = np.bincount(
@@ -139,7 +139,7 @@ class Branching:
             )
             weights = weights.round(TIES)
             left.sort(key=lambda step: -weights[step])
-        return found + left[:room]
+        return steps + left[:room]
 
     def _seen(
         self, progress: Progress, is_open: Sequence[bool], last: int | None, agents: Set[str],

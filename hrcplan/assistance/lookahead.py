@@ -42,8 +42,8 @@ class TreePosition:
 def shares(position: TreePosition, belief: Floats) -> Floats:
     """Return for each step the probability that the human's goal has it next, up to the last."""
     next_steps = position.next_steps
-    found: Floats = np.bincount(next_steps.steps, belief.take(next_steps.goals)).astype(np.float64)
-    return found
+    sums: Floats = np.bincount(next_steps.steps, belief.take(next_steps.goals)).astype(np.float64)
+    return sums
 
 
 class Lookahead:
@@ -133,8 +133,8 @@ def entropy(beliefs: Floats) -> Floats:
     [1.0, 0.0]
     """
     logs = np.log2(np.where(beliefs > 0, beliefs, 1.0))
-    found: Floats = 0.0 - (beliefs * logs).sum(axis=-1)
-    return found
+    bits: Floats = 0.0 - (beliefs * logs).sum(axis=-1)
+    return bits
 
 
 class LookaheadAssistant(BeliefAssistant[S], Generic[S]):

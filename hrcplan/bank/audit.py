@@ -82,10 +82,10 @@ def _wrong_edges(graph: PlanGraph, rules: PackedRules, n_steps: int) -> int:
     steps = np.array([op.step for op in rules.ops], dtype=np.int64)
     sources = np.repeat(np.arange(graph.n_nodes), np.diff(graph.first))
     edges = _table(sources, graph.steps, graph.rows[graph.targets], n_steps)
-    found = [
+    numbers = [
         _table(rows, steps[ops], after, n_steps) for rows, ops, after in rules.expand(graph.rows)
     ]
-    possible = np.concatenate([edges[:0], *found])
+    possible = np.concatenate([edges[:0], *numbers])
     _, which, _, _ = group_rows(np.concatenate([possible, edges]))
     return int((~np.isin(which[len(possible) :], which[: len(possible)])).sum())
 

@@ -141,8 +141,8 @@ class Bank:
         graph = self.graphs[goal]
         node = graph.node_of(state)
         if node is None and self._overwritten[goal] and not self.goals.is_reached(goal, state):
-            found = map(graph.node_of, _variants(state, self._overwritten[goal]))
-            node = next((n for n in found if n is not None and not graph.is_goal[n]), None)
+            candidates = map(graph.node_of, _variants(state, self._overwritten[goal]))
+            node = next((n for n in candidates if n is not None and not graph.is_goal[n]), None)
         return node
 
     def relevant_facts(self, goal: int) -> int:
@@ -152,8 +152,8 @@ class Bank:
     @cached_property
     def _relevant(self) -> list[tuple[tuple[Operator, ...], int]]:
         """For each goal the steps and facts that matter to any plan of it, from any state."""
-        found = (relevant(self.table.ops, tests) for tests in self.goals.tests)
-        return [(ops, needed.facts) for ops, needed in found]
+        by_goal = (relevant(self.table.ops, tests) for tests in self.goals.tests)
+        return [(ops, needed.facts) for ops, needed in by_goal]
 
     @cached_property
     def _overwritten(self) -> list[int]:
@@ -228,15 +228,15 @@ class Bank:
         """
         task, state = self.goals.task, self.initial
         taken = robots(task.problem)
-        found: list[PlannedAction] = []
+        actions: list[PlannedAction] = []
         for step in steps:
             can = [i for i in self.table[step].actions if task.is_applicable(state, i)]
             if not can:
                 raise UsageError(f"{self.table[step]} cannot be done here")
             action = min(can, key=lambda i: (task.costs[i], task.actions[i].agent in taken, i))
-            found.append(PlannedAction(task.actions[action].name, task.actions[action].args))
+            actions.append(PlannedAction(task.actions[action].name, task.actions[action].args))
             state = task.successor(state, action)
-        return Plan(tuple(found))
+        return Plan(tuple(actions))
 
 
 def _variants(state: int, facts: int) -> Iterator[int]:
@@ -271,10 +271,10 @@ def build_bank(
         LimitError: if time or memory runs out.
         UsageError: if ``only`` names no goal.
     """
-    found = read_goals(domain, goals)
+    goal_set = read_goals(domain, goals)
     if only is not None:
-        found = found.only(only)
-    return build(found, recipe, mib=mib, timeout_s=timeout_s, report=report)
+        goal_set = goal_set.only(only)
+    return build(goal_set, recipe, mib=mib, timeout_s=timeout_s, report=report)
 
 
 def build(

@@ -65,13 +65,13 @@ def n_orders(node: OrderNode) -> int:
     """
     if isinstance(node, Leaf):
         return 1
-    found, size = 1, 0
+    n, size = 1, 0
     for child in node.children:
-        found *= n_orders(child)
+        n *= n_orders(child)
         size += child.mask.bit_count()
         if isinstance(node, Clique):
-            found *= comb(size, child.mask.bit_count())
-    return found
+            n *= comb(size, child.mask.bit_count())
+    return n
 
 
 def n_added(node: OrderNode) -> int:

@@ -106,18 +106,18 @@ class CombinedGraph:
     @cached_property
     def needs(self) -> Bools:
         """For each goal and label, whether some plan of the goal has it."""
-        found = np.zeros((len(self.bank.graphs), self.n_labels), dtype=np.bool_)
+        needed = np.zeros((len(self.bank.graphs), self.n_labels), dtype=np.bool_)
         for label, goals in enumerate(self._users):
-            found[sorted(goals), label] = True
-        return found
+            needed[sorted(goals), label] = True
+        return needed
 
     @cached_property
     def _users(self) -> list[set[int]]:
-        found: list[set[int]] = [set() for _ in range(self.n_labels)]
+        users: list[set[int]] = [set() for _ in range(self.n_labels)]
         for goal, graph in enumerate(self.bank.graphs):
             for step in graph.used_steps:
-                found[self.label[step]].add(goal)
-        return found
+                users[self.label[step]].add(goal)
+        return users
 
 
 _SHARED: WeakValueDictionary[int, CombinedGraph] = WeakValueDictionary()
@@ -128,10 +128,10 @@ def combined_graph_of(bank: Bank) -> CombinedGraph:
 
     Of 30 goals with 13,000 nodes each it takes 80 MB. It is gone when nobody uses it any more.
     """
-    found = _SHARED.get(id(bank))  # while it lives, so does its bank: no other one has that id
-    if found is None:
-        found = _SHARED[id(bank)] = CombinedGraph(bank)
-    return found
+    combined = _SHARED.get(id(bank))  # while it lives, so does its bank: no other one has that id
+    if combined is None:
+        combined = _SHARED[id(bank)] = CombinedGraph(bank)
+    return combined
 
 
 class ApplicableSteps:
@@ -176,10 +176,10 @@ class ApplicableSteps:
         pattern = before ^ state
         part = self._affected.get(pattern)
         if part is None:
-            found: set[int] = set()
+            labels: set[int] = set()
             for position in positions(pattern):
-                found |= self._mentions.get(position, set())
-            part = self._affected[pattern] = self._part(found)
+                labels |= self._mentions.get(position, set())
+            part = self._affected[pattern] = self._part(labels)
         return self._update(state, doable, part)
 
     def _update(self, state: int, doable: int, part: _Part) -> int:
@@ -222,6 +222,6 @@ def _log_sums(shares: Floats, logs: Floats, which: Ids, n: int) -> Floats:
     if (sums > np.finfo(np.float64).tiny).all():
         plain: Floats = np.log(sums)
         return plain
-    found = np.full(n, -math.inf)
-    np.logaddexp.at(found, which, logs)
-    return found
+    log_totals = np.full(n, -math.inf)
+    np.logaddexp.at(log_totals, which, logs)
+    return log_totals

@@ -57,24 +57,24 @@ def optimal_with_price(
     if marks is None:
         return empty_graph(name, packing), None
     bound = sum(mark.cost for mark in marks)
-    found: Explored | None = None
+    explored: Explored | None = None
     if blind:
         marks = ()
     else:
         useful, own = _useful(ops, marks)
         rules = PackedRules(useful, packing)
         search = Explorer(rules, goal, own, bound, optimal=True, limits=limits, name=name)
-        found = search.run(start)
+        explored = search.run(start)
     rules = PackedRules(ops, packing)
-    while found is None or found.cost is None:
+    while explored is None or explored.cost is None:
         search = Explorer(rules, goal, marks, bound, optimal=True, limits=limits, name=name)
-        found = search.run(start)
-        if found.cost is None:
-            if found.next_bound is None:
+        explored = search.run(start)
+        if explored.cost is None:
+            if explored.next_bound is None:
                 return empty_graph(name, packing), None
-            bound = max(found.next_bound, bound + min(op.cost for op in ops))
-    graph = assemble(table, found, packing, name)
-    return merge_equivalent_nodes(graph, table, goal), found.cost
+            bound = max(explored.next_bound, bound + min(op.cost for op in ops))
+    graph = assemble(table, explored, packing, name)
+    return merge_equivalent_nodes(graph, table, goal), explored.cost
 
 
 def _useful(
@@ -119,23 +119,23 @@ def empty_graph(name: str, packing: FactPacking) -> PlanGraph:
     return PlanGraph(name, packing, rows, (), first, none, none, np.zeros(0, dtype=np.bool_))
 
 
-def assemble(table: StepTable, found: Explored, packing: FactPacking, name: str) -> PlanGraph:
+def assemble(table: StepTable, explored: Explored, packing: FactPacking, name: str) -> PlanGraph:
     """Return what an exploration found, without the states that lead to no goal."""
-    alive = found.is_goal.copy()
-    for sources, _, targets in reversed(found.edges):
+    alive = explored.is_goal.copy()
+    for sources, _, targets in reversed(explored.edges):
         alive[sources[alive[targets]]] = True
     before = np.concatenate([[0], np.cumsum(alive)])
     ids = before[:-1]
     parts = [
         (ids[sources[keep]], steps[keep], ids[targets[keep]])
-        for sources, steps, targets in found.edges
+        for sources, steps, targets in explored.edges
         for keep in [alive[sources] & alive[targets]]
     ]
-    layers = tuple((table.in_units(paid), int(before[first])) for paid, first in found.layers)
+    layers = tuple((table.in_units(paid), int(before[first])) for paid, first in explored.layers)
     sources, steps, targets = (np.concatenate([part[i] for part in parts]) for i in range(3))
     return PlanGraph(
-        name, packing, found.states[alive], _nonempty(layers, int(alive.sum())),
-        *_by_source(sources, steps, targets, int(alive.sum())), found.is_goal[alive],
+        name, packing, explored.states[alive], _nonempty(layers, int(alive.sum())),
+        *_by_source(sources, steps, targets, int(alive.sum())), explored.is_goal[alive],
     )  # fmt: skip
 
 

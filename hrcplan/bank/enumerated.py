@@ -44,10 +44,10 @@ def sampled_graph(
         memory_bytes=max(limits.mib, 1024) << 20,
         output_bytes=1 << 28,
     )
-    found = kstar.list_plans(lower(task), allowed, n=n)
-    plans = {tuple(steps[action.index] for action in plan) for plan in found.plans}
+    listing = kstar.list_plans(lower(task), allowed, n=n)
+    plans = {tuple(steps[action.index] for action in plan) for plan in listing.plans}
     graph = graph_of_plans(table, goals, goal, sorted(plans))
-    return replace(graph, complete=found.complete)
+    return replace(graph, complete=listing.complete)
 
 
 def step_task(table: StepTable, goal: Formula) -> tuple[Task, list[int]]:

@@ -123,10 +123,10 @@ def from_problems(problems: Sequence[Problem], files: tuple[SourceFile, ...] = (
 
 
 def _check_alike(first: Problem, other: Problem) -> None:
-    found = list(_differences(first, other))
-    if found:
-        shown = "; ".join(found[:MAX_DIFFERENCES])
-        more = f"; and {len(found) - MAX_DIFFERENCES} more" if len(found) > MAX_DIFFERENCES else ""
+    lines = list(_differences(first, other))
+    if lines:
+        shown = "; ".join(lines[:MAX_DIFFERENCES])
+        more = f"; and {len(lines) - MAX_DIFFERENCES} more" if len(lines) > MAX_DIFFERENCES else ""
         message = f"'{other.name}' is not in the same world as '{first.name}': {shown}{more}"
         hint = "the goals of a bank share objects and init"
         raise InputError(message, code="goals-differ", path=other.path or None, hint=hint)

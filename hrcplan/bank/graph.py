@@ -84,10 +84,10 @@ class PlanGraph:
 
     @cached_property
     def _nodes(self) -> dict[int, int]:
-        found: dict[int, int] = {}
+        node_of: dict[int, int] = {}
         for node, state in enumerate(self.packing.states(self.rows)):
-            found.setdefault(state, node)
-        return found
+            node_of.setdefault(state, node)
+        return node_of
 
     def node_of(self, state: int) -> int | None:
         """Return the cheapest node of a state of the task, or None if it is off the graph."""
@@ -199,10 +199,10 @@ class PlanGraph:
     @cached_property
     def steps_left(self) -> Ids:
         """How few steps lead from each node to a goal node."""
-        found = np.where(self.is_goal, 0, np.iinfo(np.int64).max - 1)
+        distance = np.where(self.is_goal, 0, np.iinfo(np.int64).max - 1)
         for edges, sources in reversed(list(self.edges_by_layer())):
-            np.minimum.at(found, sources, found[self.targets[edges]] + 1)
-        return found
+            np.minimum.at(distance, sources, distance[self.targets[edges]] + 1)
+        return distance
 
     @cached_property
     def n_steps(self) -> int:

@@ -105,12 +105,12 @@ class Htn:
         mask = self.layout.mask(remaining)
         if not mask:
             return ()
-        found = 0
+        bits = 0
         for kind in self.kinds:
             if not mask & ~kind.root.mask:
-                found |= _available(kind.root, mask)
+                bits |= _available(kind.root, mask)
         steps = self.layout.steps
-        return tuple(dict.fromkeys(steps[i] for i in positions(found)))
+        return tuple(dict.fromkeys(steps[i] for i in positions(bits)))
 
     def choose(self, remaining: Iterable[int], last: int | None, pick: Pick) -> int | None:
         """Return the next step of somebody who finishes what was begun.
@@ -149,13 +149,13 @@ def _available(node: OrderNode, mask: int) -> int:
     """Return the bits of what can come next below a node that has something left to do."""
     if isinstance(node, Leaf):
         return node.mask
-    found = 0
+    bits = 0
     for child in node.children:
         if child.mask & mask:
-            found |= _available(child, mask)
+            bits |= _available(child, mask)
             if isinstance(node, Chain):
                 break
-    return found
+    return bits
 
 
 def _one_of(nodes: list[OrderNode], done: int, pick: Pick) -> OrderNode:

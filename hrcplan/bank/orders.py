@@ -38,16 +38,16 @@ def kinds_of(graph: PlanGraph) -> tuple[tuple[Multiset, ...], bool]:
     Equally cheap ones come in order of how many steps they have, then of their step ids. Where
     ``step_multisets`` gives up, they are those of the first ``MAX_LISTED`` plans.
     """
-    found = step_multisets(graph)
-    if found is None:
+    multisets = step_multisets(graph)
+    if multisets is None:
         listed = (frozenset(Counter(p).items()) for p in islice(plans(graph), MAX_LISTED))
         return tuple(islice(dict.fromkeys(listed), MAX_KINDS)), False
-    costs = _costs(graph) if len(found) > 1 else dict.fromkeys(graph.used_steps, 1)
+    costs = _costs(graph) if len(multisets) > 1 else dict.fromkeys(graph.used_steps, 1)
 
     def rank(kind: Multiset) -> tuple[Number, int, list[tuple[int, int]]]:
         return sum(costs[s] * n for s, n in kind), sum(n for _, n in kind), sorted(kind)
 
-    return tuple(sorted(found, key=rank)[:MAX_KINDS]), len(found) <= MAX_KINDS
+    return tuple(sorted(multisets, key=rank)[:MAX_KINDS]), len(multisets) <= MAX_KINDS
 
 
 def _costs(graph: PlanGraph) -> dict[int, Number]:
@@ -55,11 +55,11 @@ def _costs(graph: PlanGraph) -> dict[int, Number]:
     sources = np.repeat(np.arange(graph.n_nodes), np.diff(graph.first))
     layers = graph.layer_of
     edges = np.stack([graph.steps, layers[sources], layers[graph.targets]], axis=1)
-    found: dict[int, Number] = {}
+    least: dict[int, Number] = {}
     for step, begin, end in np.unique(edges, axis=0).tolist():
         cost = graph.layers[end][0] - graph.layers[begin][0]
-        found[step] = min(found.get(step, cost), cost)
-    return found
+        least[step] = min(least.get(step, cost), cost)
+    return least
 
 
 @dataclass(frozen=True)
@@ -110,13 +110,13 @@ class Layout:
 
     def mask(self, steps: Iterable[int]) -> int | None:
         """Return the bits of steps still to do; None if no plan does them, or not as often."""
-        found, places = 0, self.places
+        bits, places = 0, self.places
         for step in steps:
-            free = places.get(step, 0) & ~found
+            free = places.get(step, 0) & ~bits
             if not free:
                 return None
-            found |= free & -free
-        return found
+            bits |= free & -free
+        return bits
 
 
 @dataclass(frozen=True)
@@ -173,10 +173,10 @@ class _Ways:
 
     def alive(self) -> Bools:
         """Return which places lead to an end."""
-        found = self.ends.copy()
+        lives = self.ends.copy()
         for sources, targets, _ in reversed(self.layers):
-            np.logical_or.at(found, sources, found[targets])
-        return found
+            np.logical_or.at(lives, sources, lives[targets])
+        return lives
 
     def n_plans(self, dtype: type[np.generic]) -> int:
         """Return how many ways lead from the first place to ends."""

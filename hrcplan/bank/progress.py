@@ -86,9 +86,9 @@ class ProgressTracker:
         goals = combined.concerned(step, before ^ world)
         old = progress.nodes.take(goals)
         hit, places = combined.edges(old, step)
-        found = goals[hit], places[hit]
+        movers = goals[hit], places[hit]
         if combined.one_label_each:
-            says = found
+            says = movers
         else:
             same, named = combined.labeled(old, combined.label[step])
             says = goals[same], named[same]
@@ -99,8 +99,8 @@ class ProgressTracker:
         if before == world:
             return progress, seen
         nodes = progress.nodes.copy()
-        nodes[found[0]] = combined.targets.take(found[1])
-        missed = [] if len(found[0]) == len(goals) else goals[~hit].tolist()
+        nodes[movers[0]] = combined.targets.take(movers[1])
+        missed = [] if len(movers[0]) == len(goals) else goals[~hit].tolist()
         off = self._jumps(progress, step, world, missed, nodes)
         doable = self._doable.after(progress.doable, before, world)
         return Progress(world, nodes, doable, off), seen
@@ -168,12 +168,12 @@ class ProgressTracker:
             if known == self.combined.off:
                 off[goal] = OffGraph(world)
             return known
-        found = self._find(goal, world)
-        if found != self.combined.off:
+        node_after = self._find(goal, world)
+        if node_after != self.combined.off:
             off.pop(goal, None)
-            return found
+            return node_after
         off[goal] = self._follow_off(goal, off.get(goal) or OffGraph(progress.world), step, world)
-        return found
+        return node_after
 
     def _find(self, goal: int, world: int) -> int:
         node = self.bank.node(goal, world)

@@ -105,7 +105,7 @@ def goals_of(domain: SourceFile, template: SourceFile, hypotheses: SourceFile) -
     frame = template.source()
     if not _PLACE.search(frame.text):
         raise InputError(f"no <HYPOTHESIS> in {TEMPLATE}", code="no-goals", path=frame.path)
-    text = _PLACE.sub(lambda found: " " * len(found[0]), frame.text)
+    text = _PLACE.sub(lambda match: " " * len(match[0]), frame.text)
     base = problem_in(domain_in(source), SourceText(frame.path, text))
     lines = list(_lines(hypotheses.source()))
     if not lines:

@@ -261,25 +261,25 @@ class _Seen:
     def contains(self, states: Words) -> Bools:
         """Return for each row whether it was taken in."""
         hashes = _hash(states)
-        found = np.zeros(len(states), dtype=np.bool_)
+        is_member = np.zeros(len(states), dtype=np.bool_)
         for table, rows in self._tables:
             place = np.searchsorted(table, hashes)
             open_ = np.flatnonzero(place < len(table))
             while len(open_):  # goes on only where different states share a hash
                 open_ = open_[table[place[open_]] == hashes[open_]]
                 same = (rows[place[open_]] == states[open_]).all(axis=1)
-                found[open_[same]] = True
+                is_member[open_[same]] = True
                 open_ = open_[~same]
                 place[open_] += 1
                 open_ = open_[place[open_] < len(table)]
-        return found
+        return is_member
 
 
 def _hash(rows: Words) -> Words:
-    found = rows[:, 0].copy()
+    hashes = rows[:, 0].copy()
     for word in range(1, rows.shape[1]):
-        found = (found ^ (found >> np.uint64(29))) * SALT + rows[:, word]
-    return found
+        hashes = (hashes ^ (hashes >> np.uint64(29))) * SALT + rows[:, word]
+    return hashes
 
 
 def _n_bytes(*arrays: NDArray[np.generic]) -> int:

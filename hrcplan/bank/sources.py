@@ -60,11 +60,11 @@ def _problem_files(domain: str, first: SourceFile, folder: Path | None) -> Itera
             f"there is no folder '{folder}'", code="no-folder", path=str(folder), hint=hint
         )
     files = [SourceFile.read(p) for p in sorted(folder.glob("*.pddl")) if p.is_file()]
-    found = [file for file in files if not _is_domain(file)]
-    if not found:
+    problems = [file for file in files if not _is_domain(file)]
+    if not problems:
         hint = "it needs problem files, or template.pddl and hyps.dat"
         raise InputError(f"no problem in '{folder}'", code="no-goals", path=str(folder), hint=hint)
-    yield from found
+    yield from problems
 
 
 def _shipped(domain: str) -> Iterator[SourceFile]:

@@ -66,17 +66,17 @@ def digest(bank: Bank) -> str:
     Where the bank came from and how long it took makes no difference.
     """
     steps = [[bank.table[i].words, bank.table[i].name] for i in range(len(bank.table))]
-    found = hashlib.sha256(json.dumps([bank.agents, bank.names, steps]).encode())
+    sha = hashlib.sha256(json.dumps([bank.agents, bank.names, steps]).encode())
     for graph in bank.graphs:
         arrays = [
             np.ascontiguousarray(getattr(graph, name), kind) for name, kind in _ARRAYS.items()
         ]
         layers = [[str(cost), first] for cost, first in graph.layers]
         shapes = [one.shape for one in arrays]
-        found.update(json.dumps([graph.packing.positions, layers, shapes]).encode())
+        sha.update(json.dumps([graph.packing.positions, layers, shapes]).encode())
         for one in arrays:
-            found.update(one.data)
-    return found.hexdigest()
+            sha.update(one.data)
+    return sha.hexdigest()
 
 
 def save(bank: Bank, path: str | Path) -> None:
@@ -149,7 +149,7 @@ def find_fault(path: str | Path) -> str | None:
         bank = load(path)
     except InputError as error:
         return error.message
-    return next((found for goal in range(len(bank.graphs)) if (found := fault(bank, goal))), None)
+    return next(filter(None, (fault(bank, goal) for goal in range(len(bank.graphs)))), None)
 
 
 # Sources.

@@ -53,22 +53,22 @@ def vary(goals: Goals, n: int, seed: int, *, n_objects: int = 0) -> Goals:
     if not old:
         raise UsageError("none of the goals can be reached", code="no-variants")
     low, high = min(s.n_steps for s in old), max(s.n_steps for s in old)
-    taken, found = [shape.steps for shape in old], list[Formula]()
+    taken, variants = [shape.steps for shape in old], list[Formula]()
     tries = 0
     for goal in _candidates(goals, world, rng):
         shape = _shape(table, goal)
         if shape and low <= shape.n_steps <= high and _is_new(shape.steps, taken):
             taken.append(shape.steps)
-            found.append(goal)
+            variants.append(goal)
             tries = 0
         tries += 1
-        if len(found) == n:
+        if len(variants) == n:
             break
         if tries > MAX_TRIES:
-            message = f"only {len(found)} of {n} variants found"
+            message = f"only {len(variants)} of {n} variants found"
             raise UsageError(message, code="no-variants", hint="add objects, or ask for fewer")
     names = tuple(f"variant-{i:0{len(str(n))}}" for i in range(1, n + 1))
-    return Goals(replace(world, goal=found[0], name=names[0]), names, tuple(found))
+    return Goals(replace(world, goal=variants[0], name=names[0]), names, tuple(variants))
 
 
 def _enlarged(goals: Goals, rng: random.Random, n_objects: int) -> Problem:

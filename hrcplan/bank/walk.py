@@ -92,10 +92,10 @@ class Sampler:
         """
         parts = [self._draw(min(CHUNK, n - done), rng) for done in range(0, n, CHUNK)]
         width = max((part.shape[1] for part in parts), default=0)
-        found = np.full((n, width), -1, dtype=np.int32)
+        plans = np.full((n, width), -1, dtype=np.int32)
         for i, part in enumerate(parts):
-            found[i * CHUNK : i * CHUNK + len(part), : part.shape[1]] = part
-        return found
+            plans[i * CHUNK : i * CHUNK + len(part), : part.shape[1]] = part
+        return plans
 
     def _draw(self, n: int, rng: np.random.Generator) -> SmallIds:
         graph = self.graph
@@ -131,18 +131,18 @@ class Sampler:
         Raises:
             LimitError: if fewer than one in ``MAX_TRIES`` is kept.
         """
-        found: list[tuple[int, ...]] = []
+        plans: list[tuple[int, ...]] = []
         tries = 0
-        while len(found) < n:
+        while len(plans) < n:
             for row in self.draw(max(16, n), rng).tolist():
                 plan = tuple(step for step in row if step >= 0)
                 tries += 1
-                if len(found) < n and keep(plan):
-                    found.append(plan)
-            if tries > MAX_TRIES * (len(found) + 1):
+                if len(plans) < n and keep(plan):
+                    plans.append(plan)
+            if tries > MAX_TRIES * (len(plans) + 1):
                 message = f"hardly any plan of '{self.graph.goal}' passes the filter"
                 raise LimitError(message, hint="lower --quality, or build with --alternatives")
-        return found
+        return plans
 
 
 def is_prefix(graph: PlanGraph, observed: Sequence[int]) -> bool:

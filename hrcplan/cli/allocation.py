@@ -57,24 +57,24 @@ def command(
     least, most = problem.domain.value_range(key[0]) or (LEAST, MOST)
     if limits is not None:
         least, most = (exact(Fraction(str(limit))) for limit in limits)
-    found = diagram(problem, key, least, most, planner=planner, timeout_s=timeout)
+    diagram_of_value = diagram(problem, key, least, most, planner=planner, timeout_s=timeout)
     if output.JSON:
-        output.document(as_json(found))
+        output.document(as_json(diagram_of_value))
     else:
-        output.result(as_text(found, f"{domain}/{name}"))
+        output.result(as_text(diagram_of_value, f"{domain}/{name}"))
     return 0
 
 
-def as_json(found: Any) -> dict[str, Any]:
+def as_json(chart: Any) -> dict[str, Any]:
     """Return a diagram as a JSON object; ``metric`` is ``intercept`` + ``slope`` x value."""
     number = output.number
-    stays = found.stays_best(found.at_now)
+    stays = chart.stays_best(chart.at_now)
     return {
-        "element": " ".join(found.key),
-        "value": number(found.value),
-        "flips": [number(flip) for flip in found.flips],
-        "radius": number(found.radius()),
-        "proven": found.is_proven,
+        "element": " ".join(chart.key),
+        "value": number(chart.value),
+        "flips": [number(flip) for flip in chart.flips],
+        "radius": number(chart.radius()),
+        "proven": chart.is_proven,
         "stays_best": None if stays is None else [number(limit) for limit in stays],
         "pieces": [
             {
@@ -85,35 +85,35 @@ def as_json(found: Any) -> dict[str, Any]:
                 "n_actions": dict(piece.n_actions),
                 "plan": [str(action) for action in piece.line.plan.actions],
             }
-            for piece in found.pieces
+            for piece in chart.pieces
         ],
     }
 
 
-def as_text(found: Any, title: str) -> str:
+def as_text(chart: Any, title: str) -> str:
     """Return a diagram as a table, and in words how far the value may move."""
-    agents = list(found.pieces[0].n_actions)
-    head = [" ".join(found.key), *(agent or "-" for agent in agents), "metric"]
+    agents = list(chart.pieces[0].n_actions)
+    head = [" ".join(chart.key), *(agent or "-" for agent in agents), "metric"]
     rows = [
         [
             f"{_shown(piece.least)} … {_shown(piece.most)}",
             *(str(piece.n_actions.get(agent, 0)) for agent in agents),
             _line(piece.line),
         ]
-        for piece in found.pieces
+        for piece in chart.pieces
     ]
     lines = output.columns([head, output.rule([head, *rows]), *rows])
-    mark = "" if found.is_proven else " (approximate: not all plans are proven to be the best)"
+    mark = "" if chart.is_proven else " (approximate: not all plans are proven to be the best)"
     return "\n".join([f"{title}: who does how much{mark}", "", *(f"  {x}" for x in lines), "",
-                      _in_words(found)])  # fmt: skip
+                      _in_words(chart)])  # fmt: skip
 
 
-def _in_words(found: Any) -> str:
-    radius = found.radius()
+def _in_words(chart: Any) -> str:
+    radius = chart.radius()
     if radius is None:
-        return f"now {_shown(found.value)}: one allocation is best throughout"
-    flips = ", ".join(_shown(flip) for flip in found.flips)
-    return f"flips at {flips}; now {_shown(found.value)}, so it may move by {_shown(radius)}"
+        return f"now {_shown(chart.value)}: one allocation is best throughout"
+    flips = ", ".join(_shown(flip) for flip in chart.flips)
+    return f"flips at {flips}; now {_shown(chart.value)}, so it may move by {_shown(radius)}"
 
 
 def _line(line: Any) -> str:

@@ -48,15 +48,15 @@ def command(
         "forest": {"seed": seed, "n_jobs": -1},
     }
     name = method or _default(source)
-    found = infer(source, actions, name, **method_options.get(name, {}))
+    inference = infer(source, actions, name, **method_options.get(name, {}))
     if plot is not None:
         from hrcplan.plots.posterior import draw
 
-        output.write_atomically(plot, draw(found, options.picture_form(plot)))
+        output.write_atomically(plot, draw(inference, options.picture_form(plot)))
     if output.JSON:
-        output.document(found.as_json())
+        output.document(inference.as_json())
     else:
-        output.result(as_text(found))
+        output.result(as_text(inference))
     return 0
 
 
@@ -66,15 +66,15 @@ def _default(source: str) -> str:
     return GOALS_METHOD if Path(source).is_dir() else BANK_METHOD
 
 
-def as_text(found: Inference) -> str:
+def as_text(answer: Inference) -> str:
     """Return the posterior as a table: the likeliest goals after each observation."""
-    long = any(len(name) > MAX_NAME for name in found.goals)
-    names = [f"goal {i + 1}" for i in range(len(found.goals))] if long else list(found.goals)
-    width = max([6, *(len(action) for action in found.actions)])
+    long = any(len(name) > MAX_NAME for name in answer.goals)
+    names = [f"goal {i + 1}" for i in range(len(answer.goals))] if long else list(answer.goals)
+    width = max([6, *(len(action) for action in answer.actions)])
     lines = [f"{'':>4}  {'action':<{width}}  likeliest goals"]
-    changes = {change.at: change for change in found.changes}
-    ignored = {ignored.at: ignored for ignored in found.ignored}
-    for row, posterior in enumerate(found.posterior):
+    changes = {change.at: change for change in answer.changes}
+    ignored = {ignored.at: ignored for ignored in answer.ignored}
+    for row, posterior in enumerate(answer.posterior):
         if row - 1 in changes:
             lines.append(f"{'':>4}  -- {_change(changes[row - 1], names)} --")
         action = found.actions[row - 1] if row else ""

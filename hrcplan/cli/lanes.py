@@ -20,27 +20,27 @@ VERDICT = {
 }
 
 
-def as_json(problem: Problem, found: Result) -> dict[str, Any]:
+def as_json(problem: Problem, result: Result) -> dict[str, Any]:
     """Return the document of ``plan --json``."""
-    report = found.report
+    report = result.report
     return {
-        "status": found.status.value,
-        "planner": found.planner,
+        "status": result.status.value,
+        "planner": result.planner,
         "cost": number(report.cost) if report else None,
         "makespan_s": number(report.makespan_s) if report else None,
         "metric": number(report.metric) if report else None,
         "sense": _sense(problem),
-        "bound": number(found.bound),
-        "gap": found.gap,
+        "bound": number(result.bound),
+        "gap": result.gap,
         "valid": report.valid if report else None,
-        "steps": _steps(problem, found),
-        "wall_s": round(found.wall_s, 6),
-        "why": found.why,
+        "steps": _steps(problem, result),
+        "wall_s": round(result.wall_s, 6),
+        "why": result.why,
         "tried": [
             {"planner": a.planner, "outcome": a.outcome, "wall_s": round(a.wall_s, 6)}
-            for a in found.attempts
+            for a in result.attempts
         ],
-        "shortest": found.shortest,
+        "shortest": result.shortest,
     }
 
 
@@ -51,10 +51,10 @@ def _sense(problem: Problem) -> str | None:
     return "maximize" if problem.maximize else "minimize"
 
 
-def _steps(problem: Problem, found: Result) -> list[dict[str, Any]]:
-    if found.plan is None:
+def _steps(problem: Problem, result: Result) -> list[dict[str, Any]]:
+    if result.plan is None:
         return []
-    costs = found.report.step_costs if found.report else (None,) * len(found.plan.actions)
+    costs = result.report.step_costs if result.report else (None,) * len(result.plan.actions)
     return [
         {
             "start_s": number(action.start_s),
@@ -64,31 +64,31 @@ def _steps(problem: Problem, found: Result) -> list[dict[str, Any]]:
             "args": list(action.args),
             "cost": number(cost),
         }
-        for action, cost in zip(found.plan.actions, costs, strict=True)
+        for action, cost in zip(result.plan.actions, costs, strict=True)
     ]
 
 
-def as_text(problem: Problem, found: Result) -> str:
+def as_text(problem: Problem, result: Result) -> str:
     """Return a headline, the plan with one column per lane, and what it costs."""
-    head = f"{problem.domain.name}/{problem.name}: {VERDICT[found.status]}"
-    by = f" ({found.planner}, {found.wall_s:.2f} s)" if found.planner != "auto" else ""
-    tried = _tried(found)
-    if found.plan is None:
+    head = f"{problem.domain.name}/{problem.name}: {VERDICT[result.status]}"
+    by = f" ({result.planner}, {result.wall_s:.2f} s)" if result.planner != "auto" else ""
+    tried = _tried(result)
+    if result.plan is None:
         return f"{head}{by}{tried}"
-    plan = "\n".join(_table(problem, found.plan))
-    return f"{head}{by}{tried}\n\n{plan}\n\n{_figures(problem, found)}"
+    plan = "\n".join(_table(problem, result.plan))
+    return f"{head}{by}{tried}\n\n{plan}\n\n{_figures(problem, result)}"
 
 
-def _tried(found: Result) -> str:
-    others = [a for a in found.attempts if a.planner != found.planner or found.plan is None]
+def _tried(result: Result) -> str:
+    others = [a for a in result.attempts if a.planner != result.planner or result.plan is None]
     lines = [f"\n  {a.planner}: {a.outcome}" for a in others if not a.outcome.startswith("solved")]
-    mismatch = [] if found.mismatch is None else [f"\n  {found.mismatch}"]
+    mismatch = [] if result.mismatch is None else [f"\n  {result.mismatch}"]
     return "".join(dict.fromkeys([*lines, *mismatch]))
 
 
-def _figures(problem: Problem, found: Result) -> str:
-    report = found.report
-    assert found.plan is not None
+def _figures(problem: Problem, result: Result) -> str:
+    report = result.report
+    assert result.plan is not None
     if report is None:
         return "valid     not judged"
     lines: list[str] = []
@@ -98,22 +98,24 @@ def _figures(problem: Problem, found: Result) -> str:
         lines.append(f"cost      {_short(report.cost)}")
     if report.makespan_s is not None:
         unit = " s" if problem.domain.is_temporal else " steps"
-        proof = {None: "", True: "   (shortest for this partial order)", False: ""}[found.shortest]
+        proof = {None: "", True: "   (shortest for this partial order)", False: ""}[result.shortest]
         lines.append(f"makespan  {_short(report.makespan_s)}{unit}{proof}")
-    if (bound := _bound(problem, found)) is not None:
+    if (bound := _bound(problem, result)) is not None:
         lines.append(bound)
-    lines.append(f"valid     yes, replayed: {len(found.plan.actions)} actions, goal reached")
+    lines.append(f"valid     yes, replayed: {len(result.plan.actions)} actions, goal reached")
     return "\n".join(lines)
 
 
-def _bound(problem: Problem, found: Result) -> str | None:
+def _bound(problem: Problem, result: Result) -> str | None:
     """Return what is proven about a plan that is not proven to be the best."""
-    if found.bound is None or found.status is Status.OPTIMAL:
+    if result.bound is None or result.status is Status.OPTIMAL:
         return None
-    if found.gap is None:
-        return f"bound     {_short(found.bound)}"
+    if result.gap is None:
+        return f"bound     {_short(result.bound)}"
     side = "below" if problem.metric is not None and problem.maximize else "above"
-    return f"bound     {_short(found.bound)}   (at most {100 * found.gap:.2g} % {side} the optimum)"
+    return (
+        f"bound     {_short(result.bound)}   (at most {100 * result.gap:.2g} % {side} the optimum)"
+    )
 
 
 def _short(value: Number) -> str:

@@ -71,22 +71,22 @@ def command(
     problem = problem_of(domain, name, settings)
     for path in (gantt, target):
         check_target(path, problem.path, problem.domain.path)
-    found = solve(
+    result = solve(
         problem, planner, timeout_s=timeout, any_plan=any_plan, lanes=lanes or gantt is not None,
         memory_bytes=memory << 20, on_better=_Progress(),
     )  # fmt: skip
-    for attempt in found.attempts:
+    for attempt in result.attempts:
         output.say(f"{attempt.planner}: {attempt.outcome} ({attempt.wall_s:.2f} s)")
-    if found.plan is not None and target is not None:
+    if result.plan is not None and target is not None:
         from hrcplan.plans import format_plan
 
-        output.write_atomically(target, format_plan(found.plan))
-    if found.plan is not None and gantt is not None:
+        output.write_atomically(target, format_plan(result.plan))
+    if result.plan is not None and gantt is not None:
         from hrcplan.plots.gantt import draw
 
-        output.write_atomically(gantt, draw(problem, found.plan, options.picture_form(gantt)))
-    _print(problem, found)
-    return STATUS_EXIT[found.status.value]
+        output.write_atomically(gantt, draw(problem, result.plan, options.picture_form(gantt)))
+    _print(problem, result)
+    return STATUS_EXIT[result.status.value]
 
 
 class _Progress:
@@ -106,10 +106,10 @@ class _Progress:
         output.note(f"after {passed:.0f} s: {value} ({result.planner})")
 
 
-def _print(problem: Any, found: Any) -> None:
+def _print(problem: Any, result: Any) -> None:
     from hrcplan.cli import lanes
 
     if output.JSON:
-        output.document(lanes.as_json(problem, found))
+        output.document(lanes.as_json(problem, result))
     else:
-        output.result(lanes.as_text(problem, found))
+        output.result(lanes.as_text(problem, result))

@@ -36,12 +36,12 @@ def command(script: str, methods: tuple[str, ...], show_why: bool) -> int:
     """
     from hrcplan.studies.changed_mind import script as scripts
 
-    found = scripts.read(script)
-    played = scripts.episodes(found, methods)
+    episode_script = scripts.read(script)
+    played = scripts.episodes(episode_script, methods)
     if output.JSON:
-        output.document(scripts.as_json(found, played))
+        output.document(scripts.as_json(episode_script, played))
         return 0
-    output.result(str(found.get("title", script)))
+    output.result(str(episode_script.get("title", script)))
     output.table(_side_by_side(played))
     if show_why:
         for episode in played:

@@ -17,20 +17,20 @@ def command(journal: Path) -> int:
     from hrcplan.execution.journal import read_journal
     from hrcplan.execution.replay import replay
 
-    found = replay(read_journal(journal))
-    difference = found.difference
+    check = replay(read_journal(journal))
+    difference = check.difference
     if output.JSON:
         place = difference and {
-            "line": difference.line, "expected": difference.expected, "found": difference.found,
+            "line": difference.line, "expected": difference.expected, "found": difference.recorded,
         }  # fmt: skip
         output.document({
-            "ok": difference is None, "events": found.n_events, "decisions": found.n_decisions,
-            "row": found.row.to_json(), "difference": place,
+            "ok": difference is None, "events": check.n_events, "decisions": check.n_decisions,
+            "row": check.row.to_json(), "difference": place,
         })  # fmt: skip
     elif difference is None:
-        counts = f"{found.n_events} events, {found.n_decisions} decisions"
-        output.result(f"{journal}: {counts}, all of them follow; {found.row.ending}")
+        counts = f"{check.n_events} events, {check.n_decisions} decisions"
+        output.result(f"{journal}: {counts}, all of them follow; {check.row.ending}")
     else:
         output.result(f"{journal}:{difference.line}: this does not follow")
-        output.result(f"  expected  {difference.expected}\n  found     {difference.found}")
+        output.result(f"  expected  {difference.expected}\n  found     {difference.recorded}")
     return 0 if difference is None else 1

@@ -132,11 +132,11 @@ def report(folder: Path, name: str | None) -> int:
     """Write DIR/report.html and DIR/report.json from the rows in DIR, and print a summary."""
     from hrcplan.studies import report_study
 
-    found = report_study(folder, name)
+    summary = report_study(folder, name)
     if output.JSON:
-        output.document(found)
+        output.document(summary)
     else:
-        output.result(_text(found, folder))
+        output.result(_text(summary, folder))
     return 0
 
 
@@ -145,9 +145,9 @@ _VERDICTS = {"holds": "holds", "fails": "does not hold", "too-few": "too few run
 
 def _text(found: dict[str, Any], folder: Path) -> str:
     """Return means by cell and the claims, as plain lines."""
-    names = list(found["rows"][0]["measures"]) if found["rows"] else []
+    names = list(summary["rows"][0]["measures"]) if summary["rows"] else []
     table = [["", *names]]
-    for row in found["rows"]:
+    for row in summary["rows"]:
         cell = " ".join(map(str, row["cell"].values()))
         table.append([cell, *(_mean(m["mean"], m["se"]) for m in row["measures"].values())])
     lines = output.columns(table, right=range(1, len(names) + 1))
@@ -155,7 +155,7 @@ def _text(found: dict[str, Any], folder: Path) -> str:
     for claim in found["claims"]:
         lines.append(f"{_VERDICTS[claim['verdict']]:<14} {claim['claim']}")
         lines.append(f"               {claim['evidence']}")
-    lines += ["", f"{found['n_rows']} rows; wrote {folder}/report.html and report.json"]
+    lines += ["", f"{summary['n_rows']} rows; wrote {folder}/report.html and report.json"]
     return "\n".join(lines)
 
 

@@ -100,8 +100,8 @@ class PartNames:
             hint = nearest(attribute, [n for n in vars(module) if not n.startswith("_")])
             message = f"module '{path}' has no '{attribute}'"
             raise UsageError(message, code=self._code, path=module.__file__, hint=hint)
-        found: object = vars(module)[attribute]
-        return found
+        part: object = vars(module)[attribute]
+        return part
 
     @property
     def _code(self) -> str:
@@ -228,8 +228,8 @@ def methods(protocol: type) -> list[str]:
 def _member(place: str) -> object:
     """Return what ``module:name`` is in an installed module."""
     module, _, attribute = place.partition(":")
-    found: object = getattr(import_module(module), attribute)
-    return found
+    value: object = getattr(import_module(module), attribute)
+    return value
 
 
 def _user_module(path: str, kind: str, name: str) -> ModuleType:

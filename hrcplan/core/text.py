@@ -50,13 +50,13 @@ def nearest_name(word: str, known: Iterable[str], similarity: float = 0.6) -> st
     """Return the known name that is most like ``word``, or None if none is close."""
     from rapidfuzz import distance, process
 
-    found = process.extractOne(
+    match = process.extractOne(
         word[:MAX_QUOTE],
         [name for name in known if name != word],
         scorer=distance.OSA.normalized_similarity,
         score_cutoff=similarity,
     )
-    return None if found is None else str(found[0])
+    return None if match is None else str(match[0])
 
 
 def nearest(word: str, known: Iterable[str]) -> str | None:

@@ -229,12 +229,12 @@ def _action(table: StepTable, state: int, step: SupportsIndex, agents: frozenset
 
 def _posterior(robot: Assistant[S], state: S, n_goals: int) -> Floats:
     """Return the posterior of a robot, which must have a probability for each goal."""
-    found = np.asarray(robot.posterior(state), dtype=object)
+    answer = np.asarray(robot.posterior(state), dtype=object)
     try:
-        numbers: Floats = found.astype(np.float64)
+        numbers: Floats = answer.astype(np.float64)
     except (TypeError, ValueError):
         numbers = np.zeros(0)
     is_one = numbers.shape == (n_goals,) and (numbers >= 0).all()
     if not is_one or abs(numbers.sum() - 1) > NEAR:
-        raise UsageError(f"{found} is no probability for each goal", code="bad-posterior")
+        raise UsageError(f"{answer} is no probability for each goal", code="bad-posterior")
     return numbers

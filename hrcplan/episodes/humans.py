@@ -143,10 +143,10 @@ class CliqueChain(Frontier):
     ) -> int:
         """Return the step that the network allows next; any other if the human cannot do that."""
         left = [step for step, _ in shortest(graph, node)]
-        found = _network(graph).choose(left, last, lambda n: int(draw() * n))
-        if found is None or found not in steps:
+        choice = _network(graph).choose(left, last, lambda n: int(draw() * n))
+        if choice is None or choice not in steps:
             return super().choose(graph, node, steps, last, draw)
-        return found
+        return choice
 
 
 class Scripted(Frontier):

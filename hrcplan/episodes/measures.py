@@ -68,14 +68,14 @@ def guesses(record: EpisodeRecord) -> GuessMeasures:
 
 def _spans(record: EpisodeRecord) -> list[list[EpisodeTurn]]:
     """Return the guesses made under each goal that was changed to; of the only goal if none was."""
-    found: list[list[EpisodeTurn]] = [[] for _ in record.course.goals]
+    spans: list[list[EpisodeTurn]] = [[] for _ in record.course.goals]
     human = 0
     for turn in record.turns:
         if turn.is_human:
             if turn.guess is not None:
-                found[sum(human >= change for change in record.course.turns)].append(turn)
+                spans[sum(human >= change for change in record.course.turns)].append(turn)
             human += 1
-    return [span for span in found[1:] or found if span]
+    return [span for span in spans[1:] or spans if span]
 
 
 def _first_right(span: Sequence[EpisodeTurn], n_turns: int) -> int:

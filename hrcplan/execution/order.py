@@ -50,13 +50,13 @@ def _waits_of(
     i: int, actions: tuple[PlannedAction, ...], ordered: Callable[[int, int], bool]
 ) -> tuple[Wait, ...]:
     start = actions[i].start_s or 0
-    found = []
+    waits = []
     for j in range(i):  # plans are sorted by start
         if ordered(j, i):
             begun, ended = actions[j].start_s or 0, actions[j].end_s or 0
             over = ended <= start
-            found.append(Wait(j, over, 0 if over else start - begun))
-    return tuple(found)
+            waits.append(Wait(j, over, 0 if over else start - begun))
+    return tuple(waits)
 
 
 def rest_of(plan: Plan, order: Waits, ended: Set[int], is_temporal: bool) -> Plan:

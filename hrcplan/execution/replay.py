@@ -23,7 +23,7 @@ class Difference:
 
     line: int
     expected: str
-    found: str
+    recorded: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +57,7 @@ def replay(journal: Journal) -> Replayed:
             row = outcome_of(run, monitor.model.agents.robots).to_json()
             difference = _differs(number, {"row": row}, line)
         else:
-            difference = _unfounded(number, line, run, monitor)
+            difference = _unjustified(number, line, run, monitor)
             if difference is None:
                 run, commands = monitor.step(run, from_json(line["event"]))
                 due = json.loads(json.dumps([to_json(command) for command in commands]))
@@ -70,13 +70,13 @@ def replay(journal: Journal) -> Replayed:
 def _differs(
     number: int, expected: Mapping[str, Any], line: Mapping[str, Any]
 ) -> Difference | None:
-    found = {key: value for key, value in line.items() if key != "seq"}
-    if found == expected:
+    content = {key: value for key, value in line.items() if key != "seq"}
+    if content == expected:
         return None
-    return Difference(number, json.dumps(expected), json.dumps(found))
+    return Difference(number, json.dumps(expected), json.dumps(content))
 
 
-def _unfounded(
+def _unjustified(
     number: int, line: Mapping[str, Any], run: Run, monitor: Monitor
 ) -> Difference | None:
     """Return what is wrong with an event as such: it cannot be read, or its plan is not valid."""

@@ -84,20 +84,20 @@ class ChangeFilter:
 
     def _changed(self, weights: Floats) -> Floats:
         """Return the weights once the goal has, or has not, changed."""
-        found = self._kept(weights)
+        weights_after = self._kept(weights)
         if self.n_goals > 1:
             moving = weights[:, :-1] * (self.hazard / (self.n_goals - 1))
             moving = moving.sum(axis=2, keepdims=True) - moving
-            found[:, -1] += self.settles * moving.sum(axis=1)
+            weights_after[:, -1] += self.settles * moving.sum(axis=1)
             moving *= 1 - self.settles
-            found[:, 1:-1] += moving[:, :-1]
-            found[:, -2] += moving[:, -1]
-        return found
+            weights_after[:, 1:-1] += moving[:, :-1]
+            weights_after[:, -2] += moving[:, -1]
+        return weights_after
 
     def goals(self, filtered: FilterState) -> Floats:
         """Return the probability of each goal."""
-        found: Floats = filtered.weights.sum(axis=(0, 1))
-        return found
+        probabilities: Floats = filtered.weights.sum(axis=(0, 1))
+        return probabilities
 
 
 class _HumanStep(Protocol):

@@ -81,9 +81,9 @@ class ExactBelief:
 
     def log_likelihood(self, seen: Evidence) -> Floats:
         """Return the log likelihood of a step under each goal."""
-        found = self._mistakes.take(seen.n_doable - seen.n_next)
-        found[seen.goals] = self._right + seen.log_shares
-        return found
+        log_likelihood = self._mistakes.take(seen.n_doable - seen.n_next)
+        log_likelihood[seen.goals] = self._right + seen.log_shares
+        return log_likelihood
 
     def posterior(self, state: ExactState) -> Floats:
         """Return the probability of each goal, in order."""

@@ -142,14 +142,14 @@ class Resolver:
         if not words:
             return "no action is named"
         by_robot = len(words) > 1 and words[1] in self.robots
-        found: list[int] = []
+        steps: list[int] = []
         for name in self.aliases.get(words[0], (words[0],)):
             step = self.table.find((name, *words[1:]))
-            found += [step] if step is not None else self._without_agent((name, *words[1:]))
-        if not found:
+            steps += [step] if step is not None else self._without_agent((name, *words[1:]))
+        if not steps:
             return self._why_not(words)
-        can = (step for step in found if self.table.successor(world, step) is not None)
-        return Resolved(next(can, found[0]), by_robot)
+        can = (step for step in steps if self.table.successor(world, step) is not None)
+        return Resolved(next(can, steps[0]), by_robot)
 
     def _without_agent(self, words: tuple[str, ...]) -> list[int]:
         """Return the steps of this name, those of the human first, where no agent is named."""

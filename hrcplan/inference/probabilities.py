@@ -21,8 +21,8 @@ def normalized(log_scores: Floats) -> Floats:
     if highest == -math.inf:
         return np.full(len(log_scores), 1 / len(log_scores))
     weights = np.exp((log_scores - highest).round(ROUNDED))
-    found: Floats = weights / math.fsum(weights.tolist())
-    return found
+    probabilities: Floats = weights / math.fsum(weights.tolist())
+    return probabilities
 
 
 def weights_to_posterior(weights: Floats) -> Floats:
@@ -41,5 +41,5 @@ def weights_to_posteriors(weights: Floats) -> Floats:
         logs = np.log(np.where(weights.any(axis=1, keepdims=True), weights, 1))
     shares = np.exp((logs - logs.max(axis=1, keepdims=True)).round(ROUNDED))
     totals = [math.fsum(row) for row in shares.tolist()]
-    found: Floats = shares / np.array(totals)[:, None]
-    return found
+    posteriors: Floats = shares / np.array(totals)[:, None]
+    return posteriors

@@ -41,10 +41,10 @@ class Needed:
         sizes = needs.sum(axis=1)
         rest = np.maximum(1, tracker.combined.n_labels - sizes)
         helps = needs[:, tracker.combined.label[step]]
-        found: Floats = np.where(
+        likelihood: Floats = np.where(
             helps, (1 - self.epsilon) / np.maximum(1, sizes), self.epsilon / rest
         )
-        return found
+        return likelihood
 
 
 @dataclass(frozen=True)
@@ -57,8 +57,8 @@ class Attractor:
         """Return the likelihood by goal."""
         needs = tracker.combined.needs
         weights = np.where(needs, self.ratio, 1.0)
-        found: Floats = weights[:, tracker.combined.label[step]] / weights.sum(axis=1)
-        return found
+        likelihood: Floats = weights[:, tracker.combined.label[step]] / weights.sum(axis=1)
+        return likelihood
 
 
 @dataclass(frozen=True)
@@ -69,9 +69,9 @@ class Next:
 
     def __call__(self, tracker: ProgressTracker, step: int, seen: Evidence) -> Floats:
         """Return the likelihood by goal."""
-        found: Floats = self.epsilon / np.maximum(1, seen.n_doable - seen.n_next)
-        found[seen.goals] = (1 - self.epsilon) / seen.n_next[seen.goals]
-        return found
+        likelihood: Floats = self.epsilon / np.maximum(1, seen.n_doable - seen.n_next)
+        likelihood[seen.goals] = (1 - self.epsilon) / seen.n_next[seen.goals]
+        return likelihood
 
 
 @dataclass(frozen=True, slots=True)

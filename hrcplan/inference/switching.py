@@ -98,9 +98,9 @@ class SwitchingBelief:
 
     def likelihood(self, seen: Evidence) -> Floats:
         """Return the likelihood of a step, by mistake rate and goal."""
-        found: Floats = self.rates / np.maximum(1, seen.n_doable - seen.n_next)
-        found[:, seen.goals] = (1 - self.rates) / seen.n_next[seen.goals]
-        return found
+        likelihood: Floats = self.rates / np.maximum(1, seen.n_doable - seen.n_next)
+        likelihood[:, seen.goals] = (1 - self.rates) / seen.n_next[seen.goals]
+        return likelihood
 
     def posterior(self, state: SwitchingState) -> Floats:
         """Return the probability of each goal, in order."""

@@ -101,12 +101,12 @@ def _action(node: GroupNode, scope: Scope) -> Action | None:
 
 def _parts(node: GroupNode, source: SourceText, durative: bool) -> dict[str, ParseNode]:
     known = _DURATIVE if durative else _CLASSICAL
-    found: dict[str, ParseNode] = {}
+    parts: dict[str, ParseNode] = {}
     rest = deque(node[2:])
     last = ""
     while rest:
         key = rest.popleft()
-        if isinstance(key, GroupNode) and last in found:
+        if isinstance(key, GroupNode) and last in parts:
             _report_second(key, last, source)
             while rest and isinstance(rest[0], GroupNode):
                 rest.popleft()
@@ -122,12 +122,12 @@ def _parts(node: GroupNode, source: SourceText, durative: bool) -> dict[str, Par
             source.error(key.at, "missing-part", f"nothing follows {quote(key)}")
             continue
         value = rest.popleft()
-        if name in found:
+        if name in parts:
             source.error(key.at, "repeated-section", f"a second {name} in one action")
         elif name is not None:
-            found[name] = value
+            parts[name] = value
             last = name
-    return found
+    return parts
 
 
 def _typed_part(key: WordNode, rest: deque[ParseNode]) -> GroupNode:

@@ -25,13 +25,13 @@ def read_notes(
 ) -> tuple[Note, ...]:
     """Return the notes of a domain file; one that makes no sense is a warning and left out."""
     names = {"success": actions, "range": functions}
-    found: dict[tuple[str, str], Note] = {}
+    notes: dict[tuple[str, str], Note] = {}
     for at, note in _parsed(source, names):
-        if (note.kind, note.name) in found:
+        if (note.kind, note.name) in notes:
             source.warn(at, "duplicate-note", f"a second '{note.kind}' of {quote(note.name)}")
         else:
-            found[note.kind, note.name] = note
-    return tuple(found.values())
+            notes[note.kind, note.name] = note
+    return tuple(notes.values())
 
 
 def refuse_notes(source: SourceText) -> None:

@@ -28,16 +28,16 @@ DERIVED = ":derived"
 
 def read_axioms(root: GroupNode, scope: Scope) -> Iterator[Axiom]:
     """Yield the axioms of a domain; every fault is noted."""
-    found: list[tuple[int, Axiom]] = []
+    placed: list[tuple[int, Axiom]] = []
     for node in root[2:]:
         if isinstance(node, GroupNode) and node.head == DERIVED:
             scope.source.use(":derived-predicates", node.at)
             axiom = _axiom(node, scope)
             if axiom is not None:
-                found.append((node.at, axiom))
-    axioms = [axiom for _, axiom in found]
+                placed.append((node.at, axiom))
+    axioms = [axiom for _, axiom in placed]
     level = levels(axioms)
-    for at, axiom in found:
+    for at, axiom in placed:
         if axiom.name not in level:
             message = f"{quote(axiom.name)} is derived from its own negation"
             scope.source.error(at, "not-stratified", message)

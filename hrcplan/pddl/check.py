@@ -214,12 +214,12 @@ class _Domains:
 def _check_problem(file: _File, domains: _Domains) -> None:
     assert file.root is not None
     name = named_domain(file.root)
-    found = None if name is None else domains.find(str(name), Path(file.source.path))
-    found = found or domains.only  # a wrong name is reported, and the rest is still checked
-    if found is not None and found.domain is not None:
-        file.problem = read_problem(file.root, file.source, found.domain)
-        if found.source.has_errors and found not in domains.given.values():
-            _report_faulty(file, file.root.at if name is None else name.at, found)
+    domain = None if name is None else domains.find(str(name), Path(file.source.path))
+    domain = domain or domains.only  # a wrong name is reported, and the rest is still checked
+    if domain is not None and domain.domain is not None:
+        file.problem = read_problem(file.root, file.source, domain.domain)
+        if domain.source.has_errors and domain not in domains.given.values():
+            _report_faulty(file, file.root.at if name is None else name.at, domain)
     elif name is None:
         file.source.error(file.root.at, "no-domain", "the problem does not say its (:domain NAME)")
     else:
@@ -228,6 +228,6 @@ def _check_problem(file: _File, domains: _Domains) -> None:
         file.source.error(name.at, "domain-mismatch", message, hint)
 
 
-def _report_faulty(file: _File, at: int, found: _File) -> None:
-    message = f"the domain of this problem has faults of its own ({found.source.path})"
+def _report_faulty(file: _File, at: int, domain_file: _File) -> None:
+    message = f"the domain of this problem has faults of its own ({domain_file.source.path})"
     file.source.error(at, "faulty-domain", message, "check that file too")

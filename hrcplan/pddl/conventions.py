@@ -95,7 +95,7 @@ def _is_odd_change(effect: Effect, states: frozenset[str]) -> bool:
 
 def _place(node: ParseNode, effect: Effect) -> int | None:
     """Return the offset of the first tree below ``node`` that changes what the effect does."""
-    found = (
+    places = (
         group.at
         for group in _groups(node)
         if group.head == effect.kind
@@ -103,7 +103,7 @@ def _place(node: ParseNode, effect: Effect) -> int | None:
         and isinstance(group[1], GroupNode)
         and group[1].head == effect.target.name
     )
-    return next(found, None)
+    return next(places, None)
 
 
 def _groups(node: ParseNode) -> Iterator[GroupNode]:

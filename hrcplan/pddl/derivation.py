@@ -91,24 +91,24 @@ class Derivation:
         for rule in rules:
             for position, atom in enumerate(rule.join.atoms):
                 users[atom.name].append((rule, position))
-        found: set[Fact] = set()
+        new_facts: set[Fact] = set()
         facts = set(state.facts) | index.facts
         seen = LiftedState(facts, state.values)
         first = list(rules)
         while first:
-            before = len(found)
+            before = len(new_facts)
             waiting = [fact for rule in first for fact in self._heads(rule, index, seen)]
             while waiting:
                 fact = waiting.pop()
                 if fact in facts:
                     continue
-                found.add(fact)
+                new_facts.add(fact)
                 facts.add(fact)
                 index.add(fact)
                 for rule, position in users[fact[0]]:
                     waiting += self._heads(rule, index, seen, (position, fact))
-            first = [rule for rule in rules if rule.waits] if len(found) > before else []
-        return found
+            first = [rule for rule in rules if rule.waits] if len(new_facts) > before else []
+        return new_facts
 
     def _heads(
         self,
@@ -156,7 +156,7 @@ def _alternatives(
     """Return the alternatives of a formula, each with the variables that it needs."""
     match formula:
         case Or(parts):
-            return [found for part in parts for found in _alternatives(part, numbers)]
+            return [alternative for part in parts for alternative in _alternatives(part, numbers)]
         case And(parts):
             options = [_alternatives(part, numbers) for part in parts]
             if any(len(o) > MAX_RULES for o in options):
@@ -173,8 +173,8 @@ def _alternatives(
         case Quantified(False, params, body):
             names = {param.name: f"{param.name}-{next(numbers)}_" for param in params}
             inner = tuple(replace(param, name=names[param.name]) for param in params)
-            found = _alternatives(substituted(body, names), numbers)
-            return [((*inner, *more), part) for more, part in found]
+            alternative = _alternatives(substituted(body, names), numbers)
+            return [((*inner, *more), part) for more, part in alternative]
         case _:
             return [((), formula)]
 

@@ -125,23 +125,23 @@ def read_objects(
     section: GroupNode | None, source: SourceText, types: Collection[str], known: Mapping[str, str]
 ) -> dict[str, str]:
     """Return the objects of an ``:objects`` or ``:constants`` section with their types."""
-    found: dict[str, str] = {}
+    objects: dict[str, str] = {}
     for name, kinds in read_typed(section[1:] if section else (), source, types):
         if len(kinds) > 1:
             hint = "declare a type below all of these, and give the object that type"
             source.error(name.at, "unsupported", "an object needs one type, not (either …)", hint)
-        before = found.get(str(name), known.get(str(name)))
+        before = objects.get(str(name), known.get(str(name)))
         if before not in (None, kinds[0]):
             message = f"object {quote(name)} is declared twice, as {before} and as {kinds[0]}"
             hint = "declare a type below both, and give the object that type"
             source.error(name.at, "duplicate-object", message, hint)
-        elif name in found:
+        elif name in objects:
             source.warn(name.at, "duplicate-object", f"object {quote(name)} is declared twice")
         elif name.startswith("?"):
             source.error(name.at, "not-a-name", f"an object's name cannot be {quote(name)}")
         else:
-            found[str(name)] = kinds[0]
-    return found
+            objects[str(name)] = kinds[0]
+    return objects
 
 
 def _types(section: GroupNode | None, source: SourceText) -> dict[str, tuple[str, ...]]:
@@ -150,26 +150,26 @@ def _types(section: GroupNode | None, source: SourceText) -> dict[str, tuple[str
     A type that is listed twice is below both; one that is only named as above others is declared
     by that. Both are warnings.
     """
-    found: dict[str, tuple[str, ...]] = {}
+    types: dict[str, tuple[str, ...]] = {}
     entries = list(read_typed(section[1:] if section else [], source))
     for name, parents in entries:
         if name == OBJECT:
             continue
-        if name in found:
-            hint = f"write '{name} - (either {' '.join({*found[name], *parents})})'"
+        if name in types:
+            hint = f"write '{name} - (either {' '.join({*types[name], *parents})})'"
             message = f"type {quote(name)} is declared twice"
             source.warn(name.at, "duplicate-type", message, hint)
-        both = [*found.get(str(name), ()), *parents]
-        found[str(name)] = tuple(dict.fromkeys(p for p in both if p != OBJECT)) or (OBJECT,)
+        both = [*types.get(str(name), ()), *parents]
+        types[str(name)] = tuple(dict.fromkeys(p for p in both if p != OBJECT)) or (OBJECT,)
     for name, parents in entries:
         for parent in parents:
-            if parent != OBJECT and parent not in found:
-                found[parent] = (OBJECT,)
+            if parent != OBJECT and parent not in types:
+                types[parent] = (OBJECT,)
                 message = f"type {quote(parent)} is only named as a supertype"
                 hint = f"add '{parent} - object' to (:types …)"
                 source.warn(name.at, "undeclared-supertype", message, hint)
-    _report_cycles(found, entries, source)
-    return found
+    _report_cycles(types, entries, source)
+    return types
 
 
 def _report_cycles(
@@ -212,7 +212,7 @@ def _is_own_ancestor(name: str, types: dict[str, tuple[str, ...]]) -> bool:
 def _signatures(
     section: GroupNode | None, source: SourceText, types: Collection[str], kind: str
 ) -> dict[str, Signature]:
-    found: dict[str, Signature] = {}
+    signatures: dict[str, Signature] = {}
     for node in _without_result_types(section, source):
         if isinstance(node, GroupNode) and node.head == ":private":
             hint = "declare its predicates beside the others: hrcplan has no private facts"
@@ -228,13 +228,13 @@ def _signatures(
         name = node[0]
         assert isinstance(name, WordNode)
         params = params_of(node[1:], source, types, declaration=True)
-        if name in found:
-            same = [p.types for p in params] == [p.types for p in found[name].params]
+        if name in signatures:
+            same = [p.types for p in params] == [p.types for p in signatures[name].params]
             report = source.warn if same else source.error
             report(name.at, f"duplicate-{kind}", f"{kind} {quote(name)} is declared twice")
         else:
-            found[str(name)] = Signature(str(name), params)
-    return found
+            signatures[str(name)] = Signature(str(name), params)
+    return signatures
 
 
 def _without_result_types(section: GroupNode | None, source: SourceText) -> Iterator[ParseNode]:

@@ -91,9 +91,9 @@ def _conditional(node: GroupNode, scope: Scope, when: str | None) -> Iterator[Ef
 
 def _timed_conditional(node: GroupNode, scope: Scope) -> Iterator[Effect]:
     """Yield the effects of ``(when (at start c) (at end e))``: each part says when by itself."""
-    found = list(read_conditions(node[1], scope, durative=True))
-    starts, ends = (And(tuple(c.formula for c in found if c.when == w)) for w in ("start", "end"))
-    if any(c.when == "all" for c in found):
+    parts = list(read_conditions(node[1], scope, durative=True))
+    starts, ends = (And(tuple(c.formula for c in parts if c.when == w)) for w in ("start", "end"))
+    if any(c.when == "all" for c in parts):
         message = "'over all' in the condition of an effect is not supported"
         scope.source.error(node.at, "unsupported", message, "a fact that the start sets can say it")
         return

@@ -45,14 +45,14 @@ def plain(problem: Problem) -> Problem:
 
 def remaining(problem: Problem) -> frozenset[str]:
     """Return the constructs of a problem that cannot be compiled away, by name."""
-    found = frozenset(constructs(problem))
-    if found == {AXIOMS}:
+    names = frozenset(constructs(problem))
+    if names == {AXIOMS}:
         try:
             without_axioms(problem)
         except UnsupportedError:
-            return found
+            return names
         return frozenset()
-    return found
+    return names
 
 
 def without_axioms(problem: Problem) -> Problem:
@@ -100,16 +100,16 @@ class _Inliner:
     def of(cls, axioms: Sequence[Axiom], problem: Problem) -> _Inliner:
         level = levels(axioms)
         inliner = cls({}, problem, count())
-        found: dict[str, list[Axiom]] = {}
+        bodies: dict[str, list[Axiom]] = {}
         for axiom in sorted(axioms, key=lambda a: level[a.name]):
             same = {name for name, other in level.items() if other == level[axiom.name]}
             if any(name in same for name, _ in uses(axiom.body)):
                 message = f"'{axiom.name}' is derived from itself, which a ground task cannot hold"
                 hint = "'plan' hands it to planners that know axioms"
                 raise UnsupportedError(message, hint=hint)
-            body = replace(inliner, axioms=found).formula(axiom.body)
-            found.setdefault(axiom.name, []).append(replace(axiom, body=body))
-        return replace(inliner, axioms=found)
+            body = replace(inliner, axioms=bodies).formula(axiom.body)
+            bodies.setdefault(axiom.name, []).append(replace(axiom, body=body))
+        return replace(inliner, axioms=bodies)
 
     def action(self, action: Action) -> Action:
         """Return an action whose conditions name no derived predicate."""

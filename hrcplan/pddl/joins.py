@@ -47,9 +47,9 @@ class FactIndex:
         for position, term in enumerate(atom.args):
             value = binding.get(term) if term.startswith("?") else term
             if value is not None:
-                found = self._by_argument.get((atom.name, position, value), [])
-                if len(found) < len(best):
-                    best = found
+                matches = self._by_argument.get((atom.name, position, value), [])
+                if len(matches) < len(best):
+                    best = matches
         return best
 
 
@@ -60,7 +60,7 @@ class Join:
         self.action = action
         self.atoms = tuple(atoms)
         self._objects = {p.name: problem.objects_of(p.types) for p in action.params}
-        self._allowed = {name: frozenset(found) for name, found in self._objects.items()}
+        self._allowed = {name: frozenset(objects) for name, objects in self._objects.items()}
 
     def bindings(
         self, index: FactIndex, first: tuple[int, Fact] | None = None

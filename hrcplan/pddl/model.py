@@ -334,16 +334,16 @@ class Domain:
         return {}
 
     def _above(self, name: str) -> frozenset[str]:
-        found = self._ancestors.get(name)
-        if found is None:
+        ancestors = self._ancestors.get(name)
+        if ancestors is None:
             seen = {name, OBJECT}
             waiting = [name]
             while waiting:
                 new = set(self.types.get(waiting.pop(), ())) - seen
                 seen |= new
                 waiting.extend(new)
-            found = self._ancestors[name] = frozenset(seen)
-        return found
+            ancestors = self._ancestors[name] = frozenset(seen)
+        return ancestors
 
     def is_a(self, name: str, types: tuple[str, ...]) -> bool:
         """Return whether type ``name`` is one of ``types`` or below one of them."""

@@ -24,8 +24,8 @@ def read_preferences(
     if not _mentions(node):
         return node, ()
     scope.source.use(":preferences", node.at)
-    found: list[Preference] = []
-    return _without(node, scope, (), durative, found), tuple(found)
+    preferences: list[Preference] = []
+    return _without(node, scope, (), durative, preferences), tuple(preferences)
 
 
 def _mentions(node: ParseNode) -> bool:
@@ -41,21 +41,21 @@ def _without(
     scope: Scope,
     params: tuple[Param, ...],
     durative: bool | None,
-    found: list[Preference],
+    preferences: list[Preference],
 ) -> ParseNode:
     if not isinstance(node, GroupNode) or not _mentions(node):
         return node
     if node.head == "preference":
-        found.extend(_preference(node, scope, params, durative))
+        preferences.extend(_preference(node, scope, params, durative))
         return GroupNode(node.at)
     rest = GroupNode(node.at)
     if node.head == "forall" and len(node) == 3:
         inner, inside = scope.quantifying(read_params(node[1], scope), node.at)
-        body = _without(node[2], inside, (*params, *inner), durative, found)
+        body = _without(node[2], inside, (*params, *inner), durative, preferences)
         rest.extend([node[0], node[1], body])
     else:
         rest.append(node[0])
-        parts = [_without(part, scope, params, durative, found) for part in node[1:]]
+        parts = [_without(part, scope, params, durative, preferences) for part in node[1:]]
         rest.extend(part for part in parts if part != [])
     return rest
 

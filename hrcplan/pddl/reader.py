@@ -214,8 +214,8 @@ def word_at(text: str, at: int) -> WordNode:
 
 
 def _tokens(text: str) -> list[Token]:
-    found = ((match.group(), match.start()) for match in _TOKEN.finditer(text))
-    return [token for token in found if token[0][0] != ";"]
+    tokens = ((match.group(), match.start()) for match in _TOKEN.finditer(text))
+    return [token for token in tokens if token[0][0] != ";"]
 
 
 def _build(tokens: Iterable[Token], source: SourceText) -> list[ParseNode]:

@@ -154,11 +154,11 @@ def unmet(formula: Formula, state: LiftedState, binding: Binding, problem: Probl
         parts = (unmet(part, state, binding, problem) for part in formula.parts)
         return next((part for part in parts if part is not None), None)
     if isinstance(formula, Quantified) and formula.universal:
-        found = (
+        false_parts = (
             unmet(formula.body, state, inner, problem)
             for inner in instances(formula.params, binding, problem)
         )
-        return next((part for part in found if part is not None), None)
+        return next((part for part in false_parts if part is not None), None)
     if holds(formula, state, binding, problem):
         return None
     missing = _without_value(formula, state.values, binding)

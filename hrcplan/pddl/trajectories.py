@@ -28,7 +28,7 @@ def read_constraints(section: GroupNode | None, scope: Scope) -> tuple[Constrain
     if section is None:
         return ()
     scope.source.use(SECTION, section.at)
-    return tuple(found for node in section[1:] for found in _constraints(node, scope))
+    return tuple(constraint for node in section[1:] for constraint in _constraints(node, scope))
 
 
 def _constraints(node: ParseNode, scope: Scope, preference: str = "") -> Iterator[Constraint]:
@@ -42,8 +42,8 @@ def _constraints(node: ParseNode, scope: Scope, preference: str = "") -> Iterato
             yield from _constraints(part, scope)
     elif head == "forall" and len(node) == 3:
         params, inside = scope.quantifying(read_params(node[1], scope), node.at)
-        for found in _constraints(node[2], inside, preference):
-            yield replace(found, params=(*params, *found.params))
+        for constraint in _constraints(node[2], inside, preference):
+            yield replace(constraint, params=(*params, *constraint.params))
     elif head == "preference" and not preference and len(node) in (2, 3):
         name = str(node[1]) if len(node) == 3 else "unnamed"
         yield from _constraints(node[-1], scope, name)

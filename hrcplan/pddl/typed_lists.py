@@ -126,7 +126,7 @@ def params_of(
     In a declaration of a predicate or function names mean nothing, and a repeated one is a
     warning. A faulty parameter keeps its place, so that arguments are still counted right.
     """
-    found: list[Param] = []
+    params: list[Param] = []
     seen: set[str] = set()
     for name, kinds in read_typed(nodes, source, types):
         text = str(name)
@@ -139,5 +139,5 @@ def params_of(
             message = f"parameter {quote(name)} is repeated"
             source.error(name.at, "repeated-parameter", message)
         seen.add(text)
-        found.append(Param(f"?{text.lstrip('?')}", kinds))
-    return tuple(found)
+        params.append(Param(f"?{text.lstrip('?')}", kinds))
+    return tuple(params)

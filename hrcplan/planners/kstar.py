@@ -87,8 +87,8 @@ def list_plans(
                 "--translate-options", "--invariant-generation-max-time", "0",
                 "--search-options", "--symmetries", _SYMMETRIES, "--search", search]  # fmt: skip
         finished = run(argv, cwd=cwd, limits=limits)
-        found = tuple(_plans(lowered, cwd / "plans.json", finished))
-    return Listed(found, n is None or len(found) < n)
+        plans = tuple(_plans(lowered, cwd / "plans.json", finished))
+    return Listed(plans, n is None or len(plans) < n)
 
 
 def _plans(

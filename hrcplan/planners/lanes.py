@@ -148,15 +148,15 @@ def _options(problem: Problem, plan: Plan) -> list[tuple[_Option, ...]]:
     by_step: dict[tuple[str, ...], list[int]] = {}
     for ground in task.actions:
         by_step.setdefault(ground.step, []).append(ground.index)
-    found: list[tuple[_Option, ...]] = []
+    choices: list[tuple[_Option, ...]] = []
     for action, kept in zip(plan.actions, own, strict=True):
         mine = task.find(action.name, action.args)
         alike = [
             i for i in by_step[task.actions[mine[0]].step] if task.costs[i] == task.costs[mine[0]]
         ] if mine else []  # fmt: skip
         others = [PlannedAction(task.actions[i].name, task.actions[i].args) for i in alike]
-        found.append(tuple((o, occupied(o, problem)) for o in others) or kept)
-    return found
+        choices.append(tuple((o, occupied(o, problem)) for o in others) or kept)
+    return choices
 
 
 def _tails(jobs: Sequence[_Job]) -> list[Number]:

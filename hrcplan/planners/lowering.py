@@ -70,13 +70,13 @@ class Lowered:
         Raises:
             PlanFormatError: if the text is no plan, or names an action that is not in the table.
         """
-        found: list[PlannedAction] = []
+        actions: list[PlannedAction] = []
         for lowered in parse_plan(text).actions:
             action = self.actions.get(lowered.name)
             if action is None or lowered.args:
                 raise PlanFormatError(f"{lowered} is no action of the lowered task")
-            found.append(PlannedAction(action.name, action.args))
-        return Plan(tuple(found))
+            actions.append(PlannedAction(action.name, action.args))
+        return Plan(tuple(actions))
 
     def objective(self, cost: int | Fraction) -> Number | None:
         """Return the metric of a plan with this lowered cost; None where it is not the metric."""

@@ -33,13 +33,13 @@ class Family:
         """
         session, until = os.getsid(0), time.monotonic() + _PATIENCE_S
         while time.monotonic() < until:
-            found = [pid for pid in self._adopted() if _session(pid) not in (session, None)]
-            if not found:
+            orphans = [pid for pid in self._adopted() if _session(pid) not in (session, None)]
+            if not orphans:
                 return
-            for pid in found:
+            for pid in orphans:
                 end_tree(pid)
             time.sleep(_PAUSE_S)
-            for pid in found:
+            for pid in orphans:
                 with suppress(ChildProcessError):
                     os.waitpid(pid, os.WNOHANG)
 
@@ -91,21 +91,21 @@ def _running_below(pid: int) -> list[int]:
     children: dict[int, list[int]] = {}
     for child, parent in _parents().items():
         children.setdefault(parent, []).append(child)
-    found = list(children.get(pid, ()))
-    for one in found:  # grows while it is walked
-        found.extend(children.get(one, ()))
-    return found
+    ids = list(children.get(pid, ()))
+    for one in ids:  # grows while it is walked
+        ids.extend(children.get(one, ()))
+    return ids
 
 
 def _parents(dead: str = "XZ") -> dict[int, int]:
     """Return the parent of every process whose state is not one of ``dead``."""
-    found = {}
+    parents = {}
     for folder in Path("/proc").glob("[0-9]*"):
         with suppress(OSError, ValueError):
             state, parent = (folder / "stat").read_text().rpartition(")")[2].split()[:2]
             if state not in dead:
-                found[int(folder.name)] = int(parent)
-    return found
+                parents[int(folder.name)] = int(parent)
+    return parents
 
 
 def _session(pid: int) -> int | None:

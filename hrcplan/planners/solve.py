@@ -58,12 +58,12 @@ def solve(
     if planner == AUTO:
         grounding_s = min(GROUNDING_S, timeout_s / 10)
         request.lazy_task.begin(problem, time.monotonic() + grounding_s)
-        found = _run(request, jobs(request), lanes, on_better).result()
+        answer = _run(request, jobs(request), lanes, on_better).result()
     else:
         chosen = registry.make(planner) if isinstance(planner, str) else planner
         job = Job(chosen, any_plan, "it was asked for")
-        found = _confirmed(_named(request, job, planner is not chosen, lanes, on_better), request)
-    return replace(found, wall_s=time.monotonic() - begun)
+        answer = _confirmed(_named(request, job, planner is not chosen, lanes, on_better), request)
+    return replace(answer, wall_s=time.monotonic() - begun)
 
 
 def _run(request: Request, waiting: Sequence[Job], lanes: bool, on_better: OnBetter) -> Portfolio:
@@ -105,18 +105,18 @@ def _named(request: Request, job: Job, is_named: bool, lanes: bool, on_better: O
     return race(request, [job], lanes, on_better).only(job.name)
 
 
-def _confirmed(found: Result, request: Request) -> Result:
+def _confirmed(first: Result, request: Request) -> Result:
     """Return a result; a claim that a task is unsolvable is checked with other planners."""
-    if found.claim is not Status.UNSOLVABLE or found.status is Status.UNSOLVABLE:
-        return found
+    if first.claim is not Status.UNSOLVABLE or first.status is Status.UNSOLVABLE:
+        return first
     rest = replace(request, any_plan=True)
-    others = [job for job in jobs(rest) if job.name != found.planner]
+    others = [job for job in jobs(rest) if job.name != first.planner]
     second = _run(rest, others, False, lambda result: None)
     if second.confirms_unsolvable:
-        return replace(found, status=Status.UNSOLVABLE)
+        return replace(first, status=Status.UNSOLVABLE)
     if second.best is not None:
         note = f"it says unsolvable, but '{second.best.planner}' has a valid plan"
     else:
         note = "it says unsolvable, which nothing confirms"
-    attempt = Attempt(found.planner, note, found.wall_s)
-    return replace(found, attempts=(*found.attempts, attempt))
+    attempt = Attempt(first.planner, note, first.wall_s)
+    return replace(first, attempts=(*first.attempts, attempt))

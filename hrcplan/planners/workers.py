@@ -49,14 +49,14 @@ class Worker:
         piece = os.read(self.fd, 1 << 20)
         self._pending += piece
         self.is_over = not piece
-        found: list[object] = []
+        messages: list[object] = []
         while len(self._pending) >= _LENGTH:
             end = _LENGTH + int.from_bytes(self._pending[:_LENGTH], "little")
             if len(self._pending) < end:
                 break
-            found.append(pickle.loads(bytes(self._pending[_LENGTH:end])))
+            messages.append(pickle.loads(bytes(self._pending[_LENGTH:end])))
             del self._pending[:end]
-        return found
+        return messages
 
     def exceeds(self, memory_bytes: int) -> bool:
         """Return whether it uses more memory than this; what it shares counts in part."""

@@ -90,9 +90,9 @@ class Distances:
     def estimates(self, states: Sequence[int]) -> list[list[float | None]]:
         """Return for each state and goal the cost of a relaxed plan; None if there is none."""
         began = time.monotonic()
-        found = self.relaxation.costs(states)
+        costs = self.relaxation.costs(states)
         self.clock.spent_s += time.monotonic() - began
-        return found
+        return costs
 
     def first(self, state: int) -> tuple[GoalDistance, ...]:
         """Return the places of all goals at the start."""

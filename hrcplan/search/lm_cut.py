@@ -34,7 +34,7 @@ def landmarks(ops: Sequence[Operator], state: int, goal: Tests) -> tuple[Landmar
     of reach even if nothing true ever becomes false.
     """
     relaxation = _Relaxation(ops, state, goal)
-    found: list[Landmark] = []
+    cuts: list[Landmark] = []
     while True:
         values = relaxation.h_max()
         bound = values[relaxation.goal]
@@ -42,9 +42,9 @@ def landmarks(ops: Sequence[Operator], state: int, goal: Tests) -> tuple[Landmar
             return None
         if not bound:
             break
-        found.append(relaxation.cut(values))
-    found.sort(key=lambda landmark: -landmark.cost)
-    return tuple(found[:MAX_LANDMARKS])
+        cuts.append(relaxation.cut(values))
+    cuts.sort(key=lambda landmark: -landmark.cost)
+    return tuple(cuts[:MAX_LANDMARKS])
 
 
 def longest_chain(ops: Sequence[Operator], state: int, goal: Tests) -> int | None:
@@ -134,8 +134,8 @@ class _Relaxation:
 
     def _before(self, zone: set[int]) -> set[int]:
         """Return the literals reached from the start without entering the zone."""
-        found = set(self.start) - zone
-        waiting = list(found)
+        literals = set(self.start) - zone
+        waiting = list(literals)
         while waiting:
             literal = waiting.pop()
             for i in self.users[literal]:
@@ -145,7 +145,7 @@ class _Relaxation:
                 if any(given in zone for given in gives):
                     continue
                 for given in gives:
-                    if given not in found:
-                        found.add(given)
+                    if given not in literals:
+                        literals.add(given)
                         waiting.append(given)
-        return found
+        return literals

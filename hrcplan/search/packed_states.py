@@ -49,12 +49,12 @@ class FactPacking:
 
     def small(self, state: int) -> int:
         """Return the kept facts of a state as a dense integer."""
-        found, rest = 0, state & self.mask
+        number, rest = 0, state & self.mask
         while rest:
             low = rest & -rest
-            found |= self._index[low]
+            number |= self._index[low]
             rest ^= low
-        return found
+        return number
 
     def row(self, state: int) -> Words:
         """Return the kept facts of a state as words."""
@@ -132,11 +132,11 @@ class PackedRules:
 
     def meets(self, states: Words, tests: Tests) -> Bools:
         """Return for each row whether any of the tests holds."""
-        found = np.zeros(len(states), dtype=np.bool_)
+        holds = np.zeros(len(states), dtype=np.bool_)
         for mask, value in tests:
             row = self.packing.row(mask)
-            found |= ((states & row) == self.packing.row(value)).all(axis=1)
-        return found
+            holds |= ((states & row) == self.packing.row(value)).all(axis=1)
+        return holds
 
     def _apply(self, states: Words, effects: Effects) -> Words:
         adds, deletes = np.zeros_like(states), np.zeros_like(states)

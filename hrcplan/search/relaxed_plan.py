@@ -92,16 +92,16 @@ class Relaxation:
         raw = b"".join((state & cut).to_bytes(size, "little") for state in states)
         rows = np.frombuffer(raw, np.uint8).reshape(-1, size)
         bits = np.unpackbits(rows, axis=1, bitorder="little")
-        found: Bools = (bits[:, self._fact] == self._is_true).T
-        return found
+        holds: Bools = (bits[:, self._fact] == self._is_true).T
+        return holds
 
     def _supporters(self, states: Sequence[int]) -> Ids:
         """Return for each literal and state the rule that makes it true cheapest (h-add)."""
         holds = self._holding(states)
         n = len(self._ids)
-        found = np.where(holds, HOLDS, NEVER)
+        rule_of = np.where(holds, HOLDS, NEVER)
         if not len(self._made):
-            return found
+            return rule_of
         values = np.full((n + 1, len(states)), INFINITE)
         values[:n][holds] = values[n] = 0
         while True:
@@ -114,28 +114,28 @@ class Relaxation:
         rank = np.where(offers == best[self._segment], np.arange(len(offers))[:, None], len(offers))
         cheapest = np.minimum.reduceat(rank, self._first, axis=0)
         rules = self._makers[np.minimum(cheapest, len(offers) - 1)]
-        found[self._made] = np.where(np.isfinite(values[self._made]), rules, NEVER)
-        found[holds] = HOLDS
-        return found
+        rule_of[self._made] = np.where(np.isfinite(values[self._made]), rules, NEVER)
+        rule_of[holds] = HOLDS
+        return rule_of
 
     def _offers(self, values: Floats) -> Floats:
         price = values[self._table[:, 0]]
         for column in self._table.T[1:]:
             price += values[column]
         price += self._rule_prices
-        found: Floats = price[self._makers]
-        return found
+        offers: Floats = price[self._makers]
+        return offers
 
     def _costs(self, supporter: list[int]) -> list[float | None]:
         known: dict[int, int] = {}
         costs: list[float | None] = []
         for tests in self._goals:
-            found: float | None = None
+            least: float | None = None
             for needs in tests:
                 if all(supporter[literal] != NEVER for literal in needs):
                     cost = self._cost(self._ops_for(needs, supporter, known))
-                    found = cost if found is None else min(found, cost)
-            costs.append(found)
+                    least = cost if least is None else min(least, cost)
+            costs.append(least)
         return costs
 
     def _ops_for(self, literals: Sequence[int], supporter: list[int], known: dict[int, int]) -> int:

@@ -77,13 +77,13 @@ def _add_operator(needed: Literals, op: Operator) -> None:
 
 def read_by(ops: Iterable[Operator], goal: Tests) -> int:
     """Return the facts that conditions of ``ops`` and a goal look at, as bits."""
-    found = Literals()
-    found.add_tests(goal)
+    literals = Literals()
+    literals.add_tests(goal)
     for op in ops:
-        found.add_tests(op.tests)
+        literals.add_tests(op.tests)
         for effect in op.effects:
-            found.add_tests(effect.tests)
-    return found.facts
+            literals.add_tests(effect.tests)
+    return literals.facts
 
 
 def overwritten_facts(ops: Sequence[Operator]) -> int:
@@ -92,8 +92,8 @@ def overwritten_facts(ops: Sequence[Operator]) -> int:
     States that differ in these alone have the same plans, unless one of them is a goal state: such
     a fact only matters to the goal, and then the last step decides.
     """
-    found = -1
+    facts = -1
     for op in ops:
         sure = (effect for effect in op.effects if effect.tests == ALWAYS)
-        found &= reduce(or_, (effect.touched for effect in sure), 0)
-    return found & ~read_by(ops, ()) if ops else 0
+        facts &= reduce(or_, (effect.touched for effect in sure), 0)
+    return facts & ~read_by(ops, ()) if ops else 0

@@ -67,7 +67,7 @@ def _document(
     document = {
         "study": study.name,
         "n_rows": len(rows[main.name]),
-        "rows": [_summary(study, cell, found) for cell, found in by_cell.items() if found],
+        "rows": [_summary(study, cell, summary) for cell, summary in by_cell.items() if summary],
         "claims": [
             {"claim": c.claim, "verdict": c.verdict, "holds": c.holds, "evidence": c.evidence}
             for c in findings.claims
@@ -92,10 +92,10 @@ def cells_of(
     rows: Sequence[StudyRow], keys: Sequence[str], order: Sequence[Cell]
 ) -> dict[Cell, list[StudyRow]]:
     """Return rows by their cell: known cells in their order, then others as they come."""
-    found: dict[Cell, list[StudyRow]] = {cell: [] for cell in order}
+    by_cell: dict[Cell, list[StudyRow]] = {cell: [] for cell in order}
     for row in rows:
-        found.setdefault(tuple(row[key] for key in keys), []).append(row)  # type: ignore[misc]
-    return found
+        by_cell.setdefault(tuple(row[key] for key in keys), []).append(row)  # type: ignore[misc]
+    return by_cell
 
 
 def estimates(
@@ -105,13 +105,13 @@ def estimates(
 
     Rows without a value are left out.
     """
-    found: dict[str, MeanEstimate] = {}
+    by_name: dict[str, MeanEstimate] = {}
     for name in names:
         had = [row for row in rows if row.get(name) is not None]
         values = [float(row[name] or 0) for row in had]
         units = [tuple(row[key] for key in unit) for row in had]
-        found[name] = estimate_by(zip(units, values, strict=True)) if unit else estimate(values)
-    return found
+        by_name[name] = estimate_by(zip(units, values, strict=True)) if unit else estimate(values)
+    return by_name
 
 
 def _summary(study: Study, cell: Cell, rows: Sequence[StudyRow]) -> dict[str, Any]:

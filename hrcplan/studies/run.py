@@ -64,10 +64,10 @@ def run_study(
         done = len(wanted) - len(left)
         if left:
             study.prepare(chosen, jobs, say)
-        for found in _results(name, chosen, seed, left, jobs):
-            for table, rows in groupby(found, lambda pair: pair[0].table):
+        for results in _results(name, chosen, seed, left, jobs):
+            for table, rows in groupby(results, lambda pair: pair[0].table):
                 store.add(study.table(table), list(rows))
-            done += len(found)
+            done += len(results)
             if progress is not None:
                 progress(done, len(wanted))
         if not store.is_compact:

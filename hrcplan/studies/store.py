@@ -110,8 +110,8 @@ class Store:
             tables = list(tables)
             for table in tables:
                 connection.execute(_create(table))
-            found = self.about()
-            if not found:
+            recorded = self.about()
+            if not recorded:
                 pairs = [(key, json.dumps(value)) for key, value in about.items()]
                 connection.executemany(f"insert into {_ABOUT} values (?, ?)", pairs)
         if any(table.clocked for table in tables):
@@ -119,8 +119,8 @@ class Store:
             for table in (table for table in tables if table.clocked):
                 self._connection.execute(_create(table, "clock."))
         for key, value in about.items():
-            if found and found.get(key) != value:
-                message = f"{self.folder} holds rows of {key} {found.get(key)}, not {value}"
+            if recorded and recorded.get(key) != value:
+                message = f"{self.folder} holds rows of {key} {recorded.get(key)}, not {value}"
                 raise UsageError(message, code="other-rows", hint="take a new folder")
 
     def _open_clock(self) -> None:
@@ -184,17 +184,17 @@ class Store:
         names = [column[0] for column in cursor.description]
         if missing := {*table.keys, "run", *table.columns} - set(names):
             raise self._damaged(f"{table.name} has no column {min(missing)}")
-        found = [dict(zip(names, row, strict=True)) for row in cursor]
-        for row in found:
+        records = [dict(zip(names, row, strict=True)) for row in cursor]
+        for row in records:
             if wrong := next((n for n, value in row.items() if not _is_value(value)), None):
                 raise self._damaged(f"{table.name} holds {wrong} = {row[wrong]!r}")
-        return found
+        return records
 
     @property
     def is_compact(self) -> bool:
         """Whether no row was added since the file was written anew."""
-        (found,) = self._connection.execute("pragma main.user_version").fetchone()
-        return bool(found == _COMPACT)
+        (version,) = self._connection.execute("pragma main.user_version").fetchone()
+        return bool(version == _COMPACT)
 
     def compact(self) -> None:
         """Write the file anew, so that its bytes depend on its rows and not on how they came."""

@@ -218,8 +218,8 @@ def episodes(
         cells = table.cells(options)
         wanted = runs if table.at_most is None else min(runs, table.at_most)
         if table is study.tables[0]:
-            found = (Episode(table.name, cell, run) for run in range(wanted) for cell in cells)
-            yield from islice(found, limit)
+            episodes = (Episode(table.name, cell, run) for run in range(wanted) for cell in cells)
+            yield from islice(episodes, limit)
             if limit is not None and cells:
                 runs = min(runs, max(1, limit // len(cells)))
         else:

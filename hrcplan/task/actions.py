@@ -56,7 +56,7 @@ class GroundAction(Transition):
 
 
 def ground_actions(
-    grounder: Grounder, found: Iterable[SchemaInstance], reached: Reached
+    grounder: Grounder, instances: Iterable[SchemaInstance], reached: Reached
 ) -> tuple[GroundAction, ...]:
     """Return the ground actions of instances: those that can run and change something.
 
@@ -65,7 +65,7 @@ def ground_actions(
     """
     builder = _Builder(grounder, reached)
     actions: list[GroundAction] = []
-    for instance in found:
+    for instance in instances:
         for chosen in combinations(keys_read(grounder, instance, reached), reached):
             try:
                 action = builder.build(len(actions), instance, chosen)
@@ -138,12 +138,12 @@ class _Builder:
         given: Mapping[FluentKey, Number] = {},
     ) -> Tests:
         """Return the conditions of one phase, and that changing functions have these values."""
-        found = self.grounder.conditions(instance.action, when, instance.binding, values)
+        tests = self.grounder.conditions(instance.action, when, instance.binding, values)
         if not self.reached:
-            return found
+            return tests
         keys = given or keys_read(self.grounder, instance, self.reached, when)
         bits = (self.grounder.bit(value_fact(key, values[key])) for key in keys)
-        return all_of([found, *(((bit, bit),) for bit in bits)])
+        return all_of([tests, *(((bit, bit),) for bit in bits)])
 
     def _changes(
         self, instance: SchemaInstance, when: str, values: Values
@@ -194,17 +194,17 @@ class _Builder:
         fixed = instance.action.fixed_duration
         if fixed is not None:
             first[DURATION,] = last[DURATION,] = grounded(fixed, instance.binding, first)
-        found: list[Expr] = []
+        costs: list[Expr] = []
         for effect in instance.action.effects:
             if effect.target.name != TOTAL_COST or effect.value is None:
                 continue
             known = first if effect.when == "start" else last
-            found.append(grounded(effect.value, instance.binding, known))
-        if any(f.name == DURATION for cost in found for f in functions_in(cost)):
+            costs.append(grounded(effect.value, instance.binding, known))
+        if any(f.name == DURATION for cost in costs for f in functions_in(cost)):
             raise UnsupportedError(f"the cost of '{instance.action.name}' needs a fixed duration")
-        for cost in found:
+        for cost in costs:
             evaluate(cost, values, {})
-        return tuple(found)
+        return tuple(costs)
 
     def _constants(self, values: Values) -> dict[FluentKey, Expr]:
         """Return the values of the changing functions, as expressions."""

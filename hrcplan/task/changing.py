@@ -53,7 +53,7 @@ def moves(
         UnsupportedError: if that cannot be said without knowing the state.
         Undefined: if an effect needs a function without a value.
     """
-    action, found = instance.action, dict[FluentKey, ValueMove]()
+    action, value_moves = instance.action, dict[FluentKey, ValueMove]()
     for effect in numeric_effects(action, when):
         assert effect.value is not None
         for inner in instances(effect.params, instance.binding, grounder.problem):
@@ -61,14 +61,14 @@ def moves(
             if tests == NEVER:
                 continue
             key = ground_key(effect.target, inner)
-            last = found.get(key)
+            last = value_moves.get(key)
             if tests != ALWAYS and (last or (action.durative and when == "start")):
                 message = f"what '{action.name}' does to ({' '.join(key)}) depends on the state"
                 raise UnsupportedError(message, hint="enhsp and kairos plan with such numbers")
             before = values.get(key) if last is None else last.value
             amount = evaluate(effect.value, values, inner)
-            found[key] = ValueMove(key, assigned(effect.kind, key, before, amount), tests)
-    return list(found.values())
+            value_moves[key] = ValueMove(key, assigned(effect.kind, key, before, amount), tests)
+    return list(value_moves.values())
 
 
 def timed(instance: SchemaInstance, values: Values) -> Values:
@@ -83,13 +83,13 @@ def timed(instance: SchemaInstance, values: Values) -> Values:
     return {**values, (DURATION,): evaluate(fixed, values, instance.binding)}
 
 
-def reached_values(grounder: Grounder, found: Sequence[SchemaInstance]) -> Reached:
+def reached_values(grounder: Grounder, schema_instances: Sequence[SchemaInstance]) -> Reached:
     """Return every value that each function which an instance changes can reach.
 
     Raises:
         UnsupportedError: if a function has more than ``MAX_VALUES`` values.
     """
-    movers = [i for i in found if any(numeric_effects(i.action))]
+    movers = [i for i in schema_instances if any(numeric_effects(i.action))]
     keys = {
         ground_key(effect.target, inner)
         for i in movers
@@ -152,8 +152,8 @@ def keys_read(
     """
     if not reached:
         return frozenset()
-    found = set(_keys(grounder, instance.action, instance.binding, phase))
-    return frozenset(found & reached.keys())
+    keys = set(_keys(grounder, instance.action, instance.binding, phase))
+    return frozenset(keys & reached.keys())
 
 
 def _keys(

@@ -113,27 +113,27 @@ def meets(state: int, tests: Tests) -> bool:
 
 def any_of(parts: Iterable[Tests]) -> Tests:
     """Return alternatives of which one holds where any part holds."""
-    found: dict[Test, None] = {}
+    alternatives: dict[Test, None] = {}
     for part in parts:
-        found.update(dict.fromkeys(part))
-        if (0, 0) in found:
+        alternatives.update(dict.fromkeys(part))
+        if (0, 0) in alternatives:
             return ALWAYS
-    return _bounded(tuple(found))
+    return _bounded(tuple(alternatives))
 
 
 def all_of(parts: Iterable[Tests]) -> Tests:
     """Return alternatives of which one holds where all parts hold."""
-    found = ALWAYS
+    tests = ALWAYS
     for part in parts:
-        if found == ALWAYS or part == NEVER:
-            found = part
+        if tests == ALWAYS or part == NEVER:
+            tests = part
         elif part != ALWAYS:
-            pairs = [conjunction(one, other) for one in found for other in part]
+            pairs = [conjunction(one, other) for one in tests for other in part]
             known = [pair for pair in pairs if pair is not None]
-            found = tuple(known) if len(known) < 2 else _bounded(tuple(dict.fromkeys(known)))
-        if found == NEVER:
+            tests = tuple(known) if len(known) < 2 else _bounded(tuple(dict.fromkeys(known)))
+        if tests == NEVER:
             return NEVER
-    return found
+    return tests
 
 
 def conjunction(one: Test, other: Test) -> Test | None:
@@ -151,7 +151,7 @@ def negation(tests: Tests) -> Tests:
     return all_of(tuple((bit, ~value & bit) for bit in single_bits(mask)) for mask, value in tests)
 
 
-def _bounded(found: Tests) -> Tests:
-    if len(found) > MAX_ALTERNATIVES:
+def _bounded(tests: Tests) -> Tests:
+    if len(tests) > MAX_ALTERNATIVES:
         raise UnsupportedError(f"a condition has more than {MAX_ALTERNATIVES} alternatives")
-    return found
+    return tests

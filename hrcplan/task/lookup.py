@@ -51,14 +51,14 @@ class Waiting:
     def runnable(self, state: int) -> list[int]:
         """Return the indices of the rules, in order."""
         candidates = [self._free, *(self._at[i] for i in positions(state & self._watched))]
-        found = [
+        indices = [
             index
             for rules in candidates
             for index, (mask, value, touched, adds) in rules
             if state & mask == value and state & touched != adds
         ]
-        found.sort()
-        return found
+        indices.sort()
+        return indices
 
 
 class Lookup:
@@ -85,12 +85,12 @@ class Lookup:
         for table, part in zip(self._tables, slices):  # noqa: B905
             verdicts |= table[part]
         runs = verdicts >> self._n_actions & ~verdicts
-        found: list[int] = []
+        candidates: list[int] = []
         indices = memoryview(runs.to_bytes(self._n_list_bytes, "little")).cast("H")
         for lists, part in zip(self._lists, indices):  # noqa: B905
             if part:
-                found += lists[part]
-        return found
+                candidates += lists[part]
+        return candidates
 
 
 def _verdicts(
@@ -139,6 +139,6 @@ class _Lists(dict[int, tuple[int, ...]]):
         self._first = first
 
     def __missing__(self, part: int) -> tuple[int, ...]:
-        found = tuple(self._first + i for i in range(SLICE) if part >> i & 1)
-        self[part] = found
-        return found
+        indices = tuple(self._first + i for i in range(SLICE) if part >> i & 1)
+        self[part] = indices
+        return indices

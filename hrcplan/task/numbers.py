@@ -107,9 +107,9 @@ def linear(expression: Expr, binding: Binding) -> Linear | None:
         case Function():
             return {ground_key(expression, binding): 1}
         case Arithmetic(op, parts):
-            found = [linear(part, binding) for part in parts]
-            known = [part for part in found if part is not None]
-            return _combine(op, known) if len(known) == len(found) else None
+            sums = [linear(part, binding) for part in parts]
+            known = [part for part in sums if part is not None]
+            return _combine(op, known) if len(known) == len(sums) else None
 
 
 def _combine(op: str, parts: list[Linear]) -> Linear | None:

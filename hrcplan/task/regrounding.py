@@ -99,15 +99,15 @@ class Structure:
         if self._left is None:
             return None
         old, new = self.task.problem.values, problem.values
-        found: dict[FluentKey, tuple[Number, ...]] = {}
+        roles: dict[FluentKey, tuple[Number, ...]] = {}
         for key, values in self.task.reached.items():
             left = {evaluate(e, old, b): evaluate(e, new, b) for e, b in self._left.get(key, ())}
             after = {evaluate(e, new, b) for e, b in self._left.get(key, ())}
             numbers = _renumbered(tuple(values), left, new[key])
             if numbers is None or after.difference(numbers):
                 return None
-            found[key] = numbers
-        return found if self._possible(new, found) == self._truths else None
+            roles[key] = numbers
+        return roles if self._possible(new, roles) == self._truths else None
 
     def _possible(self, values: Values, roles: Reached) -> list[bool]:
         """Return what the comparisons of each interaction say, for each choice of roles."""
@@ -133,9 +133,9 @@ class Groundings:
             LimitError: if there are too many ground actions.
         """
         for kept in self._kept:
-            found = kept.again(problem)
-            if found is not None:
-                return found
+            task = kept.again(problem)
+            if task is not None:
+                return task
         new = Structure(Task(problem))
         # The smallest that holds a problem is the quickest.
         all_kept = [*self._kept[-MAX_KEPT:], new]
@@ -206,7 +206,7 @@ def _renumbered(
 
 def _assignments(task: Task) -> dict[FluentKey, list[tuple[Expr, Binding]]] | None:
     """Return what interactions leave each function at; None if actions do more with them."""
-    found: dict[FluentKey, list[tuple[Expr, Binding]]] = {}
+    assignments: dict[FluentKey, list[tuple[Expr, Binding]]] = {}
     schema = task.problem.domain.action
     moving = {key[0] for key in task.reached}
     used = {action.name for action in task.actions}
@@ -220,8 +220,9 @@ def _assignments(task: Task) -> dict[FluentKey, list[tuple[Expr, Binding]]] | No
             if not plain or any(f.name == DURATION for f in functions_in(effect.value)):
                 return None
             binding = _binding(action, args)
-            found.setdefault(ground_key(effect.target, binding), []).append((effect.value, binding))
-    return found
+            key = ground_key(effect.target, binding)
+            assignments.setdefault(key, []).append((effect.value, binding))
+    return assignments
 
 
 def _goal_reads_changes(task: Task) -> bool:
@@ -232,10 +233,10 @@ def _goal_reads_changes(task: Task) -> bool:
 
 def _looks_closer(action: Action, moving: set[str]) -> bool:
     """Return whether an action does with changing functions more than count them as a cost."""
-    found = {function.name for function in _shaping(action)}
+    names = {function.name for function in _shaping(action)}
     if any(numeric_effects(action)):
-        found.update(f.name for effect in action.effects for f in functions_in(effect.value))
-    return not moving.isdisjoint(found)
+        names.update(f.name for effect in action.effects for f in functions_in(effect.value))
+    return not moving.isdisjoint(names)
 
 
 def _binding(action: Action, args: tuple[str, ...]) -> Binding:

@@ -107,11 +107,11 @@ class StepTable:
 
         Where agents are kept, words without an agent name no step.
         """
-        found = self._index.get(tuple(words))
-        if found is None:
+        step = self._index.get(tuple(words))
+        if step is None:
             actions = self.task.find(words[0], words[1:]) if words else []
             return self.of_action[actions[0]] if actions else None
-        return found
+        return step
 
     def applicable(self, state: int) -> list[int]:
         """Return the steps that some agent can do in ``state`` and that change it, in order."""
@@ -201,10 +201,10 @@ class StepTable:
 
     @cached_property
     def _ways(self) -> list[list[Operator]]:
-        found: list[list[Operator]] = [[] for _ in self._steps]
+        ways: list[list[Operator]] = [[] for _ in self._steps]
         for op in sorted(self.ops, key=lambda op: op.cost):
-            found[op.step].append(op)
-        return found
+            ways[op.step].append(op)
+        return ways
 
     def in_units(self, price: int) -> Number:
         """Return an integer price as bank cost."""
@@ -227,12 +227,12 @@ class StepTable:
     def ops(self) -> tuple[Operator, ...]:
         """The ways to do the steps, by step; the cheapest where they differ in nothing else."""
         prices, _ = self._prices
-        found: dict[Operator, int] = {}
+        price_of: dict[Operator, int] = {}
         for action in self.task.actions:
             step, price = self.of_action[action.index], prices[action.index]
             way = Operator(action.tests, *action.sequential, step=step, cost=0)
-            found[way] = min(price, found.get(way, price))
-        ops = [replace(way, cost=price) for way, price in found.items()]
+            price_of[way] = min(price, price_of.get(way, price))
+        ops = [replace(way, cost=price) for way, price in price_of.items()]
         return tuple(sorted(ops, key=lambda op: op.step))
 
 

@@ -182,12 +182,12 @@ class Task:
     @cached_property
     def _structural(self) -> frozenset[str]:
         """The functions that decide more than costs, those of ``reached`` aside."""
-        found = {function.name for function in formula_functions(self.problem.goal)}
+        names = {function.name for function in formula_functions(self.problem.goal)}
         for action in self.problem.domain.actions:
-            found.update(function.name for function in functions_read(action))
+            names.update(function.name for function in functions_read(action))
             # A cost that divides by zero is none: the action cannot run.
-            found.update(f.name for effect in action.effects for f in divisors(effect.value))
-        return frozenset(found)
+            names.update(f.name for effect in action.effects for f in divisors(effect.value))
+        return frozenset(names)
 
     @cached_property
     def is_agent_free(self) -> bool:

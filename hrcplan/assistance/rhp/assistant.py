@@ -163,12 +163,12 @@ class RecedingHorizonPlanner(ValueAssistant[RhpState]):
     ) -> tuple[tuple[tuple[int, ...], ...], tuple[int, ...]]:
         """Return the sequences after a change, out of all that the human ever did (III-D1)."""
         worth = [self.generality[self._label[s]] for s in earlier]
-        found = self.consistency.largest(earlier, step, worth, self.n_sequences)
-        if not found:
+        sequences = self.consistency.largest(earlier, step, worth, self.n_sequences)
+        if not sequences:
             # Not even the latest step alone fits a goal, as after a mistake that no goal has any
             # use for. It tells nothing, so that all goals stay plausible until the next step.
             return ((step,),), (self.consistency.everything,)
-        return tuple(found), tuple(self.consistency.goals(sequence) for sequence in found)
+        return tuple(sequences), tuple(self.consistency.goals(sequence) for sequence in sequences)
 
     def posterior(self, state: RhpState) -> Floats:
         """Return the probability of each goal, in order: the mean over the sequences."""
@@ -188,8 +188,8 @@ class RecedingHorizonPlanner(ValueAssistant[RhpState]):
             if len(self._predicted) >= MAX_REMEMBERED:
                 self._predicted.clear()
                 new = list(range(len(rows)))
-            for i, found in zip(new, belief.posteriors(rows[new]), strict=True):
-                self._predicted[keys[i]] = found
+            for i, posterior in zip(new, belief.posteriors(rows[new]), strict=True):
+                self._predicted[keys[i]] = posterior
         return np.stack([self._predicted[key] for key in keys])
 
     def options(self, state: RhpState) -> StepChoice:

@@ -83,7 +83,7 @@ class Subset:
                     for nth in range(1, times + 1):
                         owners.setdefault((label, nth), []).append(number)
             n += len(kinds)
-        self._kinds = {occurrence: _mask(found, n) for occurrence, found in owners.items()}
+        self._kinds = {occurrence: _mask(numbers, n) for occurrence, numbers in owners.items()}
         self._all_kinds = (1 << n) - 1
         # One kind for each goal, as where plans differ in order alone: kinds are goals.
         self._alike = [(start, goal) for start, _, goal in self._spans] == [
@@ -93,10 +93,10 @@ class Subset:
     def goals(self, steps: Sequence[int]) -> int:
         """Return the goals of which some plan has all these steps, as bits."""
         done = [self.label[step] for step in steps]
-        found = self._all_kinds
+        kinds = self._all_kinds
         for occurrence in _occurrences(done):
-            found &= self._kinds.get(occurrence, 0)
-        goals = self._goals_of(found)
+            kinds &= self._kinds.get(occurrence, 0)
+        goals = self._goals_of(kinds)
         for goal in self._large:
             if self._may_fit(goal, tuple(sorted(done))):
                 goals |= 1 << goal

@@ -32,17 +32,17 @@ def largest_first(
     seen = set(covers)
     waiting = [(-m.bit_count(), -sum(worth[i] for i in positions(m)), -m) for m in seen]
     heapify(waiting)
-    found: dict[tuple[int, ...], None] = {}
-    while waiting and len(found) < n:
+    sequences: dict[tuple[int, ...], None] = {}
+    while waiting and len(sequences) < n:
         size, total, negative = heappop(waiting)
         part = -negative
         places = list(positions(part))
         sequence = (*(earlier[i] for i in places), latest)
-        if sequence not in found and fits(sequence):
-            found[sequence] = None
+        if sequence not in sequences and fits(sequence):
+            sequences[sequence] = None
         for i in places:
             smaller = part ^ 1 << i
             if smaller not in seen:
                 seen.add(smaller)
                 heappush(waiting, (size + 1, total + worth[i], -smaller))
-    return list(found)
+    return list(sequences)

@@ -131,18 +131,18 @@ class Plans:
         columns = [self.places[done[i]] for i in places]
         end = np.max(self.places[last], axis=0)
         tops = _tops(columns, keys, end)
-        found: set[int] = set()
+        best_keys: set[int] = set()
         looked: set[tuple[int, ...]] = set()
         for row in np.argsort(-tops, kind="stable").tolist():
-            least = min(found) if len(found) >= n else -1
+            least = min(best_keys) if len(best_keys) >= n else -1
             if tops[row] < 0 or tops[row] < least:
                 break
             own = [[int(c[row]) for c in column] for column in columns]
             order = _order(own, int(end[row]))
             if order not in looked:
                 looked.add(order)
-                found = set(nlargest(n, found | _best_of(own, keys, int(end[row]), n)))
-        return [_unpacked(key, places, worth) for key in sorted(found, reverse=True)]
+                best_keys = set(nlargest(n, best_keys | _best_of(own, keys, int(end[row]), n)))
+        return [_unpacked(key, places, worth) for key in sorted(best_keys, reverse=True)]
 
 
 def _tops(columns: Sequence[Sequence[Places]], keys: Sequence[int], end: Places) -> Ids:
@@ -151,16 +151,16 @@ def _tops(columns: Sequence[Sequence[Places]], keys: Sequence[int], end: Places)
     for column, key in zip(columns, keys, strict=True):
         now = [(place, _extended(seen, place) + key) for place in column]
         seen += [(place, np.where(place >= 0, sums, -1)) for place, sums in now]
-    found = _extended(seen, end)
-    return np.where(end >= 0, found, -1)
+    sums_at_end = _extended(seen, end)
+    return np.where(end >= 0, sums_at_end, -1)
 
 
 def _extended(seen: Sequence[tuple[Places, Ids]], end: Places) -> Ids:
     """Return for each plan the largest of the sums that stand before a place, at least 0."""
-    found = np.zeros(len(end), dtype=np.int64)
+    best_sums = np.zeros(len(end), dtype=np.int64)
     for place, sums in seen:
-        np.maximum(found, np.where(place < end, sums, 0), out=found)
-    return found
+        np.maximum(best_sums, np.where(place < end, sums, 0), out=best_sums)
+    return best_sums
 
 
 def _best_of(own: Sequence[Sequence[int]], keys: Sequence[int], end: int, n: int) -> set[int]:
@@ -189,8 +189,8 @@ def _unpacked(key: int, places: Sequence[int], worth: Sequence[int]) -> tuple[in
 
 
 def _labeled(plans: SmallIds, label: Sequence[int]) -> SmallIds:
-    found: SmallIds = np.array([*label, -1], dtype=np.int32)[plans]
-    return found
+    labels: SmallIds = np.array([*label, -1], dtype=np.int32)[plans]
+    return labels
 
 
 def _occurrences(here: Bools) -> Iterator[Places]:

@@ -33,19 +33,19 @@ class PrefixPosterior:
         world: int | None = self.bank.initial
         for step in steps:
             world = None if world is None else self.bank.table.successor(world, step)
-        found = np.zeros(len(self.bank.graphs))
+        weights = np.zeros(len(self.bank.graphs))
         if world is not None:
-            found = self.beginnings(world, [len(steps)] * len(found))
-        return found
+            weights = self.beginnings(world, [len(steps)] * len(weights))
+        return weights
 
     def beginnings(self, world: int, n_steps: Sequence[int]) -> Floats:
         """Return the weight of each goal in a state that so many of its steps led to."""
-        found = np.zeros(len(self.bank.graphs))
+        weights = np.zeros(len(self.bank.graphs))
         for goal, (graph, n) in enumerate(zip(self.bank.graphs, n_steps, strict=True)):
             node = graph.node_of(world)
             if node is not None and self._depth[goal][graph.layer_of[node]] == n:
-                found[goal] = self._weights[goal][node]
-        return found
+                weights[goal] = self._weights[goal][node]
+        return weights
 
     def accuracy(self, prefixes: Sequence[Sequence[int]], goals: Sequence[int]) -> float:
         """Return how often the likeliest goal is right; of equals each counts its part."""
@@ -87,19 +87,19 @@ class SetPosterior:
 
     def posteriors(self, rows: NDArray[np.uint8]) -> Floats:
         """Return the probability of each goal for each row of done labels."""
-        found = np.zeros((len(rows), len(self.names)))
+        posteriors = np.zeros((len(rows), len(self.names)))
         for place, row in enumerate(rows):
             weights = self._weights(row) if row.any() else np.ones(len(self.names))
-            found[place] = weights_to_posterior(weights)
-        return found
+            posteriors[place] = weights_to_posterior(weights)
+        return posteriors
 
     def _weights(self, row: NDArray[np.uint8]) -> Floats:
         done = np.flatnonzero(row)
         n_used = self._uses @ row
-        found = self._ceiling.beginnings(self._world(done.tolist()), n_used.tolist())
-        found = np.where(found, found, self._alike[np.arange(len(found)), n_used])
+        prefixes = self._ceiling.beginnings(self._world(done.tolist()), n_used.tolist())
+        prefixes = np.where(prefixes, prefixes, self._alike[np.arange(len(prefixes)), n_used])
         errors = np.array([self.error**n for n in range(len(done) + 1)])
-        weights: Floats = np.where(self._has_plan, found * errors[len(done) - n_used], 0.0)
+        weights: Floats = np.where(self._has_plan, prefixes * errors[len(done) - n_used], 0.0)
         return weights
 
     def _any_order(self) -> Floats:
@@ -117,8 +117,8 @@ class SetPosterior:
         while waiting:
             left = []
             for label in waiting:
-                found = (self.bank.table.successor(world, s) for s in self._called[label])
-                after = next((w for w in found if w is not None), None)
+                successors = (self.bank.table.successor(world, s) for s in self._called[label])
+                after = next((w for w in successors if w is not None), None)
                 if after is None:
                     left.append(label)
                 else:
@@ -134,5 +134,5 @@ def _weights(bank: Bank, goal: int) -> Floats:
     if not graph.n_steps:
         return np.zeros(graph.n_nodes)
     passing = graph.n_paths_from_root.astype(np.float64) * graph.n_paths_to_goal.astype(np.float64)
-    found: Floats = passing / float(graph.plans) / graph.n_steps
-    return found
+    weights: Floats = passing / float(graph.plans) / graph.n_steps
+    return weights

@@ -33,8 +33,8 @@ class Ordered(ABC):
                 self._remembered.clear()
             # What does not fit without its last step does not fit with it.
             before = self._remembered.get(done[:-1], self.everything)
-            found = self.subset.goals(steps) & before
-            known = sum(1 << goal for goal in positions(found) if self._fits(goal, done))
+            goals = self.subset.goals(steps) & before
+            known = sum(1 << goal for goal in positions(goals) if self._fits(goal, done))
             self._remembered[done] = known
         return known
 
@@ -75,10 +75,10 @@ class Subsequence(Ordered):
 
 
 def _set_of(labels: Sequence[int]) -> int:
-    found = 0
+    bits = 0
     for label in labels:
-        found |= 1 << label
-    return found
+        bits |= 1 << label
+    return bits
 
 
 def _orders(graph: PlanGraph) -> dict[int, int]:

@@ -80,7 +80,7 @@ class RecedingHorizonTree:
         branch is only lowered further in the trees where it was among the cheapest one depth of
         the robot's before; one that is nowhere among them is final and need not be grown.
         """
-        found: dict[int, int] = {}
+        lowest: dict[int, int] = {}
         ended: list[TreeBranch] = []
         now = self.imagined.begin(root.progress)
         level = [
@@ -95,13 +95,13 @@ class RecedingHorizonTree:
             for branch in level:
                 lowers = [cost == low for cost, low in zip(branch.costs, least, strict=True)]
                 if not any(lowers):
-                    _note(found, branch)
+                    _note(lowest, branch)
                 else:
                     self._grow(root, branch, lowers, grown, ended)
             level = grown
         for branch in level + ended:
-            _note(found, branch)
-        return found
+            _note(lowest, branch)
+        return lowest
 
     def _grow(
         self, root: TreeRoot, branch: TreeBranch, lowers: Sequence[bool], grown: list[TreeBranch],
@@ -135,7 +135,7 @@ class RecedingHorizonTree:
         )
 
 
-def _note(found: dict[int, int], branch: TreeBranch) -> None:
+def _note(lowest: dict[int, int], branch: TreeBranch) -> None:
     """Record the summed costs of a branch if they are the lowest after its first step."""
     total = sum(branch.costs)
-    found[branch.first] = min(total, found.get(branch.first, total))
+    lowest[branch.first] = min(total, lowest.get(branch.first, total))

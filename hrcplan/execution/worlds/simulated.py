@@ -148,14 +148,14 @@ class SimulatedWorld:
         """Return the events of the next instant: outcomes, then changes, then what is sensed."""
         while self._clock:
             self._now = t = self._clock[0][0]
-            found: list[Event] = []
+            events: list[Event] = []
             instant: list[tuple[int, int, object]] = []
             while self._pull(t, instant):
                 kind, _, what = heapq.heappop(instant)
-                found += self._happen(t, kind, what)
-            if found:
-                found.append(self._observation())
-                return tuple(sorted(found, key=lambda e: ev.RANK[type(e)]))
+                events += self._happen(t, kind, what)
+            if events:
+                events.append(self._observation())
+                return tuple(sorted(events, key=lambda e: ev.RANK[type(e)]))
         return ()
 
     def _pull(self, t: float, instant: list[tuple[int, int, object]]) -> bool:

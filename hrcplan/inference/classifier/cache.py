@@ -61,15 +61,15 @@ def load_or_train(folder: Path, key: Key, make: Callable[[], Trained]) -> Traine
         make: Trains the forest.
     """
     path = path_of(folder, key)
-    found, fault = _look(path, key)
-    found = found or _unsaved.get(path)
-    if found is not None:
-        return found
+    forest, fault = _look(path, key)
+    forest = forest or _unsaved.get(path)
+    if forest is not None:
+        return forest
     with _alone(path.with_suffix(".lock")) as alone:
         if alone:  # while this process waited, another may have made it
-            found, fault = _look(path, key)
-            if found is not None:
-                return found
+            forest, fault = _look(path, key)
+            if forest is not None:
+                return forest
         made = make()
         if alone and _saved(path, key, made):
             made = _look(path, key)[0] or made

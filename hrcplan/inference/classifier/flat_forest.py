@@ -66,8 +66,8 @@ class FlatForest:
         shares = np.concatenate([tree.value[tree.children_left < 0, 0, :] for tree in trees])
         shares = (shares / shares.sum(axis=1, keepdims=True)).astype(np.float32)
         whole = shares.view(f"V{shares[0].nbytes}").ravel()  # bytes sort much faster than rows
-        found, which = np.unique(whole, return_inverse=True)
-        leaves = found.view(np.float32).reshape(len(found), -1)
+        rows, which = np.unique(whole, return_inverse=True)
+        leaves = rows.view(np.float32).reshape(len(rows), -1)
         n_inner = int((~is_leaf).sum())
         begin = np.zeros(len(is_leaf), dtype=np.int64)
         begin[is_leaf] = _NODE * which
@@ -96,8 +96,8 @@ class FlatForest:
     def _some(self, rows: Rows) -> Floats:
         reached = self.leaves.take(self._walk(rows), axis=0).astype(np.float64)
         ones = np.ones((1, len(self.roots)))
-        found: Floats = np.matmul(ones, reached)[:, 0] / len(self.roots)
-        return found
+        mean: Floats = np.matmul(ones, reached)[:, 0] / len(self.roots)
+        return mean
 
     def _walk(self, rows: Rows) -> SmallIds:
         """Return the leaf that each row reaches in each tree."""

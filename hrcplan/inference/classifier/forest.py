@@ -90,13 +90,13 @@ class ForestBelief:
     @property
     def note(self) -> str:
         """The training in words."""
-        t, found = self.training, self._trained
+        t, origin = self.training, self._trained
         text = (
             f"trained on {t.n_train} beginnings of plans in {t.train_s:.0f} s"
-            f"{', and kept since' if found.is_from_cache else ''}; "
+            f"{', and kept since' if origin.is_from_cache else ''}; "
             f"right on {100 * t.accuracy:.1f} % of {t.n_held_out} held out"
         )
-        return text if found.fault is None else f"{text}; trained anew, since {found.fault}"
+        return text if origin.fault is None else f"{text}; trained anew, since {origin.fault}"
 
     def start(self) -> ForestState:
         """Return the belief before any step."""
@@ -113,8 +113,8 @@ class ForestBelief:
 
     def posterior(self, state: ForestState) -> Floats:
         """Return the probability of each goal, in order; uniform before any step."""
-        found: Floats = self.posteriors(state.row[None])[0]
-        return found
+        posterior: Floats = self.posteriors(state.row[None])[0]
+        return posterior
 
     def posteriors_after(self, state: ForestState, sequences: Sequence[Sequence[int]]) -> Floats:
         """Return (sequences, goals) probabilities: after each sequence of further steps.
@@ -139,13 +139,13 @@ class ForestBelief:
         new = {key: i for i, key in enumerate(keys) if key not in known}
         if new:
             known.update(zip(new, self._posteriors(rows[list(new.values())]), strict=True))
-        found = np.array([known[key] for key in keys]).reshape(-1, len(self.names))
+        posteriors = np.array([known[key] for key in keys]).reshape(-1, len(self.names))
         for key in list(islice(known, max(0, len(known) - MAX_KNOWN))):
             del known[key]
-        return found
+        return posteriors
 
     def _posteriors(self, rows: Rows) -> Floats:
-        found = np.zeros((len(rows), len(self.names)))
-        found[:, self._trained.classes] = self._trained.model.predict_proba(rows)
-        found[~rows.any(axis=1)] = 1
-        return weights_to_posteriors(found)
+        weights = np.zeros((len(rows), len(self.names)))
+        weights[:, self._trained.classes] = self._trained.model.predict_proba(rows)
+        weights[~rows.any(axis=1)] = 1
+        return weights_to_posteriors(weights)

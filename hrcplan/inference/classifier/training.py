@@ -101,11 +101,11 @@ def forest(seed: int, n_trees: int, n_jobs: int) -> Classifier:
     """Return the classifier of the changed-mind paper, untrained."""
     from sklearn.ensemble import RandomForestClassifier
 
-    found: Classifier = RandomForestClassifier(
+    classifier: Classifier = RandomForestClassifier(
         n_trees, min_samples_leaf=MIN_LEAF, min_samples_split=MIN_SPLIT, random_state=seed,
         n_jobs=n_jobs,
     )  # fmt: skip
-    return found
+    return classifier
 
 
 def train(bank: Bank, seed: int, n_samples: int, classifier: Classifier) -> Trained:

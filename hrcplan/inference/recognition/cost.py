@@ -129,14 +129,14 @@ class CostBelief:
         for op in ops:
             if self.ops[op].is_enabled(world):
                 return [op]
-        found = self.distances.bridge(world, [test for op in ops for test in self.ops[op].tests])
-        if found is None:
+        bridge = self.distances.bridge(world, [test for op in ops for test in self.ops[op].tests])
+        if bridge is None:
             return None
         there = world
-        for op in found.ops:
+        for op in bridge.ops:
             there = self.ops[op].apply(there)
         last = next((op for op in ops if self.ops[op].is_enabled(there)), None)
-        return None if last is None else [*found.ops, last]
+        return None if last is None else [*bridge.ops, last]
 
     def _siblings(self, world: int, n_observed: int) -> list[int]:
         """Return the states that one action leads to; an even choice of them if there are many."""
@@ -146,16 +146,16 @@ class CostBelief:
             return []
         most = MAX_SIBLINGS if left_s > 0 else FEW_SIBLINGS
         task = self.goals.task
-        found = list(dict.fromkeys(task.successor(world, i) for i in task.applicable(world)))
-        stride = -(-len(found) // most) or 1
-        return found[::stride]
+        states = list(dict.fromkeys(task.successor(world, i) for i in task.applicable(world)))
+        stride = -(-len(states) // most) or 1
+        return states[::stride]
 
     def _log_likelihood(
         self, before: Sequence[GoalDistance], after: Sequence[GoalDistance], paid: float,
         siblings: Sequence[Sequence[float | None]],
     ) -> Floats:  # fmt: skip
         beta = BETA / self.unit
-        found = np.zeros(len(before))
+        log_likelihood = np.zeros(len(before))
         for goal, (old, new) in enumerate(zip(before, after, strict=True)):
             if old.distance is None or new.distance is None:
                 detour = MAX_DETOUR
@@ -164,8 +164,8 @@ class CostBelief:
             reached = [cost for row in siblings if (cost := row[goal]) is not None]
             least = min(reached, default=0.0)
             choices = sum(math.exp(beta * (least - cost)) for cost in reached) or 1.0
-            found[goal] = -detour - CHOICE * math.log(choices)
-        return found
+            log_likelihood[goal] = -detour - CHOICE * math.log(choices)
+        return log_likelihood
 
     def posterior(self, state: CostState) -> Floats:
         """Return the probability of each goal, in order."""

@@ -73,8 +73,8 @@ class Searcher:
         return "\n".join([*lines, "0", ""])
 
     def _facts(self, mask: int, value: int) -> list[str]:
-        found = [f"{self._place[p]} {_value(value, p)}" for p in positions(mask)]
-        return [str(len(found)), *found]
+        facts = [f"{self._place[p]} {_value(value, p)}" for p in positions(mask)]
+        return [str(len(facts)), *facts]
 
     def _operator(self, number: int, op: Operator) -> list[str]:
         rule = op.simple_rule
@@ -141,8 +141,8 @@ def search(texts: Sequence[str], limit_s: float, total_s: float) -> list[Way | N
         return [None] * len(texts)
     lanes = [texts[i::N_PROCESSES] for i in range(min(N_PROCESSES, len(texts)))]
     with ThreadPoolExecutor(len(lanes)) as pool:
-        found = list(pool.map(lambda lane: _lane(binary, lane, limit_s, total_s), lanes))
-    return [found[i % len(lanes)][i // len(lanes)] for i in range(len(texts))]
+        answers = list(pool.map(lambda lane: _lane(binary, lane, limit_s, total_s), lanes))
+    return [answers[i % len(lanes)][i // len(lanes)] for i in range(len(texts))]
 
 
 def _lane(binary: Path, texts: Sequence[str], limit_s: float, total_s: float) -> list[Way | None]:
@@ -163,7 +163,7 @@ def _way(path: Path) -> Way | None:
     cost = re.search(r"; cost = (\d+)", text)
     if cost is None:
         return None
-    ops = tuple(int(found) for found in re.findall(r"^\(o(\d+)\s*\)", text, re.MULTILINE))
+    ops = tuple(int(number) for number in re.findall(r"^\(o(\d+)\s*\)", text, re.MULTILINE))
     return Way(int(cost[1]), ops)
 
 

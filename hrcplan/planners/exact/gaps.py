@@ -36,14 +36,14 @@ class Placed(NamedTuple):
 
 def starts(path: str, frame: StaticMasks) -> list[tuple[int, int]]:
     """Return the actions of a path in order, each with the tick at which it starts."""
-    found: list[tuple[int, int]] = []
+    schedule: list[tuple[int, int]] = []
     clock = 0
     for letter in path:
         if letter == WAIT:
-            clock = min(end for a, t in found if (end := t + frame.ticks[a]) > clock)
+            clock = min(end for a, t in schedule if (end := t + frame.ticks[a]) > clock)
         else:
-            found.append((ord(letter), clock))
-    return found
+            schedule.append((ord(letter), clock))
+    return schedule
 
 
 class Gaps:

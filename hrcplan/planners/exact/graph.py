@@ -77,12 +77,12 @@ class Graph:
 
         Such an action can be worth its time while another one that adds the same facts still runs.
         """
-        found = task.applicable(state)
+        actions = task.applicable(state)
         silent = [
             i for i in self._idle or ()
             if meets(state, task.actions[i].tests) and task.successor(state, i) == state
         ]  # fmt: skip
-        return sorted(found + silent) if silent else found
+        return sorted(actions + silent) if silent else actions
 
     def _check(self, deadline: float) -> None:
         if len(self.states) > MAX_STATES or len(self._edges) > 2 * MAX_EDGES:
@@ -92,11 +92,11 @@ class Graph:
 
     def edges(self, state: int) -> tuple[Edge, ...]:
         """Return the actions that lead from a state, in order, with the states they lead to."""
-        found = self._after.get(state)
-        if found is None:
+        outgoing = self._after.get(state)
+        if outgoing is None:
             flat = self._edges[self._first[state] : self._first[state + 1]]
-            found = self._after[state] = tuple(zip(flat[::2], flat[1::2], strict=True))
-        return found
+            outgoing = self._after[state] = tuple(zip(flat[::2], flat[1::2], strict=True))
+        return outgoing
 
     def distances(self, weights: Sequence[int], goals: Sequence[int], deadline: float) -> list[int]:
         """Return the least sum of action weights from each state to a goal, or ``FAR``.
@@ -106,9 +106,9 @@ class Graph:
         Raises:
             LimitError: at the deadline.
         """
-        found = [FAR] * len(self.states)
+        least = [FAR] * len(self.states)
         for goal in goals:
-            found[goal] = 0
+            least[goal] = 0
         buckets = {0: list(goals)}
         waiting = [0]
         while waiting:
@@ -116,20 +116,20 @@ class Graph:
             for n, state in enumerate(buckets.pop(distance)):
                 if n % _CHECK == 0 and time.monotonic() > deadline:
                     raise LimitError("out of time while measuring distances to the goal")
-                if found[state] < distance:
+                if least[state] < distance:
                     continue
                 pairs = iter(self._before[state])
                 for action, source in zip(pairs, pairs, strict=True):
                     longer = distance + weights[action]
-                    if longer < found[source]:
-                        found[source] = longer
+                    if longer < least[source]:
+                        least[source] = longer
                         bucket = buckets.get(longer)
                         if bucket is None:
                             buckets[longer] = [source]
                             heappush(waiting, longer)
                         else:
                             bucket.append(source)
-        return found
+        return least
 
 
 def may_change_nothing(action: GroundAction) -> bool:

@@ -25,13 +25,13 @@ def check_overlap(task: Task, pairs: ReachablePairs, frame: StaticMasks) -> None
         touched = frame.deletes[late] | frame.shuns[late]
         hiding = union(adders[p] for p in positions(touched)) & running
         hidden = union(shunners[p] for p in positions(frame.adds[late])) & running
-        for found, why in (
+        for pairs_of_actions, why in (
             (lanes[agent] & running, f"both need {agent} throughout"),
             (hiding, "{fact} depends on which of them ends first"),
             (hidden, "{fact} depends on which of them ends first"),
         ):
-            if found:
-                early = next(positions(found))
+            if pairs_of_actions:
+                early = next(positions(pairs_of_actions))
                 mine = frame.adds[early] & touched or frame.adds[late] & frame.over_shuns[early]
                 fact = next((fact_text(task.facts[p]) for p in positions(mine)), "")
                 raise UnsupportedError(
@@ -45,9 +45,9 @@ def _check_late(task: Task, pairs: ReachablePairs, frame: StaticMasks) -> None:
     users = holders([_mentioned(frame, a) for a in range(len(frame.ticks))], frame.n_facts)
     for action, late in enumerate(frame.late):
         for fact in positions(late):
-            found = users[fact] & pairs.running_beside(action)
-            if found:
-                other = task.actions[next(positions(found))]
+            readers = users[fact] & pairs.running_beside(action)
+            if readers:
+                other = task.actions[next(positions(readers))]
                 raise UnsupportedError(
                     f"{task.actions[action]} deletes {fact_text(task.facts[fact])} at its end, and "
                     f"{other}, which looks at it, can overlap it", hint=HINT,
@@ -61,10 +61,10 @@ def _mentioned(frame: StaticMasks, action: int) -> int:
 
 def lane_members(frame: StaticMasks) -> dict[str, int]:
     """Return for each agent the actions in its lane, as bits."""
-    found: dict[str, int] = {}
+    members: dict[str, int] = {}
     for i, agent in enumerate(frame.agents):
-        found[agent] = found.get(agent, 0) | 1 << i
-    return found
+        members[agent] = members.get(agent, 0) | 1 << i
+    return members
 
 
 def held(task: Task, pairs: ReachablePairs, frame: StaticMasks) -> tuple[tuple[str, ...], ...]:

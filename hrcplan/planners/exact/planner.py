@@ -121,11 +121,11 @@ class ExactPlanner:
 
     def _find(self, task: Task) -> _Kept:
         """Return what is kept of the structure of a task; it stands last from now on."""
-        found = next((kept for kept in self._kept if kept.structure is task.structure), None)
-        self._kept = [kept for kept in self._kept if kept is not found]
+        memo = next((kept for kept in self._kept if kept.structure is task.structure), None)
+        self._kept = [kept for kept in self._kept if kept is not memo]
         while sum(len(kept.graph.states) for kept in self._kept) > MAX_KEPT_STATES:
             del self._kept[0]  # frees the graph of another task first
-        self._kept.append(found or _Kept(task))
+        self._kept.append(memo or _Kept(task))
         return self._kept[-1]
 
 

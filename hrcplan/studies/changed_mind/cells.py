@@ -24,12 +24,12 @@ class Cells:
     """
 
     def __init__(self, table: str, options: StudyOptions, rows: Sequence[StudyRow]) -> None:
-        found = cells_of(rows, KEYS, scenario.cells(table, options))
+        by_cell = cells_of(rows, KEYS, scenario.cells(table, options))
         self.rows: dict[tuple[str, str], Sequence[StudyRow]] = {
-            (str(human), str(method)): had for (human, method), had in found.items() if had
+            (str(human), str(method)): had for (human, method), had in by_cell.items() if had
         }
         self.humans = list(dict.fromkeys(human for human, _ in self.rows))
-        order = [str(method) for _, method in found]
+        order = [str(method) for _, method in by_cell]
         has = {method for _, method in self.rows}
         self.methods = [method for method in dict.fromkeys(order) if method in has]
         self._declaring = {
@@ -66,8 +66,8 @@ class Cells:
         if measure in DECLARED and method not in self._declaring:
             return None
         rows = self.rows.get((human, method), ())
-        found = estimates(rows, (measure,), UNIT)[measure]
-        return found if found.n else None
+        mean = estimates(rows, (measure,), UNIT)[measure]
+        return mean if mean.n else None
 
     def difference(
         self, human: str, ours: str, theirs: str, measure: str, share: float = 1.0

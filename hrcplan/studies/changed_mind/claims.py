@@ -107,8 +107,8 @@ def ahead(wanted: Superiority, cells: Cells) -> Claim | None:
     words, n, tests = [], [], []
     for human in wanted.humans:
         for ours in wanted.ours:
-            found = differences(cells, human, ours, wanted.others, wanted.measure)
-            if found is None:
+            gaps = differences(cells, human, ours, wanted.others, wanted.measure)
+            if gaps is None:
                 return None
             tests += [MEASURES[wanted.measure].beats(one) for one in found.values()]
             n += [one.n for one in found.values()]
@@ -122,17 +122,17 @@ def differences(
     cells: Cells, human: str, ours: str, others: Iterable[str], measure: str
 ) -> dict[str, Interval] | None:
     """Return paired differences to each of the others; None if one has no rows."""
-    found = {other: cells.difference(human, ours, other, measure) for other in others}
-    had = {other: one for other, one in found.items() if one is not None}
-    return had if len(had) == len(found) else None
+    intervals = {other: cells.difference(human, ours, other, measure) for other in others}
+    had = {other: one for other, one in intervals.items() if one is not None}
+    return had if len(had) == len(intervals) else None
 
 
 def _measured(
-    cells: Cells, human: str, ours: str, wanted: Superiority, found: Mapping[str, Interval]
+    cells: Cells, human: str, ours: str, wanted: Superiority, gaps: Mapping[str, Interval]
 ) -> str:
     """Return a mean, its differences to others, and those that stand beside the claim."""
     mean = cells.mean(human, ours, wanted.measure)
-    text = f"{number(mean.mean if mean else 0)} {MEASURES[wanted.measure].unit}, {against(found)}"
+    text = f"{number(mean.mean if mean else 0)} {MEASURES[wanted.measure].unit}, {against(gaps)}"
     if RECURSIVE not in wanted.others:
         return text
     beside = [(wanted.measure, (BEST,)), *((name, (*wanted.others, BEST)) for name in wanted.also)]
@@ -143,9 +143,9 @@ def _measured(
     return text
 
 
-def against(found: Mapping[str, Interval]) -> str:
+def against(gaps: Mapping[str, Interval]) -> str:
     """Return differences in words."""
-    return ", ".join(f"{interval_text(one)} against {other}" for other, one in found.items())
+    return ", ".join(f"{interval_text(one)} against {other}" for other, one in gaps.items())
 
 
 def _runs(n: Sequence[int]) -> str:
@@ -160,15 +160,15 @@ def bounds(cells: Cells) -> Claim | None:
     for human in CHANGING:
         for measure in names:
             for bound in BOUNDS:
-                found = differences(cells, human, bound, (RHP, RECURSIVE), measure)
-                if found is None:
+                gaps = differences(cells, human, bound, (RHP, RECURSIVE), measure)
+                if gaps is None:
                     return None
                 n += [one.n for one in found.values()]
                 tests += [MEASURES[measure].beats(one.negative) for one in found.values()]
                 behind += [
                     f"{human}, {MEASURES[measure].name}: {bound} {interval_text(one)} "
                     f"against {other}"
-                    for other, one in found.items()
+                    for other, one in gaps.items()
                     if MEASURES[measure].verdict(one) != "worse"
                 ]
     claim = (
@@ -188,9 +188,9 @@ def bounds(cells: Cells) -> Claim | None:
 def midpoint(printed: Mapping[str, Any], cells: Cells) -> Claim | None:
     """Return that with a fixed goal the last wrong guess is about the middle of the episode."""
     low, high = printed["midpoint_pct"]
-    found = {name: cells.mean(FIXED, name, "last_incorrect_pct") for name in (RHP, RECURSIVE)}
-    had = {name: e for name, e in found.items() if e is not None}
-    if len(had) < len(found):
+    means = {name: cells.mean(FIXED, name, "last_incorrect_pct") for name in (RHP, RECURSIVE)}
+    had = {name: e for name, e in means.items() if e is not None}
+    if len(had) < len(means):
         return None
     words = ", ".join(f"{name} {mean_text(e)} %" for name, e in had.items())
     claim = (
@@ -207,9 +207,9 @@ def midpoint(printed: Mapping[str, Any], cells: Cells) -> Claim | None:
 
 def minimal(printed: Mapping[str, Any], cells: Cells) -> Claim | None:
     """Return that the method's extra steps are few, for every human."""
-    found = {human: cells.mean(human, RHP, "extra_steps") for human in HUMANS}
-    had = {human: e for human, e in found.items() if e is not None}
-    if len(had) < len(found):
+    means = {human: cells.mean(human, RHP, "extra_steps") for human in HUMANS}
+    had = {human: e for human, e in means.items() if e is not None}
+    if len(had) < len(means):
         return None
     most = printed["minimal_steps"]
     words = ", ".join(f"{human} {mean_text(e)}" for human, e in had.items())
@@ -224,12 +224,12 @@ def minimal(printed: Mapping[str, Any], cells: Cells) -> Claim | None:
 
 def length(printed: Mapping[str, Any], cells: Cells) -> Claim | None:
     """Return that combinations of two goals are as long as in the paper."""
-    found = cells.mean(OPTIMAL, ORACLE, "total_steps")
-    if found is None:
+    duration = cells.mean(OPTIMAL, ORACLE, "total_steps")
+    if duration is None:
         return None
     mean, within = printed["combined_length"], printed["combined_within"]
     evidence = (
-        f"{mean_text(found)} timesteps with a robot that is told the goal "
+        f"{mean_text(duration)} timesteps with a robot that is told the goal "
         f"and a human without mistakes; read as within {within:g} of the printed mean. The goals "
         "are ours: the paper does not list its own."
     )

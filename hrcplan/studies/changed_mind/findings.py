@@ -67,15 +67,15 @@ def judged(options: StudyOptions, main: Cells, beyond: Cells) -> list[Claim]:
 
 def how_many(cells: Cells) -> str:
     """Return in words how many runs the cells have."""
-    found: dict[str, list[str]] = {}
+    humans_by_text: dict[str, list[str]] = {}
     for human in cells.humans:
         method = max(cells.methods_of(human), key=lambda name: cells.n_runs(human, name))
         runs, pairs = cells.n_runs(human, method), cells.n_pairs(human, method)
         what = "pairs of goals" if scenario.human_data(human)["changes"] else "goals"
-        found.setdefault(f"{runs:,} runs of {pairs:,} {what}", []).append(escape(human))
-    if len(found) == 1:
-        return f"n per human and method: {next(iter(found))}."
-    words = [f"{' and '.join(humans)} {what}" for what, humans in found.items()]
+        humans_by_text.setdefault(f"{runs:,} runs of {pairs:,} {what}", []).append(escape(human))
+    if len(humans_by_text) == 1:
+        return f"n per human and method: {next(iter(humans_by_text))}."
+    words = [f"{' and '.join(humans)} {what}" for what, humans in humans_by_text.items()]
     return f"n per method: {'; '.join(words)}."
 
 
@@ -179,9 +179,9 @@ def decisions(cells: Cells) -> Section | None:
     """Return how long a decision takes."""
     lines = []
     for method in cells.methods:
-        found = [cells.mean(human, method, "decision_ms") for human in cells.humans]
-        if any(e is not None for e in found):
-            words = [tables.NOTHING if e is None else number(e.mean) for e in found]
+        means = [cells.mean(human, method, "decision_ms") for human in cells.humans]
+        if any(e is not None for e in means):
+            words = [tables.NOTHING if e is None else number(e.mean) for e in means]
             lines.append([tables.named(cells, method), *words])
     if not lines:
         return None
@@ -214,13 +214,13 @@ def more_changes(cells: Cells) -> Section | None:
         "More changes than one, humans who wait, and goals that can be reached by different sets "
         "of steps. The first right guess is the mean over changes."
     )
-    found = _beside("More changes, waits and alternatives", words, cells, "beyond")
-    if found is None:
+    section = _beside("More changes, waits and alternatives", words, cells, "beyond")
+    if section is None:
         return None
     parts = {human: reach.n_changes(human) for human in cells.humans}
     title = '<h3 class="part">wasted robot steps per change of goal</h3>'
     ratios = tables.ratios(cells, "wasted_robot_steps", parts)
-    return Section(found.title, found.html + title + ratios)
+    return Section(section.title, section.html + title + ratios)
 
 
 def _beside(title: str, words: str, cells: Cells, name: str) -> Section | None:
@@ -267,8 +267,8 @@ def _false_ones(cells: Cells, methods: Sequence[str]) -> str:
     """Return a sentence: false changes with a human who makes no mistakes."""
     for human in cells.humans:
         if not scenario.human_data(human).get("mistake_rate"):
-            found = {name: cells.mean(human, name, "false_changes") for name in methods}
-            words = [f"<em>{escape(name)}</em> {number(e.mean)}" for name, e in found.items() if e]
+            means = {name: cells.mean(human, name, "false_changes") for name in methods}
+            words = [f"<em>{escape(name)}</em> {number(e.mean)}" for name, e in means.items() if e]
             return (
                 f"<p>The {escape(human)} human makes no mistakes, so each false change with it is "
                 f"made by the bank or the rule alone. Per episode: {'; '.join(words)}.</p>"

@@ -19,10 +19,10 @@ GROUP = "Aims of hrcplan"
 def claims(main: Cells, beyond: Cells) -> list[Claim]:
     """Return what is wanted, without what lacks rows."""
     data = scenario.data()["reach"]
-    found = [wanted(one, data["method"], main) for one in data["wanted"]]
-    found += [as_good(human, data, main) for human in main.humans]
-    found.append(waste(data, beyond))
-    return [claim for claim in found if claim is not None]
+    results = [wanted(one, data["method"], main) for one in data["wanted"]]
+    results += [as_good(human, data, main) for human in main.humans]
+    results.append(waste(data, beyond))
+    return [claim for claim in results if claim is not None]
 
 
 def wanted(one: Mapping[str, Any], method: str, cells: Cells) -> Claim | None:
@@ -123,9 +123,9 @@ def _worse(
 
 def waste(data: Mapping[str, Any], beyond: Cells) -> Claim | None:
     """Return that little is wasted per change, however often goals change and humans wait."""
-    found = {human: beyond.mean(human, data["method"], "wasted_robot_steps")
+    means = {human: beyond.mean(human, data["method"], "wasted_robot_steps")
              for human in beyond.humans}  # fmt: skip
-    had = {human: e for human, e in found.items() if e is not None}
+    had = {human: e for human, e in means.items() if e is not None}
     if not had:
         return None
     most, per_change = data["waste_per_change"], {h: e.mean / n_changes(h) for h, e in had.items()}

@@ -72,14 +72,14 @@ def parted(text: str) -> list[str]:
     >>> parted("rhp, in order,mine:Robot"), parted("rhp,oracle")
     (['rhp, in order', 'mine:Robot'], ['rhp', 'oracle'])
     """
-    found: list[str] = []
+    names: list[str] = []
     longest_first = sorted((name for key in ADDED for name in data()[key]), key=len, reverse=True)
     while text:
         name = next((n for n in longest_first if f"{text},".startswith(f"{n},")), None)
         name = text.partition(",")[0] if name is None else name
-        found += [name] if name else []
+        names += [name] if name else []
         text = text[len(name) + 1 :]
-    return found
+    return names
 
 
 def check(options: StudyOptions) -> None:
@@ -137,8 +137,8 @@ def task_of(options: StudyOptions, human: str) -> tuple[str, str]:
 
 def human_data(name: str) -> Mapping[str, Any]:
     """Return what is said of a human; a user's own is one whose goal changes once."""
-    found: Mapping[str, Any] = data()["humans"].get(name, {"changes": 1, "chooser": name})
-    return found
+    table: Mapping[str, Any] = data()["humans"].get(name, {"changes": 1, "chooser": name})
+    return table
 
 
 def human(name: str, bank: Bank, course: Course, options: StudyOptions) -> EpisodeHuman:
@@ -242,6 +242,6 @@ def course(name: str, bank: Bank, seed: Seed) -> Course:
 @lru_cache(maxsize=8)
 def _pairs(study_seed: int, trial: int, n: int) -> list[tuple[int, int]]:
     """Return all ordered pairs of goals in the order in which a trial goes through them."""
-    found = list(permutations(range(n), 2))
-    random.Random(f"{study_seed}/{trial}/pairs").shuffle(found)
-    return found
+    pairs = list(permutations(range(n), 2))
+    random.Random(f"{study_seed}/{trial}/pairs").shuffle(pairs)
+    return pairs

@@ -63,15 +63,15 @@ def read(name: str) -> Mapping[str, Any]:
     """
     path = scenario.HERE / f"{name}.toml" if name in SHIPPED else Path(name)
     try:
-        found = read_toml(path, "bad-script")
+        script = read_toml(path, "bad-script")
     except InputError as error:
         error.hint = error.hint or f"shipped: {', '.join(SHIPPED)}"
         raise
-    if missing := [key for key in _NEEDED if key not in found]:
+    if missing := [key for key in _NEEDED if key not in script]:
         raise InputError(f"the script lacks '{missing[0]}'", code="bad-script", path=name)
-    if fault := _fault(found):
+    if fault := _fault(script):
         raise InputError(fault, code="bad-script", path=name)
-    return found
+    return script
 
 
 def _fault(script: Mapping[str, Any]) -> str | None:
@@ -124,10 +124,10 @@ def _goal(bank: Bank, name: str) -> int:
 
 
 def _step(bank: Bank, text: str) -> int:
-    found = bank.table.find(text.strip().strip("()").lower().split())
-    if found is None:
+    step = bank.table.find(text.strip().strip("()").lower().split())
+    if step is None:
         raise InputError(f"there is no step '{text}'", code="unknown-step")
-    return found
+    return step
 
 
 def _played(
@@ -165,13 +165,13 @@ def _narrated(
     )
 
 
-def as_json(script: Mapping[str, Any], found: Sequence[NarratedEpisode]) -> dict[str, Any]:
+def as_json(script: Mapping[str, Any], played: Sequence[NarratedEpisode]) -> dict[str, Any]:
     """Return the document of ``study play``."""
     return {
         "title": script.get("title", ""),
         "wanted": list(script["wanted"]),
         "episodes": [
-            {"method": e.method, "ending": e.ending, "turns": list(_turns(e))} for e in found
+            {"method": e.method, "ending": e.ending, "turns": list(_turns(e))} for e in played
         ],
     }
 

@@ -43,8 +43,8 @@ def ratios(cells: Cells, measure: str, parts: Mapping[str, float]) -> str:
     """Return a measure's means divided by a number per human; a line per human."""
     lines = []
     for human in cells.humans:
-        found = [cells.mean(human, method, measure) for method in cells.methods]
-        words = [NOTHING if e is None else number(e.mean / parts[human]) for e in found]
+        means = [cells.mean(human, method, measure) for method in cells.methods]
+        words = [NOTHING if e is None else number(e.mean / parts[human]) for e in means]
         lines.append([escape(human), *words])
     return table(["", *(named(cells, method) for method in cells.methods)], lines, "narrow")
 
@@ -92,8 +92,8 @@ def best(
 def _best(cells: Cells, human: str, measure: str, baselines: Iterable[str]) -> str:
     """Return the baseline with the best mean, the first of equals; no name without any."""
     sign = -1 if MEASURES[measure].more_is_better else 1
-    found = {name: cells.mean(human, name, measure) for name in baselines}
-    had = {name: sign * e.mean for name, e in found.items() if e is not None}
+    means = {name: cells.mean(human, name, measure) for name in baselines}
+    had = {name: sign * e.mean for name, e in means.items() if e is not None}
     return min(had, key=lambda name: had[name]) if had else ""
 
 

@@ -67,10 +67,10 @@ def allocated(options: StudyOptions, cell: Cell, seed: str) -> StudyRow:
     before = drained(engine, starts_of_human(engine)[at])
     told = monitor.profile.planner_values(monitor.model.agents, {key: value}, Memory())
     facts = monitor.model.actions.changing(before)
-    found = engine.planner.answer(ev.AskPlan(0.0, facts, before.values, told))
-    actions = () if found.plan is None else found.plan.actions
+    answer = engine.planner.answer(ev.AskPlan(0.0, facts, before.values, told))
+    actions = () if answer.plan is None else answer.plan.actions
     n_human = sum(is_human(engine, action) for action in actions)
-    cost = None if found.metric is None else float(found.metric)
+    cost = None if answer.metric is None else float(answer.metric)
     return {"n_human": n_human, "n_robot": len(actions) - n_human, "cost": cost}
 
 
