@@ -432,12 +432,12 @@ class Problem:
 
     def objects_of(self, types: tuple[str, ...]) -> tuple[str, ...]:
         """Return the objects of any of ``types``, in the order in which they are declared."""
-        found = self._objects_of.get(types)
-        if found is None:
+        names = self._objects_of.get(types)
+        if names is None:
             is_a = self.domain.is_a
-            found = tuple(o for o, t in self.all_objects.items() if is_a(t, types))
-            self._objects_of[types] = found
-        return found
+            names = tuple(o for o, t in self.all_objects.items() if is_a(t, types))
+            self._objects_of[types] = names
+        return names
 
     @cached_property
     def _objects_of(self) -> dict[tuple[str, ...], tuple[str, ...]]:

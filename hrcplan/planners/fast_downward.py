@@ -135,8 +135,8 @@ class _Search:
 
     def _plans(self) -> list[Path]:
         """Return the files of complete plans, the best one last: a plan ends with its cost."""
-        found = [self._folder / "plan", *(self._folder / f"plan.{i}" for i in range(1, _MOST))]
-        return [file for file in found if file.exists() and "; cost" in file.read_text()]
+        files = [self._folder / "plan", *(self._folder / f"plan.{i}" for i in range(1, _MOST))]
+        return [file for file in files if file.exists() and "; cost" in file.read_text()]
 
     def _look(self) -> None:
         plans = self._plans()
@@ -168,8 +168,8 @@ def _answer(
 
 
 def _solved(request: Request, given: DownwardInput, text: str) -> Answer:
-    found = re.search(r"; cost = (\d+)", text)
-    cost = int(found[1]) if found else None
+    match = re.search(r"; cost = (\d+)", text)
+    cost = int(match[1]) if match else None
     proven = not request.any_plan and given.exact and cost is not None and given.is_safe(cost)
     weighed = given.exact or not request.weighs_time
     return Answer(

@@ -139,9 +139,9 @@ class _Portfolio:
             search.stop()
         return search.wait()
 
-    def _take(self, found: kairos.Plan) -> None:
+    def _take(self, candidate: kairos.Plan) -> None:
         """Validate a plan and keep it if it is the best so far."""
-        text = str(found)
+        text = str(candidate)
         if text == self.last:
             return  # the search ends with the plan that it has shown before
         self.last = text
@@ -157,7 +157,7 @@ class _Portfolio:
         if self.request.problem.maximize:
             ours = -ours
         if self.best is None or ours < self.best[0]:
-            self.best = ours, plan, self._objective(found.cost)
+            self.best = ours, plan, self._objective(candidate.cost)
             self.request.on_plan(plan)
 
     def _check(self, result: kairos.SolveResult) -> None:

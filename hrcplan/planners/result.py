@@ -118,11 +118,11 @@ def ask(planner: Planner, request: Request, lanes: bool, why: str) -> Result:
         raise UnsupportedError(message, hint="kairos knows them" if planner.card.own else None)
     begun = time.monotonic()
     answer = planner.solve(request)
-    found = checked(planner.card, request.problem, answer, lanes, why, request.replays)
+    result = checked(planner.card, request.problem, answer, lanes, why, request.replays)
     wall_s = time.monotonic() - begun
-    notes = [note for note in (answer.note, found.mismatch) if note]
+    notes = [note for note in (answer.note, result.mismatch) if note]
     attempts = tuple(Attempt(planner.card.name, note, wall_s) for note in notes)
-    return replace(found, wall_s=wall_s, attempts=attempts)
+    return replace(result, wall_s=wall_s, attempts=attempts)
 
 
 def is_better(problem: Problem, one: Number | None, other: Number | None) -> bool:
@@ -144,15 +144,15 @@ def checked(
     Raises:
         PlannerError: if the plan is invalid.
     """
-    found = Result(
+    result = Result(
         answer.status, card.name, None, None, 0, why, bound=answer.bound, claim=answer.status
     )
     if answer.plan is None:
         sure = answer.status is not Status.UNSOLVABLE or card.own
-        return found if sure else replace(found, status=Status.UNSOLVED)
+        return result if sure else replace(result, status=Status.UNSOLVED)
     if problem.domain.is_continuous:
         note = "hrcplan cannot judge plans where numbers change while time passes"
-        return replace(found, plan=answer.plan, status=Status.SOLVED, bound=None, mismatch=note)
+        return replace(result, plan=answer.plan, status=Status.SOLVED, bound=None, mismatch=note)
     plan = with_durations(problem, answer.plan)
     report = replay(problem, plan)
     _demand_valid(card, report)
@@ -166,7 +166,7 @@ def checked(
     proven = answer.status is Status.OPTIMAL and mismatch is None
     bound = (value if answer.bound is None else answer.bound) if proven else answer.bound
     return replace(
-        found, plan=plan, report=report, shortest=shortest, objective=value, bound=bound,
+        result, plan=plan, report=report, shortest=shortest, objective=value, bound=bound,
         status=Status.OPTIMAL if proven else Status.SOLVED,
         gaps=_gaps(problem, plan), mismatch=mismatch,
     )  # fmt: skip
