@@ -57,14 +57,14 @@ def jobs(request: Request) -> list[Job]:
     able = [p for p in planners if unable(p.card, request) is None and p.missing() is None]
     if not able:
         raise UnsupportedError("no planner here can hold this task")
-    found = [Job(p, any_plan, _merit(p.card, request, any_plan))
+    candidates = [Job(p, any_plan, _merit(p.card, request, any_plan))
              for p in able for any_plan in _modes(p.card, request)]  # fmt: skip
-    found.sort(key=lambda job: _rank(job, request))
+    candidates.sort(key=lambda job: _rank(job, request))
     bound = RelaxedBound()
     if unable(bound.card, request) is None:
-        place = len(found) if request.any_plan else min(2, len(found))
-        found.insert(place, Job(bound, False, "it bounds the metric", finds_plans=False))
-    return found
+        place = len(candidates) if request.any_plan else min(2, len(candidates))
+        candidates.insert(place, Job(bound, False, "it bounds the metric", finds_plans=False))
+    return candidates
 
 
 def fixed_order(problem: Problem) -> tuple[str, ...]:

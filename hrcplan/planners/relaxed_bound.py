@@ -100,8 +100,8 @@ def _least_cost(task: Task, costs: Sequence[int]) -> int | None:
         Operator(action.tests, action.at_start, action.at_end, action.index, cost)
         for action, cost in zip(task.actions, costs, strict=True)
     ]
-    found = landmarks(ops, task.initial, task.goal)
-    return None if found is None else sum(landmark.cost for landmark in found)
+    cuts = landmarks(ops, task.initial, task.goal)
+    return None if cuts is None else sum(landmark.cost for landmark in cuts)
 
 
 def _least_time(task: Task) -> Number:

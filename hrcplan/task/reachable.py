@@ -46,9 +46,9 @@ def reachable(problem: Problem, deadline: float = inf) -> tuple[list[SchemaInsta
     search.run()
     order = {action.name: i for i, action in enumerate(problem.domain.actions)}
     rank = {name: i for i, name in enumerate(problem.all_objects)}
-    found = list(search.found.values())
-    found.sort(key=lambda i: (order[i.action.name], [rank[arg] for arg in i.args]))
-    return found, search.index.facts
+    instances = list(search.instances.values())
+    instances.sort(key=lambda i: (order[i.action.name], [rank[arg] for arg in i.args]))
+    return instances, search.index.facts
 
 
 def available_bytes() -> int:
@@ -60,13 +60,13 @@ def available_bytes() -> int:
 
 
 class _Search:
-    """The facts and instances found so far, and the facts that wait to be joined."""
+    """The reachable facts and instances so far, and the facts that wait to be joined."""
 
     def __init__(self, problem: Problem, deadline: float) -> None:
         self.problem = problem
         self.deadline = deadline
         self.index = FactIndex()
-        self.found: dict[tuple[str, tuple[str, ...]], SchemaInstance] = {}
+        self.instances: dict[tuple[str, tuple[str, ...]], SchemaInstance] = {}
         self._start = LiftedState(problem.facts, problem.values)
         self._rules = [_Rule(action, problem) for action in problem.domain.actions]
         self._users: dict[str, list[tuple[_Rule, int]]] = defaultdict(list)
@@ -95,20 +95,20 @@ class _Search:
         for binding in bindings:
             args = tuple([binding[name] for name in rule.names])
             key = rule.action.name, args
-            if key in self.found or not self._can_hold(rule.fixed, binding):
+            if key in self.instances or not self._can_hold(rule.fixed, binding):
                 continue
-            self.found[key] = SchemaInstance(rule.action, args, binding)
+            self.instances[key] = SchemaInstance(rule.action, args, binding)
             self._check()
             for params, atom in rule.adds:
                 for inner in instances(params, binding, self.problem):
                     self._waiting.append(ground_key(atom, inner))
 
     def _check(self) -> None:
-        n_found = len(self.found)
-        if n_found % _CHECK == 0 and time.monotonic() > self.deadline:
-            raise LimitError(f"no time for more than {n_found} ground actions", hint=_HINT)
-        if n_found % _CHECK_MEMORY == 0 and available_bytes() < MIN_FREE_BYTES:
-            message = f"no memory for more than {n_found} ground actions"
+        n_instances = len(self.instances)
+        if n_instances % _CHECK == 0 and time.monotonic() > self.deadline:
+            raise LimitError(f"no time for more than {n_instances} ground actions", hint=_HINT)
+        if n_instances % _CHECK_MEMORY == 0 and available_bytes() < MIN_FREE_BYTES:
+            message = f"no memory for more than {n_instances} ground actions"
             raise LimitError(message, hint=_HINT)
 
     def _can_hold(self, fixed: tuple[Formula, ...], binding: JoinBinding) -> bool:
