@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
@@ -38,8 +38,8 @@ def hrcplan_plan() -> Callable[..., Result]:
     from hrcplan.pddl.inputs import read
     from hrcplan.planners.solve import solve
 
-    def plan(domain: str, problem: str, **options: object) -> Result:
-        return solve(read(str(domain), str(problem)), **options)  # type: ignore[arg-type]
+    def plan(domain: str, problem: str, **options: Any) -> Result:
+        return solve(read(str(domain), str(problem)), **options)
 
     return plan
 
@@ -79,7 +79,7 @@ class _Item(pytest.Item):
         return self.path, 0, f"{self.path.parent.name}/{self.path.stem}: {self.name}"
 
     def repr_failure(
-        self, excinfo: pytest.ExceptionInfo[BaseException], style: object = None
+        self, excinfo: pytest.ExceptionInfo[BaseException], style: str | None = None
     ) -> str:
         """Return the message without a traceback: the file is at fault, not the code."""
         return str(excinfo.value)

@@ -16,6 +16,7 @@ from hrcplan.agents.estimate import AgentStateEstimate, Prior
 from hrcplan.agents.memory import Memory
 from hrcplan.agents.state import AgentModel, failure_probability
 from hrcplan.core.deprecation import current_name, warn_old_name
+from hrcplan.core.json_values import JsonValue
 from hrcplan.core.numbers import Number, exact
 from hrcplan.core.text import nearest, quote
 from hrcplan.core.toml import read_toml
@@ -132,10 +133,12 @@ class Profile:
         return self if replan_limit is None else replace(self, replan_limit=replan_limit)
 
 
-def _is_of(value: object, kind: type) -> bool:
+def _is_of(value: JsonValue, kind: type) -> bool:
     """Whether a value has the type of a key; a whole number stands for a float, too."""
     if kind is float:
-        return type(value) in (int, float) and abs(value) < _LARGEST  # type: ignore[arg-type]
+        if isinstance(value, bool) or not isinstance(value, (int, float)):
+            return False
+        return abs(value) < _LARGEST
     return type(value) is kind
 
 

@@ -194,8 +194,8 @@ class ApplicableSteps:
         return doable
 
 
-def _joined(parts: object) -> Ids:
-    return np.concatenate([np.zeros(0, dtype=np.int64), *parts])  # type: ignore[misc]
+def _joined(parts: Iterable[Ids]) -> Ids:
+    return np.concatenate([np.zeros(0, dtype=np.int64), *parts])
 
 
 def _closed(keys: Ids) -> Ids:

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 import os
 from collections.abc import Mapping
 from fractions import Fraction
@@ -25,6 +26,7 @@ from hrcplan.bank.graph import PlanGraph
 from hrcplan.bank.sources import goals_in
 from hrcplan.core.array_file import HEADER_FAULTS, Arrays, Format, array
 from hrcplan.core.files import read_bytes, write_atomically
+from hrcplan.core.json_values import JsonValue
 from hrcplan.core.numbers import exact, fraction_of, int_text
 from hrcplan.errors import InputError, UsageError
 from hrcplan.pddl import library
@@ -129,8 +131,8 @@ def _structure_fault(bank: Bank) -> str | None:
     return next((f"'{name}': {fault}" for name, fault in faults if fault), None)
 
 
-def _seconds(value: Any) -> float:
-    if type(value) not in (int, float) or not 0 <= value < float("inf"):
+def _seconds(value: JsonValue) -> float:
+    if not isinstance(value, (int, float)) or isinstance(value, bool) or not 0 <= value < math.inf:
         raise ValueError(f"build_s is {value!r}")
     return float(value)
 
@@ -223,13 +225,13 @@ def _graph(entry: Mapping[str, Any], body: memoryview) -> PlanGraph:
     )  # fmt: skip
 
 
-def _whole(value: Any) -> int:
-    if type(value) is not int:
+def _whole(value: JsonValue) -> int:
+    if not isinstance(value, int) or isinstance(value, bool):
         raise TypeError(f"{value!r} is no whole number")
     return value
 
 
-def _fraction(text: Any) -> Fraction:
+def _fraction(text: JsonValue) -> Fraction:
     value = fraction_of(text)
     if value is None:
         raise ValueError(f"{text!r} is no number")

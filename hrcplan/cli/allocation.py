@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
 from hrcplan.cli import options, output
+
+if TYPE_CHECKING:
+    from hrcplan.core.numbers import Number
+    from hrcplan.planners.allocation import Diagram, Line
 
 
 @click.command(
@@ -65,7 +69,7 @@ def command(
     return 0
 
 
-def as_json(chart: Any) -> dict[str, Any]:
+def as_json(chart: Diagram) -> dict[str, Any]:
     """Return a diagram as a JSON object; ``metric`` is ``intercept`` + ``slope`` x value."""
     number = output.number
     stays = chart.stays_best(chart.at_now)
@@ -90,7 +94,7 @@ def as_json(chart: Any) -> dict[str, Any]:
     }
 
 
-def as_text(chart: Any, title: str) -> str:
+def as_text(chart: Diagram, title: str) -> str:
     """Return a diagram as a table, and in words how far the value may move."""
     agents = list(chart.pieces[0].n_actions)
     head = [" ".join(chart.key), *(agent or "-" for agent in agents), "metric"]
@@ -108,7 +112,7 @@ def as_text(chart: Any, title: str) -> str:
                       _in_words(chart)])  # fmt: skip
 
 
-def _in_words(chart: Any) -> str:
+def _in_words(chart: Diagram) -> str:
     radius = chart.radius()
     if radius is None:
         return f"now {_shown(chart.value)}: one allocation is best throughout"
@@ -116,13 +120,13 @@ def _in_words(chart: Any) -> str:
     return f"flips at {flips}; now {_shown(chart.value)}, so it may move by {_shown(radius)}"
 
 
-def _line(line: Any) -> str:
+def _line(line: Line) -> str:
     if not line.slope:
         return _shown(line.intercept)
     return f"{_shown(line.intercept)} + {_shown(line.slope)} v"
 
 
-def _shown(number: Any) -> str:
+def _shown(number: Number) -> str:
     """Return a number in at most six digits; a fraction beside it where those are not exact."""
     short = f"{float(number):.6g}"
     return short if Fraction(short) == number else f"{short} ({number})"

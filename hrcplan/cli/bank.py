@@ -21,7 +21,9 @@ class _Factor(click.ParamType):  # type: ignore[type-arg]
 
     name = "factor"
 
-    def convert(self, value: Any, param: Any, ctx: Any) -> Fraction:
+    def convert(
+        self, value: str | Fraction, param: click.Parameter | None, ctx: click.Context | None
+    ) -> Fraction:
         """Return the number."""
         factor = value if isinstance(value, Fraction) else fraction_of(value)
         if factor is None:

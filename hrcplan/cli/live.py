@@ -5,6 +5,7 @@ from __future__ import annotations
 import shutil
 import time
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from hrcplan.cli import output
 from hrcplan.core.numbers import number_text
@@ -16,6 +17,9 @@ from hrcplan.execution.run import Run, RunningAction
 from hrcplan.pddl.conventions import robots
 from hrcplan.pddl.model import Problem, fact_text
 from hrcplan.plans import lane
+
+if TYPE_CHECKING:
+    from hrcplan.core.numbers import Number
 
 _BEGUN, _MARK = "▶", {ev.DONE: "✓", ev.FAILED: "✗", ev.CANCELLED: "·"}
 _WIDTH = (14, 34)
@@ -139,5 +143,5 @@ class Live:
         )
 
 
-def _value(value: object) -> str:
-    return number_text(value) if not isinstance(value, float) else f"{value:g}"  # type: ignore[arg-type]
+def _value(value: float | Number) -> str:
+    return f"{value:g}" if isinstance(value, float) else number_text(value)

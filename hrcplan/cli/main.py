@@ -9,8 +9,9 @@ import sys
 import threading
 import traceback
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
 from typing import Any, NoReturn, TextIO
 
 import rich_click as click
@@ -57,15 +58,17 @@ class _Commands(click.RichGroup):
         command: click.Command = module.command
         return command
 
-    def main(self, *args: Any, **kwargs: Any) -> NoReturn:
+    def main(
+        self, args: Sequence[str] | None = None, prog_name: str | None = None,
+        complete_var: str | None = None, standalone_mode: bool = True, **more: str | bool | None,
+    ) -> NoReturn:  # fmt: skip
         """Run a command and exit; errors become messages and exit codes."""
         streams.prepare()
-        call = args[0] if args else kwargs.pop("args", None)
-        words = list(sys.argv[1:] if call is None else call)
+        words = list(sys.argv[1:] if args is None else args)
         output.JSON = "--json" in words  # an error before options are read is a document, too
         if threading.current_thread() is threading.main_thread():
             signal.signal(signal.SIGTERM, lambda *_: sys.exit(TERMINATED))
-        run = super().main
+        run = partial(super().main, words, prog_name, complete_var, standalone_mode=False, **more)
         with _old_names_on_stderr():
             code = _exit_code(words, lambda: run(words, **{**kwargs, "standalone_mode": False}))
         sys.exit(code)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Callable, Container, Mapping, Sequence
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import rich_click as click
 
@@ -14,6 +14,9 @@ from hrcplan.core.files import write_atomically as write_atomically
 from hrcplan.core.numbers import Number, nearest_float
 from hrcplan.core.text import harmless
 from hrcplan.errors import PddlError
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
 
 FILE_WIDTH = 160  # characters of a table that goes to a file or a program
 
@@ -82,7 +85,7 @@ def result(text: str) -> None:
     _echo(harmless(text))
 
 
-def table(made: Any) -> None:
+def table(grid: RenderableType) -> None:
     """Print a table of rich on stdout; in colour only where that is shown."""
     from rich.console import Console
     from rich.segment import Segment, Segments
@@ -91,7 +94,7 @@ def table(made: Any) -> None:
     if not console.is_terminal:
         console.width = FILE_WIDTH
     # What steers the terminal in the output is ours, never from a cell.
-    pieces = [Segment(harmless(s.text), s.style, s.control) for s in console.render(made)]
+    pieces = [Segment(harmless(s.text), s.style, s.control) for s in console.render(grid)]
     with console.capture() as text:
         console.print(Segments(pieces))
     _echo("\n".join(line.rstrip() for line in text.get().splitlines()))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import rich_click as click
 
@@ -12,6 +12,7 @@ from hrcplan.cli import options, output
 from hrcplan.core.files import check_target
 
 if TYPE_CHECKING:
+    from hrcplan.pddl.model import Problem
     from hrcplan.planners.result import Result
 
 QUIET_S = 1.0
@@ -106,7 +107,7 @@ class _Progress:
         output.note(f"after {passed:.0f} s: {value} ({result.planner})")
 
 
-def _print(problem: Any, result: Any) -> None:
+def _print(problem: Problem, result: Result) -> None:
     from hrcplan.cli import lanes
 
     if output.JSON:

@@ -6,11 +6,16 @@ import os
 from collections.abc import Callable
 from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
 from hrcplan.cli import options, output, play
+
+if TYPE_CHECKING:
+    from types import TracebackType
+
+    from rich.console import Console
 
 
 @click.group("study", context_settings={"help_option_names": ["-h", "--help"]})
@@ -176,7 +181,7 @@ def _bar() -> AbstractContextManager[Callable[[int, int], None] | None]:
 class _Bar:
     """A progress bar that is made when the first rows come in."""
 
-    def __init__(self, console: Any) -> None:
+    def __init__(self, console: Console) -> None:
         from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
 
         self._progress = Progress(BarColumn(), MofNCompleteColumn(), TimeRemainingColumn(),
@@ -187,7 +192,10 @@ class _Bar:
         self._progress.start()
         return self._show
 
-    def __exit__(self, *error: object) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:  # fmt: skip
         self._progress.stop()
 
     def _show(self, done: int, wanted: int) -> None:

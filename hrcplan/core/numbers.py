@@ -9,6 +9,8 @@ import re
 from decimal import Decimal
 from fractions import Fraction
 
+from hrcplan.core.json_values import JsonValue
+
 Number = int | Fraction
 
 _TEXT_DECIMALS = 12
@@ -54,7 +56,7 @@ def to_number(word: str) -> Number | None:
     return exact(word) if _NUMBER.fullmatch(word) else None
 
 
-def fraction_of(text: object) -> Fraction | None:
+def fraction_of(text: JsonValue) -> Fraction | None:
     """Return the number that a text such as ``1.25``, ``5/4`` or ``1e3`` spells, or None.
 
     >>> fraction_of("5/4"), fraction_of("1e999999999"), fraction_of("1/0"), fraction_of([])

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import io
 import warnings
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
+from typing import Any, Protocol
 
 from hrcplan.bank import Bank
 from hrcplan.errors import UnsupportedError, UsageError
@@ -88,7 +88,22 @@ class PddlgymWorld:
         return f"{shown} and {more} more differ" if more > 0 else f"{shown} differs"
 
 
-def named(literal: Any) -> Fact:
+class _Entity(Protocol):
+    @property
+    def name(self) -> str: ...
+
+
+class _Literal(Protocol):
+    """What is read of a literal of pddlgym."""
+
+    @property
+    def predicate(self) -> _Entity: ...
+
+    @property
+    def variables(self) -> Sequence[_Entity]: ...
+
+
+def named(literal: _Literal) -> Fact:
     """Return a literal of pddlgym as a fact, or an action of its as name and arguments."""
     return (literal.predicate.name, *(entity.name for entity in literal.variables))
 

@@ -37,13 +37,14 @@ def checked_changes(
     return tuple(_checked(_parsed(change, model), model) for change in changes)
 
 
-def _parsed(change: object, model: ExecutionModel) -> WorldChange:
+def _parsed(change: str | WorldChange, model: ExecutionModel) -> WorldChange:
     if isinstance(change, str):
         return parse_change(change, model)
-    if not isinstance(change, StateChange | FactChange):
-        message = "a change is a text, a StateChange or a FactChange"
-        raise TypeError(f"{message}, not {type_text(change)}; {_HINT}")
-    return change
+    if isinstance(change, StateChange | FactChange):
+        return change
+    raise TypeError(
+        f"a change is a text, a StateChange or a FactChange, not {type_text(change)}; {_HINT}"
+    )
 
 
 def parse_change(text: str, model: ExecutionModel) -> WorldChange:

@@ -3,17 +3,29 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import fields
 from fractions import Fraction
 from typing import Any
 
+from hrcplan.core.json_values import JsonValue
 from hrcplan.core.numbers import Number, exact, nearest_float
 from hrcplan.errors import PlanFormatError
 from hrcplan.execution import events as ev
 from hrcplan.execution.events import Command, Event
 from hrcplan.pddl.model import Fact, FluentKey
 from hrcplan.plans import Plan, format_plan, parse_plan
+
+_FieldValue = (
+    Plan
+    | frozenset[Fact]
+    | Mapping[FluentKey, Number]
+    | tuple[str, ...]
+    | float
+    | Number
+    | str
+    | None
+)
 
 ABSENT = "absent"  # is left out where it is empty, as in journals of earlier versions
 
@@ -47,7 +59,7 @@ def from_json(document: Mapping[str, Any]) -> Any:
     """
     try:
         kind = _KINDS[document["kind"]]
-        item = kind(**{k: _decoded(k, v) for k, v in document.items() if k != "kind"})
+        item = kind(**{k: _DECODERS.get(k, _same)(v) for k, v in document.items() if k != "kind"})
         if item.t >= 0 and isinstance(getattr(item, "number", 0), int):
             return item
         raise ValueError(f"no event: {document}")
@@ -55,7 +67,7 @@ def from_json(document: Mapping[str, Any]) -> Any:
         raise ValueError(f"no event: {error}") from None
 
 
-def _encoded(value: Any) -> Any:
+def _encoded(value: _FieldValue) -> JsonValue:
     if isinstance(value, Plan):
         return format_plan(value).splitlines()
     if isinstance(value, frozenset):
@@ -100,16 +112,16 @@ def _plan(lines: list[str] | None) -> Plan | None:
     return None if lines is None else parse_plan("\n".join(lines))
 
 
-def _decoded(name: str, value: Any) -> Any:
-    match name:
-        case "facts" | "absent":
-            return _facts(value)
-        case "numbers" | "values":
-            return _numbers(value)
-        case "plan":
-            return _plan(value)
-        case "args" | "reasons":
-            return tuple(value)
-        case "metric":
-            return None if value is None else exact_number(value)
+def _metric(value: float | str | None) -> float | Number | None:
+    return None if value is None else exact_number(value)
+
+
+def _same(value: JsonValue) -> JsonValue:
     return value
+
+
+_DECODERS: Mapping[str, Callable[[Any], Any]] = {
+    "facts": _facts, ABSENT: _facts, "numbers": _numbers, "values": _numbers, "plan": _plan,
+    "args": tuple, "reasons": tuple, "metric": _metric,
+}  # fmt: skip
+"""How the fields that JSON has no type for are read; all others stay as they are."""

@@ -58,7 +58,7 @@ def parse_human(text: str, spec: Spec) -> Spec:
 class NatureSource(Protocol):
     """A human defined by a class: it says how the world behaves with this human."""
 
-    def nature(self, problem: Problem, seed: object) -> Nature:
+    def nature(self, problem: Problem, seed: str | int) -> Nature:
         """Return how the world behaves with this human."""
 
 
@@ -67,7 +67,7 @@ NATURES: Registry[[], NatureSource] = Registry("human", {}, "hrcplan.natures", N
 
 
 def nature_for(
-    human: object, spec: Spec, engine: Engine,
+    human: str | NatureSource, spec: Spec, engine: Engine,
     changes: Sequence[str | WorldChange] = (),
 ) -> Nature:  # fmt: skip
     """Return the nature of a human, with more changes at given times.
@@ -85,8 +85,10 @@ def nature_for(
     if isinstance(human, NatureSource):
         nature = human.nature(engine.model.problem, spec.seed)
     elif not isinstance(human, str):
-        message = "human is a text, or an object with a method nature(problem, seed)"
-        raise TypeError(f"{message}, not {type_text(human)}")
+        raise TypeError(
+            "human is a text, or an object with a method nature(problem, seed), "
+            f"not {type_text(human)}"
+        )
     elif ":" in human or human in NATURES.names():
         nature = NATURES.make(human).nature(engine.model.problem, spec.seed)
     else:

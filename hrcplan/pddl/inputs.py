@@ -75,7 +75,7 @@ def as_problem(domain: Readable | Domain | Problem, problem: Readable | None = N
     return domain
 
 
-def _readable(value: object, noun: str) -> str | SourceText:
+def _readable(value: Readable, noun: str) -> str | SourceText:
     """Return a name or path as it is, and PDDL text as a source.
 
     Raises:
@@ -87,8 +87,10 @@ def _readable(value: object, noun: str) -> str | SourceText:
         place = os.fspath(value)
         if isinstance(place, str):
             return place
-    needed = f"a {noun} is a name, a path, PDDL text, or an object that hrcplan has read"
-    raise TypeError(f"{needed}, not {type_text(value)}")
+    raise TypeError(
+        f"a {noun} is a name, a path, PDDL text, or an object that hrcplan has read, "
+        f"not {type_text(value)}"
+    )
 
 
 def _problem_of(domain: Domain, folder: str, problem: str | SourceText) -> Problem:

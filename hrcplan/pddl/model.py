@@ -454,7 +454,7 @@ class Problem:
         return self.objects_of(("agent",)) if "agent" in self.domain.types else ()
 
 
-def _group(*parts: object) -> str:
+def _group(*parts: str | Formula | Expr | Param) -> str:
     return f"({' '.join(map(str, parts))})"
 
 

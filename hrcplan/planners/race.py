@@ -16,7 +16,7 @@ from hrcplan.planners.choice import Job
 from hrcplan.planners.contract import Answer, Request, Status
 from hrcplan.planners.portfolio import Portfolio
 from hrcplan.planners.result import Result, ask, checked
-from hrcplan.planners.workers import Send, Worker, end
+from hrcplan.planners.workers import Work, Worker, end
 from hrcplan.plans import Plan
 
 OnBetter = Callable[[Result], None]
@@ -46,12 +46,15 @@ class _Improvement:
     result: Result
 
 
+_Message = _Improvement | Result | HrcplanError
+
+
 @dataclass
 class _Lane:
     """A job at work."""
 
     job: Job
-    worker: Worker
+    worker: Worker[_Message]
     has_answered: bool = False
     begun: float = field(default_factory=time.monotonic)
 
@@ -128,7 +131,7 @@ class _Race:
             lane.worker.signal(signal.SIGKILL)
             self._take(lane, LimitError(f"stopped: more than {self._memory >> 20} MiB of memory"))
 
-    def _take(self, lane: _Lane, message: object) -> None:
+    def _take(self, lane: _Lane, message: _Message) -> None:
         before = self.portfolio.best
         match message:
             case _Improvement(result):
@@ -155,10 +158,10 @@ class _Race:
         lane.worker.close()
 
 
-def _work(job: Job, request: Request, lanes: bool) -> Callable[[Send], None]:
+def _work(job: Job, request: Request, lanes: bool) -> Work[_Message]:
     """Return what a worker does: ask a planner, and send its plans and its answer, checked."""
 
-    def work(send: Send) -> None:
+    def work(send: Callable[[_Message], None]) -> None:
         def on_plan(plan: Plan) -> None:
             answer = Answer(Status.SOLVED, plan)
             with contextlib.suppress(PlannerError):

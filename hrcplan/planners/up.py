@@ -32,7 +32,11 @@ from hrcplan.planners.up_table import Build, UpTable, table
 from hrcplan.plans import parse_plan
 
 if TYPE_CHECKING:
+    from fractions import Fraction
+
+    from unified_planning.environment import Environment
     from unified_planning.model import Problem as UpProblem
+    from unified_planning.plans import ActionInstance, SequentialPlan, TimeTriggeredPlan
 
 _CODE = "from hrcplan.planners.up import child; child()"
 _MARGIN_S = 0.5  # so that an engine that keeps its limit can still report
@@ -280,7 +284,9 @@ def _build(given: list[str] | UpTable) -> Any:
     return _read(*given) if isinstance(given, list) else Build(model, given).problem
 
 
-def _run_engine(environment: Any, name: str, problem: Any, timeout_s: float) -> dict[str, Any]:
+def _run_engine(
+    environment: Environment, name: str, problem: UpProblem, timeout_s: float
+) -> dict[str, Any]:
     with environment.factory.OneshotPlanner(name=name) as planner:
         result = planner.solve(problem, timeout=timeout_s)
     log = " ".join(message.message for message in result.log_messages or ())
@@ -288,8 +294,10 @@ def _run_engine(environment: Any, name: str, problem: Any, timeout_s: float) -> 
     return {"status": result.status.name, "plan": plan, "log": log}
 
 
-def _plan_lines(plan: Any) -> Iterator[str]:
-    if hasattr(plan, "timed_actions"):
+def _plan_lines(plan: SequentialPlan | TimeTriggeredPlan) -> Iterator[str]:
+    from unified_planning.plans import TimeTriggeredPlan
+
+    if isinstance(plan, TimeTriggeredPlan):
         for start, action, duration in plan.timed_actions:
             lasts = "" if duration is None else f" [{_decimal(duration)}]"
             yield f"{_decimal(start)}: {_action_text(action)}{lasts}"
@@ -297,9 +305,9 @@ def _plan_lines(plan: Any) -> Iterator[str]:
         yield from map(_action_text, plan.actions)
 
 
-def _action_text(action: Any) -> str:
+def _action_text(action: ActionInstance) -> str:
     return f"({' '.join([action.action.name, *map(str, action.actual_parameters)])})"
 
 
-def _decimal(seconds: Any) -> str:
+def _decimal(seconds: Fraction) -> str:
     return f"{float(seconds):.6f}"

@@ -6,12 +6,12 @@ does not import unified-planning (only ``up.py`` does): it is given its ``model`
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from typing import Any
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, Protocol
 
 from hrcplan.planners.instantaneous import unsure_changes
 from hrcplan.planners.lowering import Lowered
-from hrcplan.task import Task
+from hrcplan.task import BitEffect, GroundAction, Task
 from hrcplan.task.conditions import Test
 
 UpTable = Mapping[str, Any]
@@ -39,14 +39,38 @@ def table(task: Task, lowered: Lowered, *, costs: bool) -> UpTable:
     }
 
 
-def _unsure(action: Any) -> Iterable[Any]:
+def _unsure(action: GroundAction) -> Iterable[BitEffect]:
     return unsure_changes(action) if action.conditional else ()
+
+
+class _UpExpression(Protocol):
+    """An expression of unified-planning: it is only passed on."""
+
+    def is_constant(self) -> bool: ...
+
+
+class _UpAction(Protocol):
+    """What is used of an action of unified-planning."""
+
+    def add_precondition(self, condition: _UpExpression) -> None: ...
+    def add_effect(self, fluent: _UpExpression, value: bool, condition: _UpExpression) -> None: ...
+
+
+class _UpModel(Protocol):
+    """What is used of ``unified_planning.model``."""
+
+    @property
+    def Problem(self) -> Callable[[str], Any]: ...  # noqa: N802
+    @property
+    def InstantaneousAction(self) -> Callable[[str], _UpAction]: ...  # noqa: N802
+    @property
+    def metrics(self) -> Any: ...
 
 
 class Build:
     """Builds a problem out of a table with the classes of ``unified_planning.model``."""
 
-    def __init__(self, model: Any, given: UpTable) -> None:
+    def __init__(self, model: _UpModel, given: UpTable) -> None:
         self._problem = model.Problem(given["name"])
         self._expressions = self._problem.environment.expression_manager
         fluents = [self._problem.add_fluent(name, default_initial_value=False)
@@ -70,7 +94,7 @@ class Build:
         """The ``unified_planning.model.Problem``."""
         return self._problem
 
-    def _fill(self, action: Any, row: UpTable) -> None:
+    def _fill(self, action: _UpAction, row: UpTable) -> None:
         for literal in self._parts(row["tests"]):
             action.add_precondition(literal)
         for tests, adds, deletes in row["changes"]:

@@ -15,12 +15,13 @@ import pickle
 import signal
 import time
 from collections.abc import Callable, Sequence
-from typing import NoReturn
+from types import FrameType
+from typing import Any, Generic, NoReturn, TypeVar
 
 from hrcplan.planners.guard import PR_SET_PDEATHSIG, proportional, resident
 
-Send = Callable[[object], None]
-Work = Callable[[Send], None]
+M = TypeVar("M")
+Work = Callable[[Callable[[M], None]], None]
 """What a copy does: it sends what it finds with the function that it is given."""
 
 GRACE_S = 0.5
@@ -28,13 +29,13 @@ GRACE_S = 0.5
 _LENGTH = 8
 
 
-class Worker:
+class Worker(Generic[M]):
     """A copy of this process that does some work; ``fd`` can be waited for.
 
     Use it from a process with one thread: locks that other threads hold stay locked in the copy.
     """
 
-    def __init__(self, work: Work) -> None:
+    def __init__(self, work: Work[M]) -> None:
         self.fd, write = os.pipe()
         parent = os.getpid()
         self.pid = os.fork()
@@ -74,7 +75,7 @@ class Worker:
             os.waitpid(self.pid, 0)
 
 
-def end(workers: Sequence[Worker]) -> None:
+def end(workers: Sequence[Worker[Any]]) -> None:
     """End workers and all that they have started: asked first, killed after ``GRACE_S``."""
     for worker in workers:
         worker.signal(signal.SIGTERM)
@@ -94,7 +95,7 @@ class _Ended(BaseException):
     """The worker was asked to end; not an Exception, so that nothing on the way handles it."""
 
 
-def _become(work: Work, write: int, parent: int) -> NoReturn:
+def _become(work: Work[M], write: int, parent: int) -> NoReturn:
     """Do the work in this forked copy, and end."""
     try:
         gc.freeze()  # what is shared stays shared
@@ -114,11 +115,11 @@ def _become(work: Work, write: int, parent: int) -> NoReturn:
         os._exit(0)
 
 
-def _raise(number: int, frame: object) -> NoReturn:
+def _raise(number: int, frame: FrameType | None) -> NoReturn:
     raise _Ended
 
 
-def _send(write: int, message: object) -> None:
+def _send(write: int, message: M) -> None:
     payload = pickle.dumps(message)
     left = memoryview(len(payload).to_bytes(_LENGTH, "little") + payload)
     while left:

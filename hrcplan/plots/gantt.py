@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING
 
 from hrcplan.core.numbers import number_text
 from hrcplan.pddl.model import Problem
-from hrcplan.plans import Plan, lane, occupied
+from hrcplan.plans import Plan, PlannedAction, lane, occupied
 from hrcplan.plots import style
 from hrcplan.plots.lanes import (
     FONT_PT,
@@ -20,6 +20,9 @@ from hrcplan.plots.lanes import (
     name_lanes,
     width_pt,
 )
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 MIN_WIDTH, MAX_WIDTH = 7.0, 16.0  # inches: at most 2400 pixels
 _TOP_PT, _AXIS_PT, _SIDE_PT = 34.0, 44.0, 16.0
@@ -67,7 +70,7 @@ def _lanes(problem: Problem, plan: Plan) -> list[str]:
     return [*problem.agents, *([""] if is_without or not problem.agents else [])]
 
 
-def _bars(problem: Problem, action: Any, names: Sequence[str]) -> list[GanttBar]:
+def _bars(problem: Problem, action: PlannedAction, names: Sequence[str]) -> list[GanttBar]:
     """Return the bar of an action, and a faint one for each other agent that it keeps busy."""
     agent = lane(action.args, problem) or ""
     start, length = float(action.start_s or 0), float(action.duration_s or 1)
@@ -108,7 +111,9 @@ def _key_shape(texts: Collection[str], width: float) -> tuple[int, int]:
     return columns, math.ceil(len(texts) / columns)
 
 
-def _key(figure: Any, numbers: Mapping[str, int], columns: int, n_lines: int, left: float) -> None:
+def _key(
+    figure: Figure, numbers: Mapping[str, int], columns: int, n_lines: int, left: float
+) -> None:
     """Write the texts of the numbers below the chart, column by column."""
     height = figure.get_figheight() * 72
     for text, number in numbers.items():

@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
+from typing import TYPE_CHECKING
 
 from hrcplan.plots import style
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 BAR = 0.74  # height of a bar; a lane is 1 high
 LANE_PT = 54.0  # height of a lane, in points
@@ -87,7 +90,7 @@ def colors(names: Sequence[str]) -> dict[str, str]:
 
 
 def draw_bars(
-    axes: Any, bars: Sequence[GanttBar], color_of: dict[str, str], unit_pt: float
+    axes: Axes, bars: Sequence[GanttBar], color_of: dict[str, str], unit_pt: float
 ) -> dict[str, int]:
     """Draw bars, each with its text if that fits, else with a number; equal texts share a number.
 
@@ -121,7 +124,7 @@ def draw_bars(
     return numbers
 
 
-def name_lanes(axes: Any, names: Sequence[str], end: float) -> None:
+def name_lanes(axes: Axes, names: Sequence[str], end: float) -> None:
     """Name the lanes, and show the time from 0 to ``end``."""
     axes.set_yticks(range(len(names)), labels=[name or "no agent" for name in names])
     axes.set_ylim(len(names) - 0.5, -0.5)

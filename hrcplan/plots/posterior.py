@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING
 
 from hrcplan.inference.run import Inference
 from hrcplan.plots import style
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 MAX_WIDTH = 16.0  # inches: at most 2400 pixels
 _MAX_LABELS = 48
@@ -35,7 +38,7 @@ def draw(inference: Inference, form: str) -> bytes:
     return style.file_bytes(figure, form)
 
 
-def _lines(axes: Any, inference: Inference) -> None:
+def _lines(axes: Axes, inference: Inference) -> None:
     """Draw a line per goal: colored with a name for the likeliest, thin and gray for the others."""
     named = _likeliest(inference.posterior)
     others = [goal for goal in range(len(inference.goals)) if goal not in named]
@@ -52,7 +55,7 @@ def _lines(axes: Any, inference: Inference) -> None:
         )  # fmt: skip
 
 
-def _marks(axes: Any, inference: Inference) -> None:
+def _marks(axes: Axes, inference: Inference) -> None:
     """Mark goal changes with their probabilities, and observations that were ignored."""
     for i, change in enumerate(inference.changes):
         axes.axvline(change.at + 0.5, color=style.INK, linestyle="--", linewidth=1, zorder=2,
@@ -64,7 +67,7 @@ def _marks(axes: Any, inference: Inference) -> None:
                   clip_on=False, label="ignored observation" if i == 0 else None)  # fmt: skip
 
 
-def _observations(axes: Any, inference: Inference) -> None:
+def _observations(axes: Axes, inference: Inference) -> None:
     """Name the observations below the axis, or number them where there are many."""
     n = len(inference.actions)
     style.bare(axes, "y")

@@ -10,7 +10,11 @@ import functools
 import io
 import re
 from collections.abc import Callable
-from typing import Any, ParamSpec, TypeVar
+from typing import TYPE_CHECKING, Any, Literal, ParamSpec, TypeVar
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -24,6 +28,7 @@ LINES = (BLUE, ORANGE, GREEN, RED, PINK, SKY, "#8A6D3B", "#6A4C93")
 FILLS = ("#8CC8EC", "#F2C46D", "#7CCBB1", "#E6B3CF", "#F3EC8B", "#A9C1E8", "#EDA583", "#C9CED4")
 """The same colors, lighter, for areas that carry dark text."""
 DPI = 150
+_Sharing = bool | Literal["none", "all", "row", "col"]
 _STYLE = {
     "svg.hashsalt": "hrcplan",
     "font.family": "DejaVu Sans",
@@ -60,15 +65,18 @@ def styled(draw: Callable[P, T]) -> Callable[P, T]:
     return drawn
 
 
-def figure(columns: int, rows: int, width: float, height: float, **options: Any) -> tuple[Any, Any]:
+def figure(
+    columns: int, rows: int, width: float, height: float, *,
+    sharex: _Sharing = False, sharey: _Sharing = False,
+) -> tuple[Figure, Any]:  # fmt: skip
     """Return a figure of ``width`` by ``height`` inches, and its axes as a 2-d array."""
     from matplotlib.figure import Figure
 
     drawing = Figure(figsize=(width, height), layout="constrained")
-    return drawing, drawing.subplots(rows, columns, squeeze=False, **options)
+    return drawing, drawing.subplots(rows, columns, squeeze=False, sharex=sharex, sharey=sharey)
 
 
-def file_bytes(drawing: Any, form: str) -> bytes:
+def file_bytes(drawing: Figure, form: str) -> bytes:
     """Return a figure as a ``png`` or ``svg`` file; equal figures give equal bytes."""
     buffer = io.BytesIO()
     metadata = {"Date": None} if form == "svg" else {"Software": None}
@@ -76,7 +84,7 @@ def file_bytes(drawing: Any, form: str) -> bytes:
     return buffer.getvalue()
 
 
-def svg(drawing: Any, name: str, label: str) -> str:
+def svg(drawing: Figure, name: str, label: str) -> str:
     """Return a figure as an ``svg`` element of a page; equal figures give equal text.
 
     Args:
@@ -101,7 +109,7 @@ def _without_idle_names(text: str) -> str:
     return _ID.sub(lambda match: match[0] if match[1] in used else "", text)
 
 
-def bare(axes: Any, grid: str = "x") -> None:
+def bare(axes: Axes, grid: Literal["x", "y"] = "x") -> None:
     """Remove frame and ticks from axes, and draw a light grid in the background."""
     axes.spines[["left" if grid == "x" else "bottom"]].set_visible(False)
     axes.tick_params(length=0)

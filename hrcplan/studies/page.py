@@ -100,7 +100,7 @@ def readings(subjects: str) -> Section:
     return Section("Readings", words)
 
 
-def escape(text: object) -> str:
+def escape(text: str | float) -> str:
     """Return text as HTML."""
     return markup.escape(str(text), quote=True)
 

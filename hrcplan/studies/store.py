@@ -17,6 +17,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
+from hrcplan.core.json_values import JsonValue
 from hrcplan.core.text import cut, harmless
 from hrcplan.errors import InputError, UsageError
 from hrcplan.studies.study import Episode, StudyRow, StudyTable
@@ -230,7 +231,7 @@ def _about_fault(about: dict[str, Any]) -> str | None:
     return next((f"{key} is {about[key]!r}" for key in wrong), None)
 
 
-def _is_value(value: object) -> bool:
+def _is_value(value: JsonValue) -> bool:
     """Whether a value is one that rows hold: text, nothing, or a number of sensible size."""
     if isinstance(value, (int, float)):
         return abs(value) < MAX_VALUE  # not so of nan

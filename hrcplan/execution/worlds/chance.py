@@ -13,7 +13,7 @@ from typing import TypeVar
 T = TypeVar("T")
 
 
-def uniform(seed: object, *purpose: object) -> float:
+def uniform(seed: str | int, *purpose: str | int) -> float:
     """Return a number in [0, 1) that depends on the seed and the purpose only.
 
     >>> uniform(7, "outcome") == uniform(7, "outcome") != uniform(8, "outcome")
@@ -22,11 +22,11 @@ def uniform(seed: object, *purpose: object) -> float:
     return _stream(seed, *purpose).random()
 
 
-def choice(options: Sequence[T], seed: object, *purpose: object) -> T:
+def choice(options: Sequence[T], seed: str | int, *purpose: str | int) -> T:
     """Return one of ``options``, all equally likely."""
     return options[int(uniform(seed, *purpose) * len(options))]
 
 
-def _stream(*words: object) -> random.Random:
+def _stream(*words: str | int) -> random.Random:
     text = "/".join(map(str, words)).encode()
     return random.Random(int.from_bytes(hashlib.sha256(text).digest()[:8]))

@@ -54,7 +54,7 @@ class Nature:
     action lasts this many times its duration, drawn uniformly between two factors.
     """
 
-    seed: object = 0
+    seed: str | int = 0
     changes: tuple[StateChange, ...] = ()
     accidents: tuple[FactChange, ...] = ()
     sensed: str = DURING
@@ -73,6 +73,8 @@ class _Acted:
     start_effects: StartEffects
 
 
+_Due = StateChange | FactChange | ev.Ended | int | None
+"""What is due at a time: a number is that of an action that ends."""
 _END, _ACCIDENT, _CHANGE, _SENSE, _WAKE = range(5)
 """Kinds of entries on the clock; in one instant they happen in this order."""
 
@@ -89,7 +91,7 @@ class SimulatedWorld:
         self._acted: dict[int, _Acted] = {}
         self._unsensed: dict[FluentKey, Number] = {}
         self._n_attempts: dict[str, int] = {}
-        self._clock: list[tuple[float, int, int, object]] = []
+        self._clock: list[tuple[float, int, int, _Due]] = []
         self._n_entries = 0
         self._now = 0.0
         for change in nature.changes:
@@ -97,7 +99,7 @@ class SimulatedWorld:
         for accident in nature.accidents:
             self._at(accident.t, _ACCIDENT, accident)
 
-    def _at(self, t: float, kind: int, what: object) -> None:
+    def _at(self, t: float, kind: int, what: _Due) -> None:
         self._n_entries += 1
         heapq.heappush(self._clock, (t, kind, self._n_entries, what))
 
@@ -149,7 +151,7 @@ class SimulatedWorld:
         while self._clock:
             self._now = t = self._clock[0][0]
             events: list[Event] = []
-            instant: list[tuple[int, int, object]] = []
+            instant: list[tuple[int, int, _Due]] = []
             while self._pull(t, instant):
                 kind, _, what = heapq.heappop(instant)
                 events += self._happen(t, kind, what)
@@ -158,18 +160,18 @@ class SimulatedWorld:
                 return tuple(sorted(events, key=lambda e: ev.RANK[type(e)]))
         return ()
 
-    def _pull(self, t: float, instant: list[tuple[int, int, object]]) -> bool:
+    def _pull(self, t: float, instant: list[tuple[int, int, _Due]]) -> bool:
         """Move what belongs to an instant from the clock; return whether anything is left of it."""
         while self._clock and self._clock[0][0] < t + ev.INSTANT_S:
             _, kind, n, what = heapq.heappop(self._clock)
             heapq.heappush(instant, (kind, n, what))
         return bool(instant)
 
-    def _happen(self, t: float, kind: int, what: object) -> Sequence[Event]:
+    def _happen(self, t: float, kind: int, what: _Due) -> Sequence[Event]:
         if isinstance(what, ev.Ended):
             return [what]
-        if kind == _END:
-            return self._end(t, what)  # type: ignore[arg-type]
+        if isinstance(what, int):
+            return self._end(t, what)
         if isinstance(what, FactChange):
             facts = frozenset(self.state.facts) - what.deletes | what.adds
             self.state = LiftedState(facts, self.state.values)

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING
 
 from hrcplan.plots import style as plots
 from hrcplan.studies.changed_mind.cells import Cells
 from hrcplan.studies.changed_mind.episodes import ORACLE
 from hrcplan.studies.changed_mind.measures import MEASURES
 from hrcplan.studies.page import keys
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 COLORS = {
     "rhp": plots.ORANGE, "recursive": plots.MINT, "recursive-best": plots.GREEN,
@@ -84,7 +87,7 @@ def dots(cells: Cells, measure: str, title: str, name: str) -> str:
     return plots.svg(figure, f"{name} {title}", f"{title}, by human and method")
 
 
-def _humans(axes: Any, humans: Sequence[str], measure: str, title: str) -> None:
+def _humans(axes: Axes, humans: Sequence[str], measure: str, title: str) -> None:
     axes.set_xticks(range(len(humans)), labels=[human.replace(", ", ",\n") for human in humans])
     axes.set_xlim(-0.55, len(humans) - 0.45)
     axes.set_ylabel(MEASURES[measure].unit)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from functools import lru_cache
 from typing import Any
 
@@ -61,7 +61,7 @@ def row_of(spec: Spec) -> StudyRow:
 def allocated(options: StudyOptions, cell: Cell, seed: str) -> StudyRow:
     """Return who does what in the plan after a change: a point of Figure 5."""
     profile, at, value = str(cell[0]), int(cell[1]), int(cell[2])
-    engine = engine_for(_plain(options, profile=profile))
+    engine = engine_for(replace(_plain(options), profile=profile))
     monitor = engine.monitor
     key = scenario.element("allocation", options, human_elements(engine))
     before = drained(engine, starts_of_human(engine)[at])
@@ -98,7 +98,7 @@ def shown(options: StudyOptions, cell: Cell, seed: str) -> StudyRow:
     wanted = scenario.data()["example"]
     chosen = next(v for v in wanted["variants"] if v["name"] == cell[0])
     changes = {key: value for key, value in chosen.items() if key != "name"}
-    engine = engine_for(_plain(options, **changes))
+    engine = engine_for(replace(_plain(options), **changes))
     starts = starts_of_human(engine)
     key = scenario.element("example", options, human_elements(engine))
     change = StateChange(starts[min(wanted["action"], len(starts)) - 1], {key: wanted["value"]})
@@ -137,8 +137,8 @@ class Film:
                 self.bars.append(bar)
 
 
-def _plain(options: StudyOptions, **changes: Any) -> Spec:
-    return Spec(domain=options["domain"], problem=options["problem"], **changes)
+def _plain(options: StudyOptions) -> Spec:
+    return Spec(domain=options["domain"], problem=options["problem"])
 
 
 def human_elements(engine: Engine) -> list[FluentKey]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from hrcplan.agents.state import MOST
 from hrcplan.core.text import plural
@@ -14,6 +14,9 @@ from hrcplan.studies.estimate import MeanEstimate, estimate
 from hrcplan.studies.failure_anticipation.claims import BASELINE
 from hrcplan.studies.failure_anticipation.measures import MEASURES
 from hrcplan.studies.study import Cell, StudyRow
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 CASE_COLORS = {"1a": plots.GRAY, "1b": plots.BLUE, "2a": plots.PINK, "2b": plots.GREEN}
 _REASONS = (
@@ -101,7 +104,7 @@ def allocation(rows: Sequence[StudyRow], element: str) -> str:
     return plots.svg(figure, "allocation", f"Shares of human and robot against {element}")
 
 
-def _shares(axes: Any, points: Sequence[StudyRow]) -> None:
+def _shares(axes: Axes, points: Sequence[StudyRow]) -> None:
     values = sorted({int(row["value"] or 0) for row in points})
     changes = sorted({int(row["action"] or 0) for row in points})
     share = {
@@ -197,7 +200,7 @@ def lanes(rows: Sequence[StudyRow]) -> str:
         axes.set_title(f"{row['variant']}: {end}", pad=14)
         charts.name_lanes(axes, agents, end_s)
     grid[-1][0].set_xlabel("time (s)")
-    figure.get_layout_engine().set(hspace=0.12)
+    figure.set_layout_engine("constrained", hspace=0.12)
     return plots.svg(figure, "lanes", "One change of the human's state, as carried out")
 
 
