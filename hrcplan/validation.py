@@ -173,8 +173,8 @@ def validate(
         raise TypeError("validate() needs a problem and a plan")
     if isinstance(problem, Plan):
         raise TypeError("the plan is the last argument of validate(), after the problem")
-    asked = as_problem(domain, None if isinstance(problem, EllipsisType) else problem)
-    return _replay(asked, as_plan(plan, asked), epsilon_s)
+    loaded = as_problem(domain, None if isinstance(problem, EllipsisType) else problem)
+    return _replay(loaded, as_plan(plan, loaded), epsilon_s)
 
 
 def _replay(problem: Problem, plan: Plan, epsilon_s: Number) -> Report:

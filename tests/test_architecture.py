@@ -126,3 +126,80 @@ def test_files_named_in_documents_exist(name: str) -> None:
     assert paths
     missing = [p for p in paths if not any((base / p).exists() for base in (ROOT, PACKAGE))]
     assert missing == []
+
+
+Definition = ast.FunctionDef | ast.ClassDef
+
+
+def public_definitions(body: list[ast.stmt]) -> Iterator[Definition]:
+    """Yield the public classes and functions of a body, methods too; not the overloads."""
+    for node in body:
+        if isinstance(node, Definition) and not node.name.startswith("_"):
+            if "overload" not in map(ast.unparse, node.decorator_list):
+                yield node
+            if isinstance(node, ast.ClassDef):
+                yield from public_definitions(node.body)
+
+
+def own_nodes(node: ast.AST) -> Iterator[ast.AST]:
+    """Yield what a function itself does: not what functions and classes inside it do."""
+    for child in ast.iter_child_nodes(node):
+        if not isinstance(child, (ast.FunctionDef, ast.ClassDef, ast.Lambda)):
+            yield child
+            yield from own_nodes(child)
+
+
+def errors_raised(function: Definition) -> set[str]:
+    """Return the errors of hrcplan that a function itself raises."""
+    raised = (node.exc for node in own_nodes(function) if isinstance(node, ast.Raise) and node.exc)
+    calls = (exc.func if isinstance(exc, ast.Call) else exc for exc in raised)
+    errors = {n.name for n in TREES["hrcplan.errors"].body if isinstance(n, ast.ClassDef)}
+    return {call.id for call in calls if isinstance(call, ast.Name)} & errors
+
+
+def test_public_functions_have_docstrings_that_name_their_errors() -> None:
+    faults = []
+    for module, tree in TREES.items():
+        for node in public_definitions(tree.body):
+            text = ast.get_docstring(node)
+            is_command = "hrcplan.cli" in module and any(
+                "command" in ast.unparse(decorator) for decorator in node.decorator_list
+            )
+            if text is None:
+                faults.append(f"{module}.{node.name} has no docstring")
+            elif isinstance(node, ast.FunctionDef) and not is_command and "Raises:" not in text:
+                faults += [f"{module}.{node.name} raises {e}" for e in errors_raised(node)]
+    assert faults == []
+
+
+def bound_names(tree: ast.Module) -> Iterator[str]:
+    """Yield the names of variables, parameters, attributes and functions, as often as bound."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            yield node.id
+        elif isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Store):
+            yield node.attr
+        elif isinstance(node, ast.arg):
+            yield node.arg
+        elif isinstance(node, ast.FunctionDef):
+            yield node.name
+
+
+def test_a_name_says_what_a_thing_is() -> None:
+    names = {module: set(bound_names(tree)) for module, tree in TREES.items()}
+    vague = {"found", "said", "had", "drawn", "made", "taken", "asked"}
+    assert {module: own & vague for module, own in names.items() if own & vague} == {}
+
+
+def test_parameters_have_types() -> None:
+    """Anything is accepted only where another program decides what is passed on."""
+    parameters = [
+        f"{module}.{function.name}({parameter.arg})"
+        for module, tree in TREES.items()
+        for function in ast.walk(tree)
+        if isinstance(function, ast.FunctionDef)
+        for parameter in ast.walk(function.args)
+        if isinstance(parameter, ast.arg) and parameter.annotation is not None
+        if ast.unparse(parameter.annotation) in ("Any", "object")
+    ]
+    assert len(parameters) <= 5, parameters

@@ -160,16 +160,16 @@ def _without_duplicates(source: SourceText) -> tuple[SourceText, Mapping[str, tu
             word = node[1]
             if isinstance(word, WordNode):
                 places.setdefault(str(word).lower(), []).append(word)
-    taken, text = set(places), source.text
+    names_in_use, text = set(places), source.text
     names: dict[str, list[str]] = {name: [name] for name, words in places.items() if len(words) > 1}
     edits: list[tuple[int, str, str]] = []
     for name, given in names.items():
         for word in places[name][1:]:
             count = len(given) + 1
-            while f"{name}-{count}" in taken:
+            while f"{name}-{count}" in names_in_use:
                 count += 1
             given.append(f"{name}-{count}")
-            taken.add(given[-1])
+            names_in_use.add(given[-1])
             edits.append((word.at, name, given[-1]))
     for at, name, new in sorted(edits, reverse=True):
         text = text[:at] + new + text[at + len(name) :]

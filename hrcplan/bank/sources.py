@@ -41,7 +41,11 @@ def read_goals(domain: str, goals: str | None = None) -> Goals:
 
 
 def goals_in(files: tuple[SourceFile, ...], kind: str = "problems") -> Goals:
-    """Return the goals that files hold: a domain, then problems, or a template and its goals."""
+    """Return the goals that files hold: a domain, then problems, or a template and its goals.
+
+    Raises:
+        InputError: if the kind is unknown, or a file has faults.
+    """
     if kind not in KINDS:
         raise InputError(f"goals of an unknown kind: {quote(str(kind))}", code="bad-goals")
     if kind == ramirez_geffner.KIND:

@@ -53,12 +53,12 @@ def vary(goals: Goals, n: int, seed: int, *, n_objects: int = 0) -> Goals:
     if not old:
         raise UsageError("none of the goals can be reached", code="no-variants")
     low, high = min(s.n_steps for s in old), max(s.n_steps for s in old)
-    taken, variants = [shape.steps for shape in old], list[Formula]()
+    lengths, variants = [shape.steps for shape in old], list[Formula]()
     tries = 0
     for goal in _candidates(goals, world, rng):
         shape = _shape(table, goal)
-        if shape and low <= shape.n_steps <= high and _is_new(shape.steps, taken):
-            taken.append(shape.steps)
+        if shape and low <= shape.n_steps <= high and _is_new(shape.steps, lengths):
+            lengths.append(shape.steps)
             variants.append(goal)
             tries = 0
         tries += 1
@@ -115,5 +115,5 @@ def _shape(table: StepTable, goal: Formula) -> _Shape | None:
     return _Shape(sum(mark.cost for mark in marks), steps)
 
 
-def _is_new(steps: int, taken: list[int]) -> bool:
-    return all(steps & other not in (steps, other) for other in taken)
+def _is_new(steps: int, lengths: list[int]) -> bool:
+    return all(steps & other not in (steps, other) for other in lengths)

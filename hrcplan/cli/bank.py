@@ -195,15 +195,15 @@ def sample(bank: str, goal: str, n: int, seed: int, loop_free: bool, irredundant
     loaded = load(bank)
     index = loaded.goal_index(goal)
     wanted = ((loop_free, loaded.loop_free), (irredundant, loaded.irredundant(index)))
-    filters = [test for asked, test in wanted if asked]
+    filters = [test for is_asked, test in wanted if is_asked]
     keep = (lambda steps: all(test(steps) for test in filters)) if filters else None
-    drawn = loaded.sample(index, n, np.random.default_rng(seed), keep)
+    rows = loaded.sample(index, n, np.random.default_rng(seed), keep)
     plans = [
         {
             "steps": [str(loaded.table[step]) for step in steps],
             "actions": [str(action) for action in loaded.as_plan(steps).actions],
         }
-        for steps in drawn
+        for steps in rows
     ]
     if output.JSON:
         output.document({"goal": goal, "agents": loaded.agents, "plans": plans})

@@ -74,10 +74,10 @@ def command(
     check_target(target, base.path, base.domain.path)
     changed = base.with_values(dict(parse_setting(text, base) for text in settings))
     if vary:
-        made = _varied(changed, seed, new_objects)
+        problem = _varied(changed, seed, new_objects)
     else:
-        made = with_goal(changed, goal or "", name.lower())
-    text = problem_text(replace(made, name=name.lower()))
+        problem = with_goal(changed, goal or "", name.lower())
+    text = problem_text(replace(problem, name=name.lower()))
     if target is not None:
         output.write_atomically(target, text)
     if output.JSON:

@@ -53,17 +53,17 @@ def _side_by_side(played: Sequence[NarratedEpisode]) -> Any:
     """Return a table with a row per turn and a column per method."""
     from rich.table import Table
 
-    made = Table(box=None, padding=(0, 2, 0, 0), header_style="bold")
-    made.add_column("t", justify="right")
-    made.add_column("goal", no_wrap=True)
+    table = Table(box=None, padding=(0, 2, 0, 0), header_style="bold")
+    table.add_column("t", justify="right")
+    table.add_column("goal", no_wrap=True)
     for episode in played:
-        made.add_column(episode.method, no_wrap=True)
+        table.add_column(episode.method, no_wrap=True)
     for t in range(max(len(episode.turns) for episode in played)):
         turns = [e.turns[t] if t < len(e.turns) else None for e in played]
         goal = next(turn.goal for turn in turns if turn is not None)
         last = next((e.turns[t - 1].goal for e in played if 0 < t <= len(e.turns)), None)
-        made.add_row(str(t), "" if goal == last else goal, *map(_cell, turns))
-    return made
+        table.add_row(str(t), "" if goal == last else goal, *map(_cell, turns))
+    return table
 
 
 def _cell(turn: NarratedTurn | None) -> str:

@@ -149,10 +149,10 @@ class Registry(PartNames, Generic[P, T]):
         Raises:
             UsageError: as `find` does; also if the object made lacks something of its protocol.
         """
-        made = self.find(name)(*args, **options)
-        if not isinstance(made, self.protocol):
-            raise self._no_part(name, [n for n in members(self.protocol) if n not in dir(made)])
-        return made
+        part = self.find(name)(*args, **options)
+        if not isinstance(part, self.protocol):
+            raise self._no_part(name, [n for n in members(self.protocol) if n not in dir(part)])
+        return part
 
     def _find(self, name: str, is_typed: bool) -> Callable[P, T]:
         prefix, _, rest = name.partition(":")

@@ -52,8 +52,8 @@ class ChangeMeasures:
 
 def guesses(record: EpisodeRecord) -> GuessMeasures:
     """Return how well the goal was guessed."""
-    made = [turn for turn in record.turns if turn.guess is not None]
-    wrong = [turn.t for turn in made if turn.guess != turn.goal]
+    with_guess = [turn for turn in record.turns if turn.guess is not None]
+    wrong = [turn.t for turn in with_guess if turn.guess != turn.goal]
     last = max(wrong, default=-1) + 1
     spans = _spans(record)
     firsts = [_first_right(span, record.n_turns) for span in spans]
@@ -61,8 +61,8 @@ def guesses(record: EpisodeRecord) -> GuessMeasures:
         sum(firsts) / len(firsts) if firsts else None,
         last,
         100 * last / max(1, record.n_turns),
-        100 * (len(made) - len(wrong)) / max(1, len(made)),
-        100 * sum((turn.rank or 0) < TOP for turn in made) / max(1, len(made)),
+        100 * (len(with_guess) - len(wrong)) / max(1, len(with_guess)),
+        100 * sum((turn.rank or 0) < TOP for turn in with_guess) / max(1, len(with_guess)),
     )
 
 

@@ -7,10 +7,11 @@ this reading, rows 1a and 2a of that table come out to the last digit (see the t
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from hrcplan.core.means import mean_and_error
 from hrcplan.execution import events as ev
 from hrcplan.execution.run import Run
 
@@ -112,17 +113,7 @@ def outcome_of(run: Run, robots: frozenset[str]) -> Outcome:
 def means(rows: Sequence[Outcome]) -> dict[str, tuple[float, float]]:
     """Return mean and standard error of every measure over runs; (0, 0) without runs."""
     tables = [row.measures() for row in rows]
-    return {name: _mean([table[name] for table in tables]) for name in MEASURES}
-
-
-def _mean(values: Iterable[float]) -> tuple[float, float]:
-    numbers = list(values)
-    n = len(numbers)
-    if not n:
-        return 0.0, 0.0
-    mean = sum(numbers) / n
-    variance = sum((x - mean) ** 2 for x in numbers) / (n - 1) if n > 1 else 0.0
-    return mean, (variance / n) ** 0.5
+    return {name: mean_and_error([table[name] for table in tables]) for name in MEASURES}
 
 
 def _percent(part: int, whole: int) -> float:

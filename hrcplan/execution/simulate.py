@@ -168,7 +168,11 @@ def nature_of(spec: Spec, engine: Engine) -> Nature:
 
 
 def cause_of(spec: Spec, engine: Engine) -> FluentKey:
-    """Return the element that changes: any function, then any of a human's elements of it."""
+    """Return the element that changes: any function, then any of a human's elements of it.
+
+    Raises:
+        UsageError: if no human has an agent state that could change.
+    """
     agents = engine.model.agents
     keys = [key for key in agents.low if key[1] not in agents.robots]
     if not keys:

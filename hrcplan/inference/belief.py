@@ -27,10 +27,12 @@ class BeliefState(Protocol):
     """
 
     @property
-    def world(self) -> int: ...  # noqa: D102
+    def world(self) -> int:
+        """The state of the task, as bits."""
 
     @property
-    def ignored(self) -> str | None: ...  # noqa: D102
+    def ignored(self) -> str | None:
+        """Why the last observation had no effect on the posterior; None if it had one."""
 
 
 S = TypeVar("S", bound=BeliefState)

@@ -196,8 +196,8 @@ def _weighted(task: Task, weight: Number, step: Number = 0) -> Sequence[Number]:
 class _Names:
     """Readable PDDL names, each given once: fact and action names never clash."""
 
-    def __init__(self, *taken: str) -> None:
-        self._taken = {"", *taken}
+    def __init__(self, *reserved: str) -> None:
+        self._taken = {"", *reserved}
 
     def take(self, words: Sequence[str]) -> str:
         """Return a new name made of words."""

@@ -40,5 +40,5 @@ def plan(
     >>> plan("transport/handover", values={("motivation", "human"): 3}).plan.is_schedule
     True
     """
-    asked = as_problem(domain, problem).with_values(values or {})
-    return solve(asked, planner, timeout_s=timeout_s, any_plan=any_plan, lanes=lanes)
+    task_problem = as_problem(domain, problem).with_values(values or {})
+    return solve(task_problem, planner, timeout_s=timeout_s, any_plan=any_plan, lanes=lanes)

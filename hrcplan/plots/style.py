@@ -56,13 +56,13 @@ def styled(draw: Callable[P, T]) -> Callable[P, T]:
     """Return a function that draws in the style of all plots."""
 
     @functools.wraps(draw)
-    def drawn(*args: P.args, **options: P.kwargs) -> T:
+    def styled_draw(*args: P.args, **options: P.kwargs) -> T:
         import matplotlib as mpl
 
         with mpl.rc_context(_STYLE):  # type: ignore[arg-type]
             return draw(*args, **options)
 
-    return drawn
+    return styled_draw
 
 
 def figure(

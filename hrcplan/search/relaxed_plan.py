@@ -69,13 +69,13 @@ class Relaxation:
         # What costs nothing costs a little here: a literal must not support itself.
         prices = [self._prices[rule.op] or 1e-3 for rule in rules]
         self._rule_prices = np.array(prices, dtype=np.float64).reshape(-1, 1)
-        made = sorted((self._ids[x], i) for i, rule in enumerate(rules)
+        makers = sorted((self._ids[x], i) for i, rule in enumerate(rules)
                       for x in rule.gives if x in self._ids)  # fmt: skip
-        literals = np.array([literal for literal, _ in made], dtype=np.int64)
-        self._makers = np.array([i for _, i in made], dtype=np.int64)
+        literals = np.array([literal for literal, _ in makers], dtype=np.int64)
+        self._makers = np.array([i for _, i in makers], dtype=np.int64)
         self._made, self._first = np.unique(literals, return_index=True)
         self._segment = np.repeat(
-            np.arange(len(self._made)), np.diff([*self._first.tolist(), len(made)])
+            np.arange(len(self._made)), np.diff([*self._first.tolist(), len(makers)])
         )
         order = np.array(list(self._ids), dtype=np.int64)
         self._fact, self._is_true = order >> 1, order & 1 == 0

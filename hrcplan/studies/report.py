@@ -107,9 +107,9 @@ def estimates(
     """
     by_name: dict[str, MeanEstimate] = {}
     for name in names:
-        had = [row for row in rows if row.get(name) is not None]
-        values = [float(row[name] or 0) for row in had]
-        units = [tuple(row[key] for key in unit) for row in had]
+        with_value = [row for row in rows if row.get(name) is not None]
+        values = [float(row[name] or 0) for row in with_value]
+        units = [tuple(row[key] for key in unit) for row in with_value]
         by_name[name] = estimate_by(zip(units, values, strict=True)) if unit else estimate(values)
     return by_name
 

@@ -203,15 +203,15 @@ class Store:
         fresh.unlink(missing_ok=True)
         tables = self._connection.execute("select name, sql from sqlite_master").fetchall()
         self._connection.close()
-        made = sqlite3.connect(fresh)
-        made.execute("attach ? as old", [str(path)])
-        with made:
+        copy = sqlite3.connect(fresh)
+        copy.execute("attach ? as old", [str(path)])
+        with copy:
             for name, statement in sorted(tables):
                 if statement is not None:  # an index that SQLite makes by itself
-                    made.execute(statement)
-                    made.execute(f"insert into main.{name} select * from old.{name} order by 1, 2")
-        made.execute(f"pragma main.user_version = {_COMPACT}")
-        made.close()
+                    copy.execute(statement)
+                    copy.execute(f"insert into main.{name} select * from old.{name} order by 1, 2")
+        copy.execute(f"pragma main.user_version = {_COMPACT}")
+        copy.close()
         fresh.replace(path)
         self._connection = sqlite3.connect(path)
         if self._has_clock:

@@ -192,10 +192,10 @@ def _renumbered(
 ) -> tuple[Number, ...] | None:
     """Return the number of each role: what is left is known, the free role takes the value now."""
     free = [v for v in values if v not in left]
-    taken = set(left.values())
-    if len(taken) < len(left):
+    numbers_in_use = set(left.values())
+    if len(numbers_in_use) < len(left):
         return None
-    if now in taken or not free:
+    if now in numbers_in_use or not free:
         numbers = tuple(left.get(v, v) for v in values)
     else:
         numbers = tuple(left.get(v, now if v == free[0] else v) for v in values)

@@ -70,12 +70,12 @@ def load_or_train(folder: Path, key: Key, make: Callable[[], Trained]) -> Traine
             forest, fault = _look(path, key)
             if forest is not None:
                 return forest
-        made = make()
-        if alone and _saved(path, key, made):
-            made = _look(path, key)[0] or made
+        trained = make()
+        if alone and _saved(path, key, trained):
+            trained = _look(path, key)[0] or trained
         else:
-            _unsaved[path] = made
-        return replace(made, is_from_cache=False, fault=fault)
+            _unsaved[path] = trained
+        return replace(trained, is_from_cache=False, fault=fault)
 
 
 def path_of(folder: Path, key: Key) -> Path:
@@ -117,14 +117,14 @@ def _look(path: Path, key: Key) -> tuple[Trained | None, str | None]:
         return None, error.message
 
 
-def _saved(path: Path, key: Key, made: Trained) -> bool:
+def _saved(path: Path, key: Key, trained: Trained) -> bool:
     """Return whether a forest could be written to its file."""
-    model = made.model
+    model = trained.model
     assert isinstance(model, FlatForest), "only forests have a file format"
     data = {"nodes": model.nodes, "leaves": model.leaves, "roots": model.roots}
     arrays = Arrays()
     header = {
-        "key": key, "classes": made.classes.tolist(), "training": asdict(made.training),
+        "key": key, "classes": trained.classes.tolist(), "training": asdict(trained.training),
         **{name: arrays.add(data[name], kind) for name, kind in _ARRAYS.items()},
     }  # fmt: skip
     try:

@@ -26,7 +26,9 @@ class Cells:
     def __init__(self, table: str, options: StudyOptions, rows: Sequence[StudyRow]) -> None:
         by_cell = cells_of(rows, KEYS, scenario.cells(table, options))
         self.rows: dict[tuple[str, str], Sequence[StudyRow]] = {
-            (str(human), str(method)): had for (human, method), had in by_cell.items() if had
+            (str(human), str(method)): of_cell
+            for (human, method), of_cell in by_cell.items()
+            if of_cell
         }
         self.humans = list(dict.fromkeys(human for human, _ in self.rows))
         order = [str(method) for _, method in by_cell]
@@ -34,8 +36,8 @@ class Cells:
         self.methods = [method for method in dict.fromkeys(order) if method in has]
         self._declaring = {
             method
-            for (_, method), had in self.rows.items()
-            if any(row["n_detected"] or row["false_changes"] for row in had)
+            for (_, method), of_cell in self.rows.items()
+            if any(row["n_detected"] or row["false_changes"] for row in of_cell)
         }
         self._means: dict[tuple[str, str, str], MeanEstimate | None] = {}
         self._gaps: dict[tuple[str, str, str, str, float], Interval | None] = {}

@@ -123,8 +123,8 @@ def differences(
 ) -> dict[str, Interval] | None:
     """Return paired differences to each of the others; None if one has no rows."""
     intervals = {other: cells.difference(human, ours, other, measure) for other in others}
-    had = {other: one for other, one in intervals.items() if one is not None}
-    return had if len(had) == len(intervals) else None
+    complete = {other: one for other, one in intervals.items() if one is not None}
+    return complete if len(complete) == len(intervals) else None
 
 
 def _measured(
@@ -189,10 +189,10 @@ def midpoint(printed: Mapping[str, Any], cells: Cells) -> Claim | None:
     """Return that with a fixed goal the last wrong guess is about the middle of the episode."""
     low, high = printed["midpoint_pct"]
     means = {name: cells.mean(FIXED, name, "last_incorrect_pct") for name in (RHP, RECURSIVE)}
-    had = {name: e for name, e in means.items() if e is not None}
-    if len(had) < len(means):
+    complete = {name: e for name, e in means.items() if e is not None}
+    if len(complete) < len(means):
         return None
-    words = ", ".join(f"{name} {mean_text(e)} %" for name, e in had.items())
+    words = ", ".join(f"{name} {mean_text(e)} %" for name, e in complete.items())
     claim = (
         "When the goal is fixed, the last wrong guess of the method and of recursive Bayes is "
         "about the midpoint"
@@ -208,11 +208,11 @@ def midpoint(printed: Mapping[str, Any], cells: Cells) -> Claim | None:
 def minimal(printed: Mapping[str, Any], cells: Cells) -> Claim | None:
     """Return that the method's extra steps are few, for every human."""
     means = {human: cells.mean(human, RHP, "extra_steps") for human in HUMANS}
-    had = {human: e for human, e in means.items() if e is not None}
-    if len(had) < len(means):
+    complete = {human: e for human, e in means.items() if e is not None}
+    if len(complete) < len(means):
         return None
     most = printed["minimal_steps"]
-    words = ", ".join(f"{human} {mean_text(e)}" for human, e in had.items())
+    words = ", ".join(f"{human} {mean_text(e)}" for human, e in complete.items())
     evidence = (
         f"{words}. “Minimal” is read as less than {most:g} step. Extra steps count the human's own "
         "mistakes too, as in the changed-mind paper."

@@ -156,8 +156,8 @@ def differences(cells: Cells) -> Section | None:
     """Return paired differences to rhp, and of hrcplan to the best baseline."""
     parts = []
     for human in cells.humans:
-        had = cells.methods_of(human)
-        if BESIDE in had and len(had) > 1:
+        methods = cells.methods_of(human)
+        if BESIDE in methods and len(methods) > 1:
             parts.append(f'<h3 class="part">{escape(human)}</h3>')
             parts.append(tables.gaps(cells, human, COMPARED, BESIDE))
     data = scenario.data()["reach"]
@@ -227,10 +227,10 @@ def _beside(title: str, words: str, cells: Cells, name: str) -> Section | None:
     """Return plots of a table, and per human its means with differences to rhp."""
     if not cells.rows:
         return None
-    drawn = [figures.dots(cells, measure, text, name) for measure, text in PLOTTED.items()]
+    plots = [figures.dots(cells, measure, text, name) for measure, text in PLOTTED.items()]
     caption = f"Means over pairs of goals with 95 % intervals. {how_many(cells)}"
     keys = figures.legend(figures.without_oracle(cells.methods))
-    parts = [f"<p>{words}</p>", panels(drawn, caption, keys, "wide")]
+    parts = [f"<p>{words}</p>", panels(plots, caption, keys, "wide")]
     for human in cells.humans:
         parts.append(f'<h3 class="part">{escape(human)}</h3>')
         methods = cells.methods_of(human)
@@ -242,8 +242,8 @@ def _beside(title: str, words: str, cells: Cells, name: str) -> Section | None:
 
 def banks(cells: Cells) -> Section | None:
     """Return how bank and order of steps affect the detection of changes by rhp."""
-    had = [method for method in BANKS if method in cells.methods]
-    if len(had) < 2:
+    present = [method for method in BANKS if method in cells.methods]
+    if len(present) < 2:
         return None
     names = ("false_changes", "false_before", "n_detected", "detection_delay", "correct_pct",
              "wasted_robot_steps")  # fmt: skip
@@ -253,10 +253,10 @@ def banks(cells: Cells) -> Section | None:
         "subsequence of one (<em>in order</em>); its bank holds 10,000 sampled sequences per goal, "
         "not all plans (<em>sampled</em>). A false change is one that is declared though the goal "
         "stayed.</p>",
-        _false_ones(cells, had),
+        _false_ones(cells, present),
     ]
     for human in cells.humans:
-        methods = [method for method in had if method in cells.methods_of(human)]
+        methods = [method for method in present if method in cells.methods_of(human)]
         if methods:
             parts.append(f'<h3 class="part">{escape(human)}</h3>')
             parts.append(tables.both(cells, human, names, BESIDE, methods))
@@ -278,8 +278,8 @@ def _false_ones(cells: Cells, methods: Sequence[str]) -> str:
 
 def exchanged(cells: Cells) -> Section | None:
     """Return rhp with one part or number exchanged, and hrcplan too."""
-    had = [method for method in cells.methods if method not in BANKS[1:]]
-    if not had:
+    present = [method for method in cells.methods if method not in BANKS[1:]]
+    if not present:
         return None
     dots = zip(("full", "hollow"), cells.humans, strict=False)
     filled = ", ".join(f"{dot} {escape(human)}" for dot, human in dots)
@@ -294,7 +294,7 @@ def exchanged(cells: Cells) -> Section | None:
         picture(svg, caption),
     ]
     for human in cells.humans:
-        methods = [method for method in had if method in cells.methods_of(human)]
+        methods = [method for method in present if method in cells.methods_of(human)]
         if methods:
             parts.append(f'<h3 class="part">{escape(human)}</h3>')
             parts.append(tables.both(cells, human, COMPACT[:-1], BESIDE, methods))

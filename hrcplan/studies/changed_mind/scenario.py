@@ -222,12 +222,12 @@ def course(name: str, bank: Bank, seed: Seed) -> Course:
     The first change comes before a turn of the human that is uniform among those before the first
     goal could be finished; each further one after up to a quarter of the turns that its goal takes.
     """
-    said, chance = human_data(name), random.Random(f"{seed}/course")
+    table, chance = human_data(name), random.Random(f"{seed}/course")
     n = len(bank.names)
     pairs = _pairs(seed.study, seed.run // (n * (n - 1)), n)
     first, second = pairs[seed.run % len(pairs)]
     wanted, turns = [first], []
-    for number in range(said["changes"]):
+    for number in range(table["changes"]):
         length = bank.graphs[wanted[-1]].n_steps
         if number == 0:
             wanted.append(second)
@@ -235,7 +235,7 @@ def course(name: str, bank: Bank, seed: Seed) -> Course:
         else:
             wanted.append(chance.choice([g for g in range(n) if g != wanted[-1]]))
             turns.append(turns[-1] + chance.randint(1, max(1, length // SPREAD)))
-    rates = said.get("mistake_rate", 0.0), said.get("wait_rate", 0.0)
+    rates = table.get("mistake_rate", 0.0), table.get("wait_rate", 0.0)
     return Course(tuple(wanted), tuple(turns), *rates, seed=str(seed))
 
 

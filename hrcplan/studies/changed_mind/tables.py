@@ -93,8 +93,8 @@ def _best(cells: Cells, human: str, measure: str, baselines: Iterable[str]) -> s
     """Return the baseline with the best mean, the first of equals; no name without any."""
     sign = -1 if MEASURES[measure].more_is_better else 1
     means = {name: cells.mean(human, name, measure) for name in baselines}
-    had = {name: sign * e.mean for name, e in means.items() if e is not None}
-    return min(had, key=lambda name: had[name]) if had else ""
+    signed = {name: sign * e.mean for name, e in means.items() if e is not None}
+    return min(signed, key=lambda name: signed[name]) if signed else ""
 
 
 def both(

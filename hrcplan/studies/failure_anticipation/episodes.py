@@ -51,11 +51,11 @@ def row_of(spec: Spec) -> StudyRow:
     engine = engine_for(spec)
     nature = nature_of(spec, engine)
     outcome = engine.outcome(engine.run(nature))
-    drawn: StudyRow = dict.fromkeys(_DRAWN)
+    chance_columns: StudyRow = dict.fromkeys(_DRAWN)
     for change in nature.changes:
         for key, value in change.values.items():
-            drawn = {"element": " ".join(key), "value": float(value), "change_s": change.t}
-    return {**outcome.to_json(), **outcome.measures(), **drawn}
+            chance_columns = {"element": " ".join(key), "value": float(value), "change_s": change.t}
+    return {**outcome.to_json(), **outcome.measures(), **chance_columns}
 
 
 def allocated(options: StudyOptions, cell: Cell, seed: str) -> StudyRow:
@@ -65,9 +65,9 @@ def allocated(options: StudyOptions, cell: Cell, seed: str) -> StudyRow:
     monitor = engine.monitor
     key = scenario.element("allocation", options, human_elements(engine))
     before = drained(engine, starts_of_human(engine)[at])
-    told = monitor.profile.planner_values(monitor.model.agents, {key: value}, Memory())
+    planner_values = monitor.profile.planner_values(monitor.model.agents, {key: value}, Memory())
     facts = monitor.model.actions.changing(before)
-    answer = engine.planner.answer(ev.AskPlan(0.0, facts, before.values, told))
+    answer = engine.planner.answer(ev.AskPlan(0.0, facts, before.values, planner_values))
     actions = () if answer.plan is None else answer.plan.actions
     n_human = sum(is_human(engine, action) for action in actions)
     cost = None if answer.metric is None else float(answer.metric)

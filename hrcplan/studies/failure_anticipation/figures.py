@@ -191,8 +191,8 @@ def lanes(rows: Sequence[StudyRow]) -> str:
     height = charts.LANE_PT * len(agents) / 72 + 0.55
     figure, grid = plots.figure(1, len(films), _WIDTH, 0.5 + height * len(films), sharex=True)
     for (axes,), (row, bars, plans) in zip(grid, films, strict=True):
-        drawn = [_bar(bar, agents) for bar in bars]
-        charts.draw_bars(axes, drawn, color_of, 72 * (_WIDTH - 1.0) / end_s)
+        gantt_bars = [_bar(bar, agents) for bar in bars]
+        charts.draw_bars(axes, gantt_bars, color_of, 72 * (_WIDTH - 1.0) / end_s)
         for plan in plans[1:]:
             axes.axvline(plan["t"], color=plots.INK, linewidth=1, linestyle=(0, (2, 2)))
             axes.text(plan["t"] + end_s / 400, -0.62, "replan", fontsize=7, color=plots.SOFT)
