@@ -227,15 +227,13 @@ class Bank:
             UsageError: if the steps cannot be done one after the other.
         """
         task, state = self.goals.task, self.initial
-        robot_names = robots(task.problem)
+        own = robots(task.problem)
         actions: list[PlannedAction] = []
         for step in steps:
             can = [i for i in self.table[step].actions if task.is_applicable(state, i)]
             if not can:
                 raise UsageError(f"{self.table[step]} cannot be done here")
-            action = min(
-                can, key=lambda i: (task.costs[i], task.actions[i].agent in robot_names, i)
-            )
+            action = min(can, key=lambda i: (task.costs[i], task.actions[i].agent in own, i))
             actions.append(PlannedAction(task.actions[action].name, task.actions[action].args))
             state = task.successor(state, action)
         return Plan(tuple(actions))

@@ -84,17 +84,15 @@ class Driver:
         """Return the run after the events of one instant, and what follows at once from them."""
         t = run.t
         for event in events:
-            run, request = self._step(run, event)
+            run, ask = self._step(run, event)
             t = max(t, event.t)
         for action in run.running:
             if t > action.begun_s + PATIENCE * action.duration_s + ev.INSTANT_S:
-                run, request = self._step(run, ev.Overdue(t, action.number))
-        run, request = self._step(run, ev.Settled(t))
-        while request is not None:
-            run, again = self._step(
-                run, self.record.recorded_plan() or self.planner.answer(request)
-            )
-            run, request = (run, again) if again is not None else self._step(run, ev.Settled(t))
+                run, ask = self._step(run, ev.Overdue(t, action.number))
+        run, ask = self._step(run, ev.Settled(t))
+        while ask is not None:
+            run, again = self._step(run, self.record.recorded_plan() or self.planner.answer(ask))
+            run, ask = (run, again) if again is not None else self._step(run, ev.Settled(t))
         return run
 
     def _step(self, run: Run, event: Event) -> tuple[Run, ev.AskPlan | None]:
@@ -103,10 +101,10 @@ class Driver:
         self.record.record_decision(commands)
         if self.watch is not None:
             self.watch(run, event, commands)
-        request = None
+        ask = None
         for command in commands:
             if isinstance(command, ev.AskPlan):
-                request = command
+                ask = command
             else:
                 self.world.do(command)
-        return run, request
+        return run, ask

@@ -26,9 +26,7 @@ class Cells:
     def __init__(self, table: str, options: StudyOptions, rows: Sequence[StudyRow]) -> None:
         by_cell = cells_of(rows, KEYS, scenario.cells(table, options))
         self.rows: dict[tuple[str, str], Sequence[StudyRow]] = {
-            (str(human), str(method)): of_cell
-            for (human, method), of_cell in by_cell.items()
-            if of_cell
+            (str(human), str(method)): own for (human, method), own in by_cell.items() if own
         }
         self.humans = list(dict.fromkeys(human for human, _ in self.rows))
         order = [str(method) for _, method in by_cell]
@@ -36,8 +34,8 @@ class Cells:
         self.methods = [method for method in dict.fromkeys(order) if method in has]
         self._declaring = {
             method
-            for (_, method), of_cell in self.rows.items()
-            if any(row["n_detected"] or row["false_changes"] for row in of_cell)
+            for (_, method), own in self.rows.items()
+            if any(row["n_detected"] or row["false_changes"] for row in own)
         }
         self._means: dict[tuple[str, str, str], MeanEstimate | None] = {}
         self._gaps: dict[tuple[str, str, str, str, float], Interval | None] = {}

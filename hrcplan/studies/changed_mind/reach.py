@@ -125,14 +125,14 @@ def waste(data: Mapping[str, Any], beyond: Cells) -> Claim | None:
     """Return that little is wasted per change, however often goals change and humans wait."""
     means = {human: beyond.mean(human, data["method"], "wasted_robot_steps")
              for human in beyond.humans}  # fmt: skip
-    complete = {human: e for human, e in means.items() if e is not None}
-    if not complete:
+    measured = {human: e for human, e in means.items() if e is not None}
+    if not measured:
         return None
     most, per_change = (
         data["waste_per_change"],
-        {h: e.mean / n_changes(h) for h, e in complete.items()},
+        {h: e.mean / n_changes(h) for h, e in measured.items()},
     )
-    n = [e.n for e in complete.values()]
+    n = [e.n for e in measured.values()]
     words = "; ".join(f"{human}: {number(mean)}" for human, mean in per_change.items())
     many = f"{min(n):,}" if min(n) == max(n) else f"{min(n):,} to {max(n):,}"
     claim = f"More changes than one: at most {most:g} wasted robot step per change of goal"
