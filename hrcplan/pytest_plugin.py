@@ -62,7 +62,7 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> ProblemFil
 
 
 class ProblemFile(pytest.File):
-    """One problem file: two test cases; a domain file beside it: one."""
+    """One problem file: two test cases; a domain file in its folder: one."""
 
     def collect(self) -> Iterator[pytest.Item]:
         """Yield the check, and the plan unless the file is a domain."""

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import ast
+import io
 import re
+import tokenize
 from collections import defaultdict
 from collections.abc import Iterator
 from pathlib import Path
@@ -126,6 +128,43 @@ def test_files_named_in_documents_exist(name: str) -> None:
     assert paths
     missing = [p for p in paths if not any((base / p).exists() for base in (ROOT, PACKAGE))]
     assert missing == []
+
+
+VAGUE = re.compile(
+    r"\b(some(one|body)('s)?|whoever|anybody|nobody|a stranger('s)?|by chance|beside|anew|mend|"
+    r"its word counts|what is kept|likewise|dear(est)?|ours|told|stands in)\b",
+    re.IGNORECASE,
+)
+
+
+def prose(path: Path) -> Iterator[tuple[int, str]]:
+    """Yield comments, docstrings and messages of a file, with their lines; code is left out."""
+    text = path.read_text(encoding="utf-8")
+    if path.suffix == ".py":
+        for token in tokenize.generate_tokens(io.StringIO(text).readline):
+            if token.type == tokenize.COMMENT or (
+                token.type == tokenize.STRING and " " in token[1]
+            ):
+                yield token.start[0], re.sub(r"\{[^{}]*\}|[\w-]+=", "", token.string)
+    else:
+        for number, line in enumerate(text.splitlines(), 1):
+            if path.suffix == ".md" or line.startswith("#"):
+                yield number, re.sub(r"`[^`]*`", "", line)
+
+
+def test_prose_names_who_and_what() -> None:
+    """Docstrings, comments, messages and documents say which agent, file or value they mean."""
+    files = [
+        *PACKAGE.rglob("*.py"), *PACKAGE.rglob("*.toml"), *(ROOT / "docs").rglob("*.md"),
+        ROOT / "README.md",
+    ]  # fmt: skip
+    faults = [
+        f"{path.relative_to(ROOT)}:{number}: {match[0]}"
+        for path in files
+        for number, text in prose(path)
+        for match in VAGUE.finditer(text)
+    ]
+    assert faults == []
 
 
 Definition = ast.FunctionDef | ast.ClassDef

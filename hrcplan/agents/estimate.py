@@ -1,8 +1,8 @@
 """The agent state inferred from outcomes alone: a Bayesian filter over causes and levels.
 
-Nothing is sensed. At some time at most one element of somebody's state may have changed to a level
+Nothing is sensed. At some time at most one element of an agent's state may have changed to a level
 L, and an action that it touches then fails with probability L / 10: either once and for all (who
-fails at it fails every time, who does not never does), or drawn anew at every attempt. Each
+fails at it fails every time, who does not never does), or drawn again at every attempt. Each
 observed outcome updates what is believed of all that; besides, any action can slip.
 """
 
@@ -21,7 +21,7 @@ LEVELS = tuple(range(1, 11))
 NOTICEABLE = 0.02
 _LASTING, _ANEW = "lasting", "anew"
 Cause = tuple[FluentKey, int, str, bool]
-"""Element, level, whether it strikes lastingly or anew, and if lastingly, whether it does."""
+"""Element, level, whether it is lasting or per attempt, and if lasting, whether it strikes."""
 
 
 @dataclass(frozen=True)
@@ -65,7 +65,7 @@ class Prior:
 
 @dataclass(frozen=True)
 class AgentStateEstimate:
-    """What is believed after some outcomes; stands in for ``Memory``.
+    """What is believed after some outcomes; replaces ``Memory``.
 
     ``weights`` are the probabilities of the causes; what is missing from 1 is "nothing changed".
 

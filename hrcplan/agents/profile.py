@@ -1,4 +1,4 @@
-"""Profiles: how what is sensed becomes what the planner is told, and when that means a replan.
+"""Profiles: function values for the planner from sensed values, and when to replan.
 
 A profile is data (``profiles.toml``, or a file of the user's); this module only reads it.
 """

@@ -56,7 +56,7 @@ class Assistant(Belief[S], Protocol[S]):
 
 @runtime_checkable
 class KnowsGoal(Protocol[S]):
-    """An assistant that is told the human's goal after each of the human's turns."""
+    """An assistant that receives the human's goal after each of the human's turns."""
 
     def inform(self, state: S, goal: int) -> S:
         """Return the state once the human's present goal is known."""
@@ -205,7 +205,7 @@ class _Told(Protocol[S]):
 def inform(assistant: Assistant[S], state: S, goal: int) -> S:
     """Return an assistant's state after a turn of the human whose goal is ``goal``.
 
-    The goal changes nothing for an assistant that is not told it (`KnowsGoal`).
+    The goal changes nothing for an assistant that does not know it (`KnowsGoal`).
     """
     if isinstance(assistant, KnowsGoal):
         informed: S = assistant.inform(state, goal)

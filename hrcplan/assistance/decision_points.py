@@ -1,6 +1,6 @@
 """Critical Decision Points (Ghose et al., RO-MAN 2024), adapted to turns as in IV-D.2.
 
-The robot leads the human to where its next action says most about its goal, and ignores time. Ours
+The robot leads the human to where its next action says most about its goal, and ignores time. This
 is one of many possible adaptations:
 
 - The belief is the forest on all steps done by either agent; nothing is ever forgotten.

@@ -1,4 +1,4 @@
-"""Steps that nobody has done yet: where they lead, and which of them a tree tries (IV-C2)."""
+"""Steps that no agent has done yet: where they lead, and which of them a tree tries (IV-C2)."""
 
 from __future__ import annotations
 

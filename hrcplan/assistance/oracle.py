@@ -1,4 +1,4 @@
-"""A robot that is told the human's goal: the bound that no other assistant can expect to beat."""
+"""A robot that knows the human's goal: the bound that no other assistant can expect to beat."""
 
 from __future__ import annotations
 
@@ -70,5 +70,5 @@ class Oracle(BankAssistant[OracleState]):
 
 
 def _spread(world: int) -> int:
-    """Return a number that differs as if by chance between states, and is always the same."""
+    """Return a pseudo-random number of a state: always the same for the same state."""
     return crc32(world.to_bytes(world.bit_length() // 8 + 1, "little"))

@@ -126,7 +126,7 @@ _SHARED: WeakValueDictionary[int, CombinedGraph] = WeakValueDictionary()
 def combined_graph_of(bank: Bank) -> CombinedGraph:
     """Return the graphs of a bank in one; beliefs about the same bank share it.
 
-    Of 30 goals with 13,000 nodes each it takes 80 MB. It is gone when nobody uses it any more.
+    Of 30 goals with 13,000 nodes each it takes 80 MB. The last belief frees it.
     """
     combined = _SHARED.get(id(bank))  # while it lives, so does its bank: no other one has that id
     if combined is None:
@@ -135,7 +135,7 @@ def combined_graph_of(bank: Bank) -> CombinedGraph:
 
 
 class ApplicableSteps:
-    """Which labels someone can do in a state, as bits; kept up to date from state to state."""
+    """Which labels some agent can do in a state, as bits; kept up to date from state to state."""
 
     def __init__(self, combined: CombinedGraph) -> None:
         table, task = combined.bank.table, combined.bank.goals.task

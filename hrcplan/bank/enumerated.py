@@ -25,7 +25,7 @@ from hrcplan.task import Task
 from hrcplan.task.conditions import Tests, meets
 from hrcplan.task.steps import StepTable
 
-LONGEST_S = 86_400.0  # a planner process without a limit of ours
+LONGEST_S = 86_400.0  # a planner process without a limit of its own
 
 
 def sampled_graph(

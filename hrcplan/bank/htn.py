@@ -99,7 +99,7 @@ class Htn:
         bound to one kind has to begin with just its steps.
 
         Args:
-            remaining: The steps still to do, whoever did the others and in whatever order; a step
+            remaining: The steps still to do, whatever the order of the others; a step
                 as often as it has still to be done.
         """
         mask = self.layout.mask(remaining)
@@ -113,7 +113,7 @@ class Htn:
         return tuple(dict.fromkeys(steps[i] for i in positions(bits)))
 
     def choose(self, remaining: Iterable[int], last: int | None, pick: Pick) -> int | None:
-        """Return the next step of somebody who finishes what was begun.
+        """Return the next step of a human who finishes what was begun.
 
         From the top down: a chain goes on with its first child that has something left to do; a
         clique, and the choice between kinds, with one that holds the last step; else with

@@ -49,7 +49,7 @@ class Evidence:
         goals: The goals that explain it: it is a next step of one of their plans.
         log_shares: For each of these the logarithm of the share of its plans that go on so.
         n_next: For every goal, how many labels could come next in its plans.
-        n_doable: How many labels somebody could do.
+        n_doable: How many labels some agent could do.
     """
 
     goals: Ids
@@ -75,7 +75,7 @@ class ProgressTracker:
         self.start = Progress(world, self.combined.roots, self._doable.of(world))
 
     def follow(self, progress: Progress, step: int) -> tuple[Progress, Evidence] | None:
-        """Return where everything stands after a step, and what it says; None if nobody can do it.
+        """Return the progress and the evidence after a step; None if no agent can do it.
 
         What it says, it says about the moment before.
         """

@@ -48,7 +48,7 @@ def is_folder(path: Path) -> bool:
 
 
 def read_instance(folder: Path) -> RecognitionInstance:
-    """Return all that a folder holds; its domain is ``domain.pddl`` beside the rest.
+    """Return all that a folder holds; its domain is ``domain.pddl`` in the folder.
 
     Raises:
         InputError: if a file is missing or has faults, or the true goal is not among the goals.
@@ -134,7 +134,7 @@ def _true_goal(path: Path, goals: Goals) -> int | None:
     if not path.is_file():
         return None
     sets = [_parts(formula) for formula in goals.formulas]
-    common = frozenset.intersection(*sets)  # what the template asks for beside the hypothesis
+    common = frozenset.intersection(*sets)  # what the template asks for besides the hypothesis
     world = replace(goals.problem, goal=TRUE)
     for number, line in _lines(read_source(path)):
         wanted = _parts(_goal(world, line, str(path), number))
@@ -152,7 +152,7 @@ def _parts(formula: Formula) -> frozenset[Formula]:
 
 
 def _without_duplicates(source: SourceText) -> tuple[SourceText, Mapping[str, tuple[str, ...]]]:
-    """Return a domain's text with actions of one name told apart, and the names each was given."""
+    """Return a domain's text in which actions have different names, and the new names of each."""
     root = read(SourceText(source.path, source.text))
     places: dict[str, list[WordNode]] = {}
     for node in root or ():

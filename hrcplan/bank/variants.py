@@ -1,4 +1,4 @@
-"""Further goals from given ones, by chance: other objects of the same types in their places.
+"""Random variants of given goals: other objects of the same types in their places.
 
 Nothing is known here about any domain. A variant is kept if it can be reached, needs about as many
 steps as the goals it was made from, and neither holds nor is held by the steps of another.

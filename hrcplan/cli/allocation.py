@@ -127,6 +127,6 @@ def _line(line: Line) -> str:
 
 
 def _shown(number: Number) -> str:
-    """Return a number in at most six digits; a fraction beside it where those are not exact."""
+    """Return a number in at most six digits, and the fraction if they are not exact."""
     short = f"{float(number):.6g}"
     return short if Fraction(short) == number else f"{short} ({number})"

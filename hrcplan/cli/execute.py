@@ -29,7 +29,7 @@ HELP = """Carry out DOMAIN PROBLEM with a simulated human, and replan before act
   uncooperative       one element of the human's agent state rises to 10
   partly-cooperative  it rises to a value from 5 to 10
   random              the change comes before a random action of the human, else at 0 s
-  attempt             each attempt of an action is drawn anew, else once per run (once)
+  attempt             each attempt of an action is drawn again, else once per run (once)
   before | during | after
                       the change is sensed before, during (default) or after the
                       human's first action under it

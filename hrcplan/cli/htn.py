@@ -50,7 +50,7 @@ def _tree(node: OrderNode, table: StepTable) -> dict[str, Any]:
 
 
 def as_text(graph: PlanGraph, htn: Htn, table: StepTable) -> str:
-    """Return the view in words: what the tree allows beside what plans there are, and the tree."""
+    """Return the view in words: counts of orders and of plans, and the tree."""
     plans = f"{'' if graph.complete else '>= '}{int_text(htn.plans, ',')} plans"
     lines = [f"{htn.goal}: {graph.n_steps} steps, {plans}"]
     if htn.kinds:

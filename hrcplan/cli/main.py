@@ -107,7 +107,7 @@ def _exit_code(words: list[str], run: Callable[[], Any]) -> int:
 
 
 def _unprinted(error: output.PrintError) -> int:
-    """Say that the result could not be printed; nobody wants to know it of a closed pipe."""
+    """Say that the result could not be printed; a closed pipe is not reported."""
     if not error.is_closed:
         with contextlib.suppress(output.PrintError):
             output.complain(f"cannot print the result: {error}")

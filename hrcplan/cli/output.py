@@ -93,7 +93,7 @@ def table(grid: RenderableType) -> None:
     console = Console(highlight=False)
     if not console.is_terminal:
         console.width = FILE_WIDTH
-    # What steers the terminal in the output is ours, never from a cell.
+    # Only rich writes control characters to the terminal: the text of a cell has none.
     pieces = [Segment(harmless(s.text), s.style, s.control) for s in console.render(grid)]
     with console.capture() as text:
         console.print(Segments(pieces))

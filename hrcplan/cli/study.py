@@ -79,7 +79,7 @@ command.add_command(play.command)
     "humans",
     multiple=True,
     metavar="HUMAN",
-    help="Run this human only, likewise. Only changed-mind.",
+    help="Run this human only; repeatable. Only changed-mind.",
 )
 @click.option(
     "--chooser",
@@ -171,7 +171,7 @@ def _mean(mean: float | None, se: float | None) -> str:
 
 
 def _bar() -> AbstractContextManager[Callable[[int, int], None] | None]:
-    """Return a progress bar on stderr, or nothing where nobody watches."""
+    """Return a progress bar on stderr, or nothing where stderr is no terminal."""
     from rich.console import Console
 
     console = Console(stderr=True)

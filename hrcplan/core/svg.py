@@ -14,7 +14,7 @@ from hrcplan.core.text import cut
 # Okabe and Ito's colors: color-blind readers can tell them apart.
 COLORS = ("#56B4E9", "#E69F00", "#009E73", "#F0E442", "#CC79A7", "#0072B2", "#D55E00", "#BBBBBB")
 WIDTH, MARGIN = 760, 110  # pixels; the margin holds the lanes' names
-MAX_BARS = 2000  # beyond that a picture helps nobody and a browser suffers
+MAX_BARS = 2000  # a larger picture cannot be read, and browsers become slow
 _ROW, _AXIS = 40, 24
 _CHARACTER = 6.2  # width of a character of size 11, about
 

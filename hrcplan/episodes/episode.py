@@ -108,11 +108,11 @@ def play(
     Args:
         bank: The plans; they decide what is needed.
         human: Who acts first.
-        robot: The assistant; one that `KnowsGoal` is told the human's goal after each of the
+        robot: The assistant; one that `KnowsGoal` receives the human's goal after each of the
             human's turns.
         course: What the human wants and when; the human was made from the same one.
         world: Where it happens; by default as the PDDL says.
-        watch: Is told about every turn.
+        watch: Is called with every turn.
 
     Raises:
         UsageError: if the human or the robot chooses an index that is no step, or a step that it
@@ -222,7 +222,7 @@ def _action(table: StepTable, state: int, step: SupportsIndex, agents: frozenset
         raise UsageError(f"{step!r} is no step", code="bad-step")
     action = table.doer(state, int(step), agents)
     if action is None:
-        who = " or ".join(sorted(agents)) or "anybody"
+        who = " or ".join(sorted(agents)) or "any agent"
         raise UsageError(f"{table[int(step)]} cannot be done by {who} here", code="bad-step")
     return action
 

@@ -1,7 +1,7 @@
 """What actions do while they are carried out: begin, finish, or break off without effect.
 
 States are ``semantics.State``: all facts, and the numbers that actions change apart from
-total-cost and agent state (those are nobody's to execute). It reads the lifted model, so that
+total-cost and agent state (no agent executes those). It reads the lifted model, so that
 domains which the bit task cannot hold are executed too.
 """
 

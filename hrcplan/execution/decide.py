@@ -21,7 +21,7 @@ from hrcplan.pddl.model import FluentKey, Problem
 from hrcplan.plans import Plan, PlannedAction
 from hrcplan.validation import objective, validate
 
-MAX_ASKED_AGAIN = 3  # times that one replan may ask anew because something changed meanwhile
+MAX_ASKED_AGAIN = 3  # times that one replan may ask again because something changed meanwhile
 _TIE = 1e-3  # relative; the gaps between printed actions differ by less between plans
 
 
@@ -90,7 +90,7 @@ class Decider:
     def consider_plan(self, run: Run, event: ev.Planned) -> RunStep:
         """Return what follows from the answer of a planner: adopt, confirm, ask again, or end."""
         if run.phase is not Phase.PLANNING:
-            return run, (ev.Tell(run.t, "unasked-plan", "a plan that nobody asked for"),)
+            return run, (ev.Tell(run.t, "unasked-plan", "a plan that was not asked for"),)
         # What changed while the planner thought belongs to the same replan.
         if 0 < len(run.reasons) - run.n_reasons_asked <= MAX_ASKED_AGAIN:
             return self._ask_plan(run)

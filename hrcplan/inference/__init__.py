@@ -1,4 +1,4 @@
-"""Goal inference: beliefs about what someone is after, from one observed step after the other.
+"""Goal inference: beliefs about the human's goal, updated with each observed step.
 
 The short way: ``infer(bank, actions)``. Every belief keeps the protocol of `Belief`.
 """

@@ -15,7 +15,7 @@ from hrcplan.bank import StepTable
 from hrcplan.bank.progress import Progress, ProgressTracker
 from hrcplan.core.arrays import Floats, Rows
 
-IMPOSSIBLE = "nobody can do this step here"
+IMPOSSIBLE = "no agent can do this step here"
 UNEXPLAINED = "no goal explains this step"
 
 

@@ -14,7 +14,7 @@ from hrcplan.inference.probabilities import normalized
 
 MISTAKE_RATE = 0.01
 UNEXPLAINED = "no goal explains this step"
-IMPOSSIBLE = "nobody can do this step here"
+IMPOSSIBLE = "no agent can do this step here"
 
 
 @dataclass(frozen=True, slots=True)

@@ -74,7 +74,7 @@ def _typed(params: Sequence[Param], signature: Signature) -> tuple[Param, ...]:
 def levels(axioms: Sequence[Axiom]) -> dict[str, int]:
     """Return the stratum of every derived predicate; those without one are left out.
 
-    What a predicate is derived from stands in a lower stratum, or in the same one if the two are
+    What a predicate is derived from is in a lower stratum, or in the same one if the two are
     derived from each other; then neither may be derived from the negation of the other.
     """
     needs: dict[str, dict[str, bool]] = {axiom.name: {} for axiom in axioms}

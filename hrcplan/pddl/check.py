@@ -66,7 +66,7 @@ class CheckReport:
 def check(paths: Sequence[str | Path]) -> CheckReport:
     """Return every fault of the files; problems are checked against their domains.
 
-    A problem's domain is the one of its name among the files given, else beside the problem,
+    A problem's domain is the one of its name among the files given, else in the problem's folder,
     else among the shipped ones. A file that cannot be read is a fault like any other.
     """
     files = [_open(path) for path in paths]
@@ -223,7 +223,7 @@ def _check_problem(file: _File, domains: _Domains) -> None:
     elif name is None:
         file.source.error(file.root.at, "no-domain", "the problem does not say its (:domain NAME)")
     else:
-        message = f"no domain {quote(name)} among the files given, beside the problem, or shipped"
+        message = f"no domain {quote(name)} given, in the problem's folder, or shipped"
         hint = nearest(name, [*domains.given, *library.domain_names()])
         file.source.error(name.at, "domain-mismatch", message, hint)
 

@@ -215,7 +215,7 @@ def _signatures(
     signatures: dict[str, Signature] = {}
     for node in _without_result_types(section, source):
         if isinstance(node, GroupNode) and node.head == ":private":
-            hint = "declare its predicates beside the others: hrcplan has no private facts"
+            hint = "declare its predicates with the others: hrcplan has no private facts"
             source.error(node.at, "unsupported", "(:private …) of MA-PDDL is not supported", hint)
             inner = [part for part in node if isinstance(part, GroupNode)]
             private = GroupNode(node.at)

@@ -251,7 +251,7 @@ def _number_or_name(word: WordNode, scope: Scope) -> Expr:
     if word in scope.numbers:
         return Function(str(word))
     if word == CONTINUOUS:
-        message = "#t stands in effects of processes and untimed effects of durative actions only"
+        message = "#t is for effects of processes and untimed effects of durative actions only"
         scope.source.error(word.at, "unknown-function", message)
     elif looks_numeric(word):
         message = f"{quote(word)} is not a number"

@@ -2,7 +2,7 @@
 
 ``os.path`` answers False for a name that no file can have, where ``Path.is_file`` raises.
 
-In a checkout the folders ``domains/`` and ``problems/`` beside the package come first, so a
+In a checkout the folders ``domains/`` and ``problems/`` next to the package come first, so a
 file that was added a second ago is seen; an installed wheel carries a copy inside the package.
 """
 
@@ -102,9 +102,9 @@ def find_goals(name: str) -> Path:
 
 
 def domain_file_for(name: str, problem: Path | None) -> Path | None:
-    """Return the file of domain ``name``: beside a problem file, else shipped, else None.
+    """Return the file of domain ``name``: from a problem's folder, else shipped, else None.
 
-    A problem that is no file (None) has nothing beside it.
+    A problem that is no file (None) has no folder.
     """
     folder = () if problem is None else sorted(problem.parent.glob("*.pddl"))
     beside = [path for path in folder if path != problem]

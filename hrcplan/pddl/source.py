@@ -67,7 +67,7 @@ class SourceText:
         hint: str | None = None,
     ) -> None:  # fmt: skip
         """Note once that ``word`` is none of ``known``; the hint is the nearest of them."""
-        if (code, word) in self._unknown and code != "unbound":  # that is so in each action anew
+        if (code, word) in self._unknown and code != "unbound":  # each action has its own variables
             return
         self._unknown.add((code, word))
         if hint is None and len(self.diagnostics) < MAX_HINTS:

@@ -93,7 +93,7 @@ def check_types(words: Sequence[WordNode], known: Collection[str], source: Sourc
 
 
 def report_types(source: SourceText, known: Collection[str], has_section: bool = True) -> None:
-    """Report the types that a file names and nobody declares; without ``:types`` in one go."""
+    """Report the types that a file names without a declaration; without ``:types`` in one go."""
     if has_section:
         for name, at in source.unknown_types.items():
             message = f"type {quote(name)} is not declared"

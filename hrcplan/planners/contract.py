@@ -119,7 +119,7 @@ class Request:
     """One problem for one planner: until when, and whether the first plan is enough.
 
     ``improves`` asks for plans that get better until the deadline, where any plan is enough at
-    first. ``on_plan`` is told of plans that a planner will improve on, so that they are not lost
+    first. ``on_plan`` is called with plans that a planner will improve, so that they are not lost
     if it is stopped. ``replays`` replays plans of the problem.
     """
 

@@ -2,7 +2,7 @@
 
 It says "unsolvable" where it is not: of a file it cannot parse, and wherever actions change a
 function that a cost looks at. So it gets the lowered task where that can happen, or a task without
-costs, and its word counts only where it was given the whole of a task that it understands.
+costs, and its answers are used only where it was given the whole of a task that it understands.
 """
 
 from __future__ import annotations

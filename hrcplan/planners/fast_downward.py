@@ -118,7 +118,7 @@ class _Search:
         self._n_plans = 0
 
     def run(self, binary: Path) -> Answer:
-        """Return the answer; plans that are improved later are told of at once."""
+        """Return the answer; plans that are improved later are reported at once."""
         request, given = self.request, self.given
         quick = _ANYTIME if request.improves else _FIRST
         search = quick if request.any_plan else given.proof

@@ -83,7 +83,7 @@ def downward_input(request: Request) -> DownwardInput:
     lifted = _lifted(problem)
     if remaining(problem):
         if lifted is None:
-            raise UnsupportedError("fast-downward knows no numbers beside derived predicates")
+            raise UnsupportedError("fast-downward knows no numbers with derived predicates")
         return lifted
     if lifted is not None and lifted.exact:
         return lifted

@@ -103,7 +103,7 @@ def supervise(
         answer = (reason, code, "")
     try:
         os.write(report, marshal.dumps(answer))
-    finally:  # also if nobody listens any more; and nothing is left to finalize
+    finally:  # also if the parent is gone; and nothing is left to finalize
         os._exit(0)
 
 
@@ -135,7 +135,7 @@ def become(argv: list[bytes], env: dict[bytes, bytes], fault_write: int) -> None
     """Turn this forked copy into the planner; on failure say why and end."""
     try:
         os.setsid()
-        # If somebody kills the guard, the planner must not outlive it.
+        # If the guard is killed, the planner must not outlive it.
         LIBC.prctl(PR_SET_PDEATHSIG, KILL, 0, 0, 0)
         for number in (HUP, INT, QUIT, PIPE, TERM, XFSZ):
             LIBC.signal(number, DEFAULT)
@@ -164,7 +164,7 @@ def watch(planner: int, parent: int, time_s: float, memory: int | None) -> tuple
         reap(dead)
         if planner in dead:
             return "exited", os.waitstatus_to_exitcode(dead[planner])
-        # Somebody else's fork may hold the lifeline open, so the parent is looked at, too.
+        # The fork of another process may hold the lifeline open, so the parent is looked at, too.
         if LIFELINE in woken or os.getppid() != parent:
             return "abandoned", None
         if time.monotonic() >= deadline:
@@ -239,7 +239,7 @@ def exceeds(memory: int) -> bool:
     """Return whether the resident memory of all descendants is above a limit in bytes.
 
     The plain sum counts pages that processes share several times, so a planner that forks would
-    be punished for memory it does not use. The exact figure is dear and only asked for in doubt.
+    be punished for memory it does not use. The exact figure is slow and only read in doubt.
     """
     pids = descendants()
     return sum(map(resident, pids)) > memory and sum(map(proportional, pids)) > memory

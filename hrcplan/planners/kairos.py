@@ -182,7 +182,7 @@ class _Portfolio:
         """Return whether kairos' proof is one for our metric.
 
         It minimizes what it calls the metric; where the problem states none, that is the number of
-        actions, and ours is the cost, if there is one.
+        actions, and that of hrcplan is the cost, if there is one.
         """
         problem = self.request.problem
         if problem.domain.is_temporal or self.best is None:

@@ -2,7 +2,7 @@
 
 The order of two steps is kept where they interfere (one writes what the other reads, or adds what
 it deletes); all other orders are given up. Where a task is agent-free and a step costs the same
-whoever does it, the step may move to the other lane.
+for every agent, the step may move to the other lane.
 """
 
 from __future__ import annotations

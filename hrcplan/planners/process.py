@@ -58,7 +58,7 @@ class ProcessLimits:
 class ProcessEnd(enum.Enum):
     """Why a program is no longer running."""
 
-    EXITED = "exited"  # by itself or by a signal that was not ours
+    EXITED = "exited"  # by itself or by a signal from another process
     TIMEOUT = "timeout"
     MEMORY = "memory"
     OUTPUT = "output"
@@ -73,7 +73,7 @@ class FinishedProcess:
         ended: What ended it.
         code: Exit code, or minus the number of the signal that killed it; None unless ``EXITED``.
         stdout: Standard output as UTF-8, wrong bytes replaced. At a limit: what came before it.
-        stderr: Standard error likewise; if ``MISSING``, the operating system's reason.
+        stderr: Standard error, in the same way; if ``MISSING``, the operating system's reason.
         wall_s: Wall-clock seconds of the whole call, clearing up included.
     """
 
@@ -91,7 +91,7 @@ def run(
     r"""Return how a program ended, once it and everything it started is gone.
 
     At a limit the whole tree gets SIGTERM, and SIGKILL 0.3 s later (memory: SIGKILL at once).
-    Children that the program leaves behind when it exits are ended likewise, also daemons. If
+    Children that the program leaves behind when it exits are ended too, also daemons. If
     this process dies, even by SIGKILL, or is interrupted, the tree is ended too.
 
     Args:
@@ -159,7 +159,7 @@ def _guarded(job: bytes, cwd: Path) -> Iterator[tuple[subprocess.Popen[bytes], i
 
 
 def _start(report_write: int, cwd: Path) -> subprocess.Popen[bytes]:
-    """Start a guard in a session of its own, so that Ctrl-C in a terminal is ours alone."""
+    """Start a guard in a session of its own, so that Ctrl-C reaches this process only."""
     return subprocess.Popen(
         # -I -S: the surroundings of a planner cannot disturb the guard, and it starts faster.
         [sys.executable, "-I", "-S", str(_GUARD), str(report_write)],
@@ -225,7 +225,7 @@ def _collect(
             if not woken:
                 continue
             # At the answer everything that could write is gone, so silence is the end: the end of
-            # file may never come, if a process that nobody can kill holds the pipe.
+            # file may never come, if a process that cannot be killed holds the pipe.
             if woken == {report}:
                 return output, os.read(report, _CHUNK)
             for fd in woken - {report}:

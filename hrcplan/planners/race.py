@@ -20,7 +20,7 @@ from hrcplan.planners.workers import Work, Worker, end
 from hrcplan.plans import Plan
 
 OnBetter = Callable[[Result], None]
-"""Is told of every plan that is better than those before it."""
+"""Is called with every plan that is better than those before it."""
 
 OVERTIME_S = 0.4
 """What a planner that ends at the deadline may take to report."""

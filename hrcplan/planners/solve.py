@@ -34,7 +34,7 @@ def solve(
     memory_bytes: int = MEMORY_BYTES,
     on_better: OnBetter = lambda result: None,
 ) -> Result:
-    """Return a checked plan, or a proof that there is none, or that nobody knew in time.
+    """Return a checked plan, a proof that there is none, or ``unsolved`` at the deadline.
 
     Args:
         problem: What to solve.
@@ -45,7 +45,7 @@ def solve(
         lanes: Lay a sequential plan out in lanes, one action per agent at a time.
         task: The problem grounded, if that was done before.
         memory_bytes: Memory for all planners together.
-        on_better: Is told of every plan that is better than those before it.
+        on_better: Is called with every plan that is better than those before it.
 
     Raises:
         UnsupportedError: if no planner that was asked can hold the task.

@@ -232,7 +232,7 @@ def _may_plan(name: str) -> bool:
     module, attribute = DEFAULT_ENGINES[name]
     try:
         return bool(getattr(import_module(module), attribute).is_oneshot_planner())
-    except Exception:  # noqa: BLE001 - a stranger's import may raise anything
+    except Exception:  # noqa: BLE001 - the import of an engine may raise anything
         return True
 
 
@@ -247,7 +247,7 @@ def _fault(name: str) -> str | None:
     module, attribute = DEFAULT_ENGINES[name]
     try:
         getattr(import_module(module), attribute)
-    except Exception as error:  # noqa: BLE001 - a stranger's import may raise anything
+    except Exception as error:  # noqa: BLE001 - the import of an engine may raise anything
         package = str(module).partition(".")[0].replace("_", "-")
         return f"{type(error).__name__}: {error}; pip install {package}"
     return None

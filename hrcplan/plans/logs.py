@@ -1,6 +1,6 @@
 """Plans in the output of planners: POPF, OPTIC, TFD, LPG, FF, Fast Downward, ENHSP and others.
 
-A log mixes plans with other lines. Actions are told from these by their names, which the domain
+A log mixes plans with other lines. Actions are recognized by their names, which the domain
 declares; a line without an action ends a plan.
 """
 

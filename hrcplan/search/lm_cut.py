@@ -48,7 +48,7 @@ def landmarks(ops: Sequence[Operator], state: int, goal: Tests) -> tuple[Landmar
 
 
 def longest_chain(ops: Sequence[Operator], state: int, goal: Tests) -> int | None:
-    """Return the cost of the dearest chain of ops that the goal needs (h-max).
+    """Return the cost of the most expensive chain of ops that the goal needs (h-max).
 
     None if the goal is out of reach even if nothing true ever becomes false.
     """
@@ -82,7 +82,7 @@ class _Relaxation:
         self.supporter: list[int] = []
 
     def h_max(self) -> list[float]:
-        """Return the cost of the dearest precondition chain to every literal; keeps supporters."""
+        """Return the cost of the costliest precondition chain to every literal."""
         values = [_INFINITE] * len(self.users)
         waiting = [len(rule.needs) for rule in self.rules]
         self.supporter = [-1] * len(self.rules)
@@ -97,7 +97,7 @@ class _Relaxation:
                 waiting[i] -= 1
                 if waiting[i]:
                     continue
-                self.supporter[i] = literal  # the last to come is the dearest
+                self.supporter[i] = literal  # the last to come is the most expensive
                 reached = value + self.costs[self.rules[i].op]
                 for given in self.rules[i].gives:
                     if reached < values[given]:

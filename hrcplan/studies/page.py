@@ -108,8 +108,8 @@ def escape(text: str | float) -> str:
 def anchor(title: str) -> str:
     """Return the name by which links find a section.
 
-    >>> anchor("Table I, beside the paper")
-    'table-i-beside-the-paper'
+    >>> anchor("Table I, and the paper")
+    'table-i-and-the-paper'
     """
     return re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-")
 

@@ -78,7 +78,7 @@ def run_study(
 def _results(
     name: str, options: StudyOptions, seed: int, left: list[Episode], jobs: int
 ) -> Iterator[list[tuple[Episode, StudyRow]]]:
-    """Yield rows in the order of the episodes, whoever was first."""
+    """Yield rows in the order of the episodes, not in that of their ends."""
     chunks = [left[i : i + _CHUNK] for i in range(0, len(left), _CHUNK)]
     if jobs == 1 or len(chunks) < 2:
         yield from (_rows(name, options, seed, chunk) for chunk in chunks)

@@ -91,7 +91,7 @@ class Store:
         self, kind: type[BaseException] | None, error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:  # fmt: skip
-        """Close the file and let other writers in; an error of SQLite becomes one of ours."""
+        """Close the file and let other writers in; an error of SQLite becomes one of hrcplan."""
         self.close()
         with _told(self.folder):
             if isinstance(error, sqlite3.Error):
@@ -193,12 +193,12 @@ class Store:
 
     @property
     def is_compact(self) -> bool:
-        """Whether no row was added since the file was written anew."""
+        """Whether no row was added since the file was rewritten."""
         (version,) = self._connection.execute("pragma main.user_version").fetchone()
         return bool(version == _COMPACT)
 
     def compact(self) -> None:
-        """Write the file anew, so that its bytes depend on its rows and not on how they came."""
+        """Rewrite the file, so that its bytes depend on its rows and not on how they came."""
         path, fresh = self.folder / FILE, self.folder / f".{FILE}.new"
         fresh.unlink(missing_ok=True)
         tables = self._connection.execute("select name, sql from sqlite_master").fetchall()

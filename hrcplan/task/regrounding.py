@@ -1,4 +1,4 @@
-"""A task again, for the problem as it is now: grounded anew only where that matters.
+"""A task again, for the problem as it is now: grounded again only where that matters.
 
 While a plan is carried out, facts and agent state change, but not what is possible. Bits, actions
 and everything that hangs on them (``Task.structure``) then stay; only the initial state and the

@@ -52,7 +52,7 @@ class StepTable:
     """The steps of a task in ground-action order, and the step of every ground action.
 
     Agents are dropped if no fact that mentions an agent is ever changed, and a step has the same
-    effects whoever does it; then a step exists if some agent can do it, and costs what it costs
+    effects for every agent; then a step exists if some agent can do it, and costs what it costs
     the cheapest. Otherwise agents are kept: a step is a ground action.
 
     Args:
@@ -118,7 +118,7 @@ class StepTable:
         return sorted({self.of_action[i] for i in self.task.applicable(state)})
 
     def successor(self, state: int, step: int) -> int | None:
-        """Return the state after a step, or None if nobody can do it in ``state``.
+        """Return the state after a step, or None if no agent can do it in ``state``.
 
         A step that changes nothing leaves the state as it is.
         """
@@ -133,8 +133,8 @@ class StepTable:
     def doer(self, state: int, step: int, agents: Set[str]) -> int | None:
         """Return a ground action by which one of ``agents`` can do a step in ``state``.
 
-        It is the first that changes the state; None if there is none. What names no agent, anybody
-        can do.
+        It is the first that changes the state; None if there is none. Any agent can do
+        what names none.
         """
         task = self.task
         for index in self._steps[step].actions:

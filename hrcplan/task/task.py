@@ -132,7 +132,7 @@ class Task:
         return tuple(exact(total) for total in sums)
 
     def with_values(self, values: Mapping[FluentKey, Number]) -> Task:
-        """Return this task with other function values, grounded anew only where that matters.
+        """Return this task with other function values, grounded again only where that matters.
 
         Values that only occur in costs (agent state, as a rule) leave facts and actions as they
         are; values in conditions or durations, or of functions that actions change, do not.
@@ -144,7 +144,7 @@ class Task:
         return Task(problem, grounding=self.grounding, origin=self._origin)
 
     def with_facts(self, facts: Iterable[Fact]) -> Task:
-        """Return this task from another initial state, grounded anew only if that is needed.
+        """Return this task from another initial state, grounded again only if that is needed.
 
         What is reachable from reachable facts is reachable, so a state that has been reached from
         the initial state keeps the grounding (it may hold more than the new task needs).
@@ -161,7 +161,7 @@ class Task:
         return Task(problem, grounding=self.grounding if same else None, origin=self._origin)
 
     def with_goal(self, goal: Formula) -> Task:
-        """Return this task with another goal, without grounding anything anew.
+        """Return this task with another goal, without grounding again.
 
         Raises:
             UnsupportedError: if bits cannot hold the goal.

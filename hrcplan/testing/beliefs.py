@@ -50,7 +50,7 @@ def check_assistant(assistant: Assistant[S], bank: Bank, runs: Iterable[Sequence
     Together with a human who does one of the runs, the assistant chooses None or a step that the
     robot can do and that changes the state; ``world`` of its state is the state of the task. A
     choice changes no state, and it depends on nothing but the state. An assistant that `KnowsGoal`
-    is told a goal after each of the human's steps.
+    receives a goal after each of the human's steps.
 
     Args:
         assistant: The assistant (see `hrcplan.assistance.Assistant`).

@@ -166,7 +166,7 @@ def test_a_step_that_no_goal_explains_is_reported_and_the_belief_stays(workshop)
     state = belief.observe(belief.start(), steps[0])
     before = belief.posterior(state).tolist()
     refused = belief.observe(state, steps[1])
-    assert (refused.ignored, refused.world) == ("nobody can do this step here", state.world)
+    assert (refused.ignored, refused.world) == ("no agent can do this step here", state.world)
     odd = belief.observe(state, table.find(("seal", "red")))
     assert odd.ignored == "no goal explains this step"
     assert belief.posterior(odd).tolist() == before

@@ -104,11 +104,11 @@ def test_a_spoiled_file_is_made_anew_and_says_why(two, rows, tmp_path, untrainab
     file.unlink()  # the first forest still has the old file
     file.write_bytes(spoiled)
     anew = ForestBelief(two, **SMALL, cache=tmp_path)
-    assert "trained anew" in anew.note
+    assert "trained again" in anew.note
     assert REASONS[how] in anew.note
     assert anew.posteriors(rows).tolist() == first.posteriors(rows).tolist()
     untrainable()
-    assert "trained anew" not in ForestBelief(two, **SMALL, cache=tmp_path).note
+    assert "trained again" not in ForestBelief(two, **SMALL, cache=tmp_path).note
 
 
 def test_where_nothing_can_be_kept_the_forest_is_made_all_the_same(two, rows, tmp_path):

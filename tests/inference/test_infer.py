@@ -60,7 +60,7 @@ def test_json_of_a_bank(files):
     reasons = [i["reason"] for i in found["ignored"]]
     assert reasons[0].startswith("there is no action 'fly'")
     assert reasons[1] == "there is no object 'pizza'"
-    assert reasons[2] == "nobody can do this step here"
+    assert reasons[2] == "no agent can do this step here"
     assert rows[1] == rows[2] == rows[3] == rows[4] == rows[5]  # the robot's step is no evidence
     assert rows[-1][2] == max(rows[-1])
     assert [change["at"] for change in found["changes"]] == [5]

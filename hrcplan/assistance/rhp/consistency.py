@@ -1,4 +1,4 @@
-"""Which goals someone may have who did some steps: is there a plan that holds them all?
+"""Goals that are consistent with some steps: is there a plan that holds them all?
 
 Ghose et al. (RA-L 2025, III-C2) say it twice: a policy "could have generated the observed sequence
 or any of the permutations" (`Subset`), and "the observed sequence is a subsequence" of a policy

@@ -28,7 +28,7 @@ class JournalFile:
         """
         self.path = path
         try:
-            # Without O_NONBLOCK a pipe that nobody reads would be waited for.
+            # Without O_NONBLOCK opening a pipe without a reader would block.
             self._handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_NONBLOCK, 0o666)
         except (OSError, ValueError) as error:
             raise self._refusal(error) from None

@@ -38,7 +38,7 @@ class JournalWriter:
         """Write an event down and return it as it can be read again.
 
         Raises:
-            InputError: if another event stands in the journal at this place.
+            InputError: if the journal has another event at this place.
         """
         line = self._line({"event": to_json(event)})
         return from_json(line["event"])  # type: ignore[no-any-return]
@@ -47,7 +47,7 @@ class JournalWriter:
         """Write down what the monitor decided.
 
         Raises:
-            InputError: if another decision stands in the journal at this place.
+            InputError: if the journal has another decision at this place.
         """
         self._line({"decided": [to_json(command) for command in commands]})
         if commands and not self.is_repeating:

@@ -1,7 +1,7 @@
 """A simulated world on one clock: it alone knows the truth.
 
 Actions take their durations; a human's action fails because of the true agent state, whether or
-not anybody has sensed it. Robots do not fail. Nothing is drawn here but from ``chance``.
+not it was sensed. Robots do not fail. Nothing is drawn here but from ``chance``.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ class Nature:
 
     ``sensed``: a change is sensed when it happens (``before`` the next action), in the middle of
     the human's first action under it (``during``), or when that action has ended (``after``).
-    ``draws``: whether an element makes actions fail is drawn ``once`` per simulation or anew at
+    ``draws``: whether an element makes actions fail is drawn ``once`` per simulation or again at
     every ``attempt``. ``can_fail``: the actions that can fail, None for all. ``stretch``: a human's
     action lasts this many times its duration, drawn uniformly between two factors.
     """

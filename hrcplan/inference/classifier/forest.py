@@ -96,7 +96,7 @@ class ForestBelief:
             f"{', and kept since' if origin.is_from_cache else ''}; "
             f"right on {100 * t.accuracy:.1f} % of {t.n_held_out} held out"
         )
-        return text if origin.fault is None else f"{text}; trained anew, since {origin.fault}"
+        return text if origin.fault is None else f"{text}; trained again, since {origin.fault}"
 
     def start(self) -> ForestState:
         """Return the belief before any step."""

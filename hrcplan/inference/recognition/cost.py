@@ -1,4 +1,4 @@
-"""Goals without plan graphs: what someone does costs more or less on the way to each goal.
+"""Goals without plan graphs: the observed steps cost more or less on the way to each goal.
 
 The likelihood of an action under a goal falls with what it adds to the cost of reaching the goal
 (Ramírez and Geffner, AAAI 2010; from the present state only: Masters and Sardina, JAIR 2019), and

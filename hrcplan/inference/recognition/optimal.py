@@ -26,7 +26,7 @@ N_PROCESSES = 2
 MEMORY_BYTES = 1 << 30
 GRACE_S = 1.0
 
-# For each task: at most $2 seconds; its plan goes to a file beside it. CPU seconds are whole
+# For each task: at most $2 seconds; its plan goes to a file. CPU seconds are whole
 # numbers in a shell, so the search limits itself, and $3 ends everything in time.
 _SCRIPT = """
 for task in *.sas; do

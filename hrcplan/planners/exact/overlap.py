@@ -41,7 +41,7 @@ def check_overlap(task: Task, pairs: ReachablePairs, frame: StaticMasks) -> None
 
 
 def _check_late(task: Task, pairs: ReachablePairs, frame: StaticMasks) -> None:
-    """Raise unless what is deleted at an end is looked at by nobody until then."""
+    """Raise unless no action reads until then what is deleted at an end."""
     users = holders([_mentioned(frame, a) for a in range(len(frame.ticks))], frame.n_facts)
     for action, late in enumerate(frame.late):
         for fact in positions(late):
@@ -68,7 +68,7 @@ def lane_members(frame: StaticMasks) -> dict[str, int]:
 
 
 def held(task: Task, pairs: ReachablePairs, frame: StaticMasks) -> tuple[tuple[str, ...], ...]:
-    """Return which agents each action keeps busy: its own, and those it shares with nobody.
+    """Return which agents each action keeps busy: its own, and those it shares with no other.
 
     Two actions that keep the same agent busy never overlap, so that the durations of all actions
     that keep an agent busy add up to the makespan at most.

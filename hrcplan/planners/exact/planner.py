@@ -120,7 +120,7 @@ class ExactPlanner:
             return Answer(Status.UNSOLVED, note=error.message)
 
     def _find(self, task: Task) -> _Kept:
-        """Return what is kept of the structure of a task; it stands last from now on."""
+        """Return the memory of the structure of a task, as the most recent one."""
         memo = next((kept for kept in self._kept if kept.structure is task.structure), None)
         self._kept = [kept for kept in self._kept if kept is not memo]
         while sum(len(kept.graph.states) for kept in self._kept) > MAX_KEPT_STATES:

@@ -8,7 +8,7 @@ waiting, then ground-action order decides. Two rules leave out paths of which an
 to the same (both leave the first of the best plans in):
 
 * two starts of one instant that commute stand in ground-action order;
-* who could have started before the last wait, and would have disturbed nobody, does not start now.
+* who could have started before the last wait, and disturbed no other, does not start now.
 """
 
 from __future__ import annotations

@@ -64,7 +64,7 @@ def _known(expression: Expr, problem: Problem) -> Expr:
 class Weights:
     """The metric in whole numbers: ``cost`` of each action, ``tick`` of each tick that passes.
 
-    Whoever is busy, no tick passes without it: if each agent gets a share of ``tick``, the shares
+    In every tick some agent is busy: if each agent gets a share of ``tick``, the shares
     of all busy agents are at most what the time costs. ``share`` is the sum over the agents that an
     action keeps busy, and ``work`` what the action adds at least: its cost and its time's share.
     ``scale`` is what the metric was multiplied with.

@@ -20,7 +20,7 @@ class Cells:
     Attributes:
         rows: Rows by human and method.
         humans: Humans that have rows, in the order of the study.
-        methods: Methods likewise.
+        methods: Methods in the same way.
     """
 
     def __init__(self, table: str, options: StudyOptions, rows: Sequence[StudyRow]) -> None:

@@ -130,7 +130,7 @@ def differences(
 def _measured(
     cells: Cells, human: str, ours: str, wanted: Superiority, gaps: Mapping[str, Interval]
 ) -> str:
-    """Return a mean, its differences to others, and those that stand beside the claim."""
+    """Return a mean, its differences to others, and those that are reported with the claim."""
     mean = cells.mean(human, ours, wanted.measure)
     text = f"{number(mean.mean if mean else 0)} {MEASURES[wanted.measure].unit}, {against(gaps)}"
     if RECURSIVE not in wanted.others:
@@ -139,7 +139,7 @@ def _measured(
     for measure, others in beside:
         if more := differences(cells, human, ours, others, measure):
             unit = "" if measure == wanted.measure else f" in {MEASURES[measure].unit}"
-            text += f" [beside the claim{unit}: {against(more)}]"
+            text += f" [reported with the claim{unit}: {against(more)}]"
     return text
 
 
@@ -229,9 +229,9 @@ def length(printed: Mapping[str, Any], cells: Cells) -> Claim | None:
         return None
     mean, within = printed["combined_length"], printed["combined_within"]
     evidence = (
-        f"{mean_text(duration)} timesteps with a robot that is told the goal "
+        f"{mean_text(duration)} timesteps with a robot that knows the goal "
         f"and a human without mistakes; read as within {within:g} of the printed mean. The goals "
-        "are ours: the paper does not list its own."
+        "are those of hrcplan: the paper does not list its own."
     )
     claim = f"Combinations of two goals take {mean:g} steps on average"
     holds, telling = judge([BoundTest(found.interval, mean - within, mean + within)])

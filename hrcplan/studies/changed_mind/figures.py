@@ -38,7 +38,7 @@ def have_colors(methods: Sequence[str]) -> bool:
 
 
 def without_oracle(methods: Sequence[str]) -> list[str]:
-    """Return methods but the oracle, whose guesses, being told, would only stretch the scale."""
+    """Return methods but the oracle, whose guesses would only stretch the scale."""
     return [method for method in methods if method != ORACLE]
 
 

@@ -32,12 +32,12 @@ READINGS = (
     "consistent, what the baselines' likelihoods are, what a mistake is and when the goal changes"
 )
 LEAD = (
-    "A human and a robot take turns at one task. The robot is not told the human's goal, which may "
-    "change on the way; it infers the goal from the human's actions and helps meanwhile. "
+    "A human and a robot take turns at one task. The robot does not know the human's goal, which "
+    "may change on the way; it infers the goal from the human's actions and helps meanwhile. "
     "<em>rhp</em> is the method of the changed-mind paper, <em>recursive</em> is recursive Bayes "
     "as printed, <em>recursive-best</em> the same at its best setting, <em>cdp</em> and "
     "<em>infogain</em> are made for fixed goals, <em>hrcplan</em> is this package's method, and "
-    "<em>oracle</em> is told the goal."
+    "<em>oracle</em> knows the goal."
 )
 COLORED = (
     '<span class="in">Green</span>: better with 95 % confidence, '
@@ -100,12 +100,12 @@ def guesses_and_steps(cells: Cells, is_own_task: bool) -> Section | None:
     if is_own_task:
         caption += (
             " Panels a to d are those of the paper's Figure 3; the paper prints no numbers for it, "
-            "so none stand beside ours."
+            "so none are compared here."
         )
     words = (
         "<p>Percentages of the episode flatter a robot that wastes steps: it makes the episode "
         "longer, so the same last wrong guess comes at a smaller percentage, and the human, who "
-        "has to do more of the work, gives more evidence. So the timestep stands beside it, and "
+        "has to do more of the work, gives more evidence. So the timestep is reported too, and "
         "the wasted steps.</p>"
     )
     keys = figures.legend(cells.methods, lines=True)
@@ -163,7 +163,7 @@ def differences(cells: Cells) -> Section | None:
     data = scenario.data()["reach"]
     ours = [human for human in cells.humans if data["method"] in cells.methods_of(human)]
     if ours and any(name in cells.methods for name in data["baselines"]):
-        parts.append(f'<h3 class="part">{data["method"]} beside the best baseline</h3>')
+        parts.append(f'<h3 class="part">{data["method"]} and the best baseline</h3>')
         parts.append(tables.best(cells, ours, COMPARED, data["method"], data["baselines"]))
     if not parts:
         return None

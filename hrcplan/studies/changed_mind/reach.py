@@ -26,7 +26,7 @@ def claims(main: Cells, beyond: Cells) -> list[Claim]:
 
 
 def wanted(one: Mapping[str, Any], method: str, cells: Cells) -> Claim | None:
-    """Return that a mean is low or high enough, by itself or beside another method's."""
+    """Return that a mean is low or high enough, by itself or compared with another method's."""
     human, measure = one["human"], one["measure"]
     ours = cells.mean(human, method, measure)
     if ours is None:

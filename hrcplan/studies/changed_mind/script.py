@@ -1,6 +1,6 @@
-"""Scripted episodes: the same human before several robots, told turn by turn.
+"""Scripted episodes: the same human with several robots, turn by turn.
 
-A script is a TOML file; ``golden.toml`` beside this file is one, with comments.
+A script is a TOML file; ``golden.toml`` in this folder is one, with comments.
 """
 
 from __future__ import annotations

@@ -62,10 +62,10 @@ def printed_table(by_cell: Mapping[Cell, Sequence[StudyRow]]) -> Section | None:
     note = (
         '<p class="note">Each cell: our mean ± its standard error, and below it the printed mean '
         f"of {printed['runs']} simulations; green where the two differ by no more than chance "
-        f"explains ({printed['runs']} runs like ours, 95 %), orange where by more.</p>"
+        f"explains ({printed['runs']} runs like these, 95 %), orange where by more.</p>"
     )
     html = table(["", *(MEASURES[n].head for n in names)], lines) + note
-    return Section("Table I beside the printed one", html)
+    return Section("Table I and the printed one", html)
 
 
 def _beside(ours: MeanEstimate, printed: float, runs: int) -> str:
@@ -163,8 +163,8 @@ def sweeps(by_cell: Mapping[Cell, Sequence[StudyRow]]) -> Section | None:
     caption = (
         f"Method {scenario.data()['sweep']['method']} in case {scenario.data()['sweep']['case']}, "
         "one number changed at a time: the probability with which an interaction succeeds, its "
-        "price, and the value to which it brings the element. These numbers are ours; the planner "
-        f"chooses by cost alone. n = {min(map(len, cells.values()))} runs each, 95 % intervals."
+        "price, and the value to which it brings the element. These numbers are our own; the "
+        f"planner chooses by cost alone. n = {min(map(len, cells.values()))} runs each, 95 % intervals."
     )
     return Section("Interaction sweeps", picture(figures.sweeps(cells, names), caption))
 

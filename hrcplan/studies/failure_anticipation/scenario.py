@@ -95,7 +95,7 @@ def spec(method: Method, case: str, options: StudyOptions, seed: str) -> Spec:
 
 
 def changed(plain: Spec, changes: Mapping[str, Any]) -> Spec:
-    """Return a run with some of its fields changed; profiles of the study are files beside it."""
+    """Return a run with some of its fields changed; its profiles are files in this folder."""
     fields: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in changes.items()}
     if str(fields.get("profile", "")).endswith(".toml"):
         fields["profile"] = str(HERE / fields["profile"])
