@@ -223,7 +223,7 @@ def test_who_chooses_what_it_cannot_do_is_told():
     with pytest.raises(UsageError, match=r"\(paint\) cannot be done by ann here"):
         play(bank, Waiter(find(bank, "paint")), Scripted(bank), course)
     alone = door(agents="robo")
-    with pytest.raises(UsageError, match=r"\(build\) cannot be done by anybody here"):
+    with pytest.raises(UsageError, match=r"\(build\) cannot be done by any agent here"):
         play(alone, Waiter(find(alone, "build")), Scripted(alone), course)
 
 
