@@ -77,17 +77,17 @@ def as_text(answer: Inference) -> str:
     for row, posterior in enumerate(answer.posterior):
         if row - 1 in changes:
             lines.append(f"{'':>4}  -- {_change(changes[row - 1], names)} --")
-        action = found.actions[row - 1] if row else ""
+        action = answer.actions[row - 1] if row else ""
         what = _likeliest(posterior, names)
         if row - 1 in ignored:
             what += f"  [ignored: {ignored[row - 1].reason}]"
         lines.append(f"{row or '':>4}  {action:<{width}}  {what}")
     if long:
-        lines += ["", *(f"{name}: {goal}" for name, goal in zip(names, found.goals, strict=True))]
-    if found.changed is not None:
-        lines += ["", f"probability that the goal has changed: {found.changed:.2f}"]
-    if found.note:
-        lines += ["", f"note: {found.note}"]
+        lines += ["", *(f"{name}: {goal}" for name, goal in zip(names, answer.goals, strict=True))]
+    if answer.changed is not None:
+        lines += ["", f"probability that the goal has changed: {answer.changed:.2f}"]
+    if answer.note:
+        lines += ["", f"note: {answer.note}"]
     return "\n".join(lines)
 
 

@@ -70,7 +70,7 @@ class _Commands(click.RichGroup):
             signal.signal(signal.SIGTERM, lambda *_: sys.exit(TERMINATED))
         run = partial(super().main, words, prog_name, complete_var, standalone_mode=False, **more)
         with _old_names_on_stderr():
-            code = _exit_code(words, lambda: run(words, **{**kwargs, "standalone_mode": False}))
+            code = _exit_code(words, run)
         sys.exit(code)
 
 

@@ -58,9 +58,9 @@ class ChangePoints:
         priors = np.array([MORE**k for k in range(most)])
         priors = np.array([1 - self.prior, *(self.prior * priors / priors.sum())])
         places = [math.comb(self.n_steps - 1, k) for k in range(most + 1)]
-        found: Floats = priors * self._forward[-1].sum(axis=(1, 2))[: most + 1] / places
-        found /= found.sum() or 1.0
-        return found
+        shares: Floats = priors * self._forward[-1].sum(axis=(1, 2))[: most + 1] / places
+        shares /= shares.sum() or 1.0
+        return shares
 
     @property
     def changed(self) -> float:
@@ -76,29 +76,29 @@ class ChangePoints:
         """
         at_least = np.cumsum(self.counts[::-1])[::-1]
         n = int((at_least[1:] > REPORTED).sum())
-        found: list[GoalChange] = []
+        changes: list[GoalChange] = []
         following = self._following(n)
         for i in range(n):
             places, goals = self._change(i, following)
-            if found:  # there is one goal between two changes
-                goals[np.arange(len(goals)) != found[-1].after] = 0
+            if changes:  # there is one goal between two changes
+                goals[np.arange(len(goals)) != changes[-1].after] = 0
             before, after = np.unravel_index(int(goals.argmax()), goals.shape)
             at, sure = _middle_mode(places), min(1.0, float(at_least[i + 1]))
-            found.append(GoalChange(at, sure, *_interval(places, at), int(before), int(after)))
-        return tuple(found)
+            changes.append(GoalChange(at, sure, *_interval(places, at), int(before), int(after)))
+        return tuple(changes)
 
     @cached_property
     def _forward(self) -> Floats:
         """The weights (steps, changes, rates, goals) after each step, scaled step by step."""
         n_steps, n_rates, n_goals = self.likelihoods.shape
-        found = np.zeros((n_steps, MOST + 1, n_rates, n_goals))
-        found[0, 0] = self.likelihoods[0]
+        weights = np.zeros((n_steps, MOST + 1, n_rates, n_goals))
+        weights[0, 0] = self.likelihoods[0]
         for t in range(1, n_steps):
-            found[t] = found[t - 1]
-            found[t, 1:] += _moved(found[t - 1, :-1])
-            found[t] *= self.likelihoods[t]
-            found[t] /= found[t].max() or 1.0
-        return found
+            weights[t] = weights[t - 1]
+            weights[t, 1:] += _moved(weights[t - 1, :-1])
+            weights[t] *= self.likelihoods[t]
+            weights[t] /= weights[t].max() or 1.0
+        return weights
 
     def _following(self, n: int) -> Floats:
         """Return how likely each step and what follows it are, if there are n changes in all.
@@ -106,15 +106,15 @@ class ChangePoints:
         It is scaled so that its sum with the weights before the step, over all ways to make the
         step, is one: entries of different steps can be compared.
         """
-        found = np.zeros_like(self._forward)
-        ahead = np.zeros_like(found[0])
+        following = np.zeros_like(self._forward)
+        ahead = np.zeros_like(following[0])
         ahead[n] = self.likelihoods[-1]
         for t in range(self.n_steps - 1, 0, -1):
             behind = ahead.copy()
             behind[:-1] += _moved(ahead[1:])
-            found[t] = ahead / (float((self._forward[t - 1] * behind).sum()) or 1.0)
+            following[t] = ahead / (float((self._forward[t - 1] * behind).sum()) or 1.0)
             ahead = behind / (behind.max() or 1.0) * self.likelihoods[t - 1]
-        return found
+        return following
 
     def _change(self, i: int, following: Floats) -> tuple[Floats, Floats]:
         """Return the probability of each place of the i-th change, and of each pair of goals."""

@@ -117,19 +117,19 @@ def _own(places: Sequence[Path], shipped: Path, heading: re.Pattern[str]) -> Pat
 
     A warning says that it is not the shipped one of the same name.
     """
-    found = next((p for p in places if os.path.isfile(p) and heading.match(_heading(p))), None)
-    if found is not None and os.path.isfile(shipped):
-        if os.path.samefile(found, shipped):
+    path = next((p for p in places if os.path.isfile(p) and heading.match(_heading(p))), None)
+    if path is not None and os.path.isfile(shipped):
+        if os.path.samefile(path, shipped):
             return None
-        message = f"'{found.stem}' is ./{found} here, not the shipped file of that name"
+        message = f"'{path.stem}' is ./{path} here, not the shipped file of that name"
         warnings.warn(message, OwnFileWarning, stacklevel=4)
-    return found
+    return path
 
 
 def _problem_of(domain: str) -> re.Pattern[str]:
     """Return what the beginning of a problem of a domain reads like."""
-    found = _DOMAIN.match(_heading(Path(domain) if os.path.isfile(domain) else find_domain(domain)))
-    name = re.escape(found[1] if found else Path(domain).stem.lower())
+    match = _DOMAIN.match(_heading(Path(domain) if os.path.isfile(domain) else find_domain(domain)))
+    name = re.escape(match[1] if match else Path(domain).stem.lower())
     group = rf"{_SPACE}\({_SPACE}define{_SPACE}\({_SPACE}problem{_SPACE}[^\s();]++{_SPACE}\)"
     return re.compile(rf"{group}{_SPACE}\({_SPACE}:domain{_SPACE}{name}{_SPACE}\)")
 
@@ -148,5 +148,5 @@ def _is_path(name: str) -> bool:
 
 def _defines(path: Path, name: str) -> bool:
     """Whether the beginning of a file reads ``(define (domain NAME)``."""
-    found = _DOMAIN.match(_heading(path))
-    return found is not None and found[1] == name
+    match = _DOMAIN.match(_heading(path))
+    return match is not None and match[1] == name

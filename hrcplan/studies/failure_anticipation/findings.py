@@ -163,8 +163,8 @@ def sweeps(by_cell: Mapping[Cell, Sequence[StudyRow]]) -> Section | None:
     caption = (
         f"Method {scenario.data()['sweep']['method']} in case {scenario.data()['sweep']['case']}, "
         "one number changed at a time: the probability with which an interaction succeeds, its "
-        "price, and the value to which it brings the element. These numbers are our own; "
-        f"the planner chooses by cost. n = {min(map(len, cells.values()))} runs each, 95 % intervals."
+        "price, and the value to which it brings the element. These numbers are our own; the "
+        f"planner chooses by cost; n = {min(map(len, cells.values()))} runs each, 95 % intervals."
     )
     return Section("Interaction sweeps", picture(figures.sweeps(cells, names), caption))
 
