@@ -167,7 +167,7 @@ def infer(
     return run(belief, Resolver(steps_of(belief, bank.table), bank.goals), words, name)
 
 
-def _path_of(actions: object) -> str | None:
+def _path_of(actions: Observations | Bank | Goals) -> str | None:
     """Return the path that observations are read from; None if they are no file."""
     if isinstance(actions, Path):
         return str(actions / OBSERVATIONS if actions.is_dir() else actions)

@@ -116,7 +116,7 @@ def _parts(node: GroupNode, source: SourceText, durative: bool) -> dict[str, Par
             continue
         name = _known_part(key, known, source)
         if key in _TYPED_PARTS:
-            found.setdefault(str(key), _typed_part(key, rest))
+            parts.setdefault(str(key), _typed_part(key, rest))
             continue
         if not rest or (isinstance(rest[0], WordNode) and rest[0].startswith(":")):
             source.error(key.at, "missing-part", f"nothing follows {quote(key)}")

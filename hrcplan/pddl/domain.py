@@ -220,7 +220,7 @@ def _signatures(
             inner = [part for part in node if isinstance(part, GroupNode)]
             private = GroupNode(node.at)
             private.extend([node[0], *inner])
-            found |= _signatures(private, source, types, kind)
+            signatures |= _signatures(private, source, types, kind)
             continue
         if not isinstance(node, GroupNode) or not node.head:
             source.error(node.at, f"bad-{kind}", f"a {kind} such as (name ?x - type) is expected")

@@ -106,7 +106,7 @@ def estimate(values: Iterable[float]) -> MeanEstimate:
 
 
 def difference(ours: Mapping[int, float], theirs: Mapping[int, float]) -> MeanEstimate:
-    """Return the mean of ours minus theirs over the runs that both have.
+    """Return the mean of the first minus the second over the runs that both have.
 
     >>> difference({0: 5, 1: 7, 2: 9}, {0: 4, 1: 6})
     MeanEstimate(mean=1.0, se=0.0, n=2)
@@ -168,10 +168,10 @@ def estimate_clustered(values: Iterable[tuple[Clusters, float]]) -> MeanEstimate
 
 def _sums(values: Iterable[tuple[Clusters, float]]) -> list[float]:
     """Return the sum of the values of each cluster."""
-    found: dict[Clusters, list[float]] = {}
+    by_cluster: dict[Clusters, list[float]] = {}
     for cluster, value in values:
-        found.setdefault(cluster, []).append(value)
-    return [math.fsum(of) for of in found.values()]
+        by_cluster.setdefault(cluster, []).append(value)
+    return [math.fsum(of) for of in by_cluster.values()]
 
 
 def _variance(sums: Sequence[float], n: int) -> float:

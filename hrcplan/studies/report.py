@@ -123,9 +123,9 @@ def _summary(study: Study, cell: Cell, rows: Sequence[StudyRow]) -> dict[str, An
     }
 
 
-def _figures(found: dict[str, MeanEstimate]) -> dict[str, dict[str, float | None]]:
+def _figures(by_name: dict[str, MeanEstimate]) -> dict[str, dict[str, float | None]]:
     """Return means and standard errors; None where no row has a value, or too few for an error."""
     return {
         name: {"mean": e.mean if e.n else None, "se": e.se if e.is_known else None}
-        for name, e in found.items()
+        for name, e in by_name.items()
     }

@@ -183,5 +183,5 @@ def _shown(measure: str, e: MeanEstimate) -> str:
 
 
 def is_far(ours: MeanEstimate, printed: float, runs: int) -> bool:
-    """Whether a printed mean over ``runs`` simulations is unlikely to be one of ours."""
+    """Whether a printed mean over ``runs`` simulations is unlikely, given the mean here."""
     return abs(ours.mean - printed) > t_quantile(runs - 1) * ours.se_of(runs)
