@@ -148,7 +148,7 @@ def report(folder: Path, name: str | None) -> int:
 _VERDICTS = {"holds": "holds", "fails": "does not hold", "too-few": "too few runs"}
 
 
-def _text(found: dict[str, Any], folder: Path) -> str:
+def _text(summary: dict[str, Any], folder: Path) -> str:
     """Return means by cell and the claims, as plain lines."""
     names = list(summary["rows"][0]["measures"]) if summary["rows"] else []
     table = [["", *names]]
@@ -157,7 +157,7 @@ def _text(found: dict[str, Any], folder: Path) -> str:
         table.append([cell, *(_mean(m["mean"], m["se"]) for m in row["measures"].values())])
     lines = output.columns(table, right=range(1, len(names) + 1))
     lines.append("")
-    for claim in found["claims"]:
+    for claim in summary["claims"]:
         lines.append(f"{_VERDICTS[claim['verdict']]:<14} {claim['claim']}")
         lines.append(f"               {claim['evidence']}")
     lines += ["", f"{summary['n_rows']} rows; wrote {folder}/report.html and report.json"]

@@ -110,9 +110,9 @@ def ahead(wanted: Superiority, cells: Cells) -> Claim | None:
             gaps = differences(cells, human, ours, wanted.others, wanted.measure)
             if gaps is None:
                 return None
-            tests += [MEASURES[wanted.measure].beats(one) for one in found.values()]
-            n += [one.n for one in found.values()]
-            words.append(f"{human}, {ours}: {_measured(cells, human, ours, wanted, found)}")
+            tests += [MEASURES[wanted.measure].beats(one) for one in gaps.values()]
+            n += [one.n for one in gaps.values()]
+            words.append(f"{human}, {ours}: {_measured(cells, human, ours, wanted, gaps)}")
     holds, telling = judge(tests)
     evidence = f"{'; '.join(words)}. {JUDGED}; {_runs(n)}.{telling}"
     return Claim(wanted.claim, holds, f"{evidence} {wanted.note}".strip(), GROUP)
@@ -163,8 +163,8 @@ def bounds(cells: Cells) -> Claim | None:
                 gaps = differences(cells, human, bound, (RHP, RECURSIVE), measure)
                 if gaps is None:
                     return None
-                n += [one.n for one in found.values()]
-                tests += [MEASURES[measure].beats(one.negative) for one in found.values()]
+                n += [one.n for one in gaps.values()]
+                tests += [MEASURES[measure].beats(one.negative) for one in gaps.values()]
                 behind += [
                     f"{human}, {MEASURES[measure].name}: {bound} {interval_text(one)} "
                     f"against {other}"
@@ -201,7 +201,7 @@ def midpoint(printed: Mapping[str, Any], cells: Cells) -> Claim | None:
         f"{words} of the episode. “Around the midpoint” is read as {low} to {high} %; how soon a "
         "fixed goal shows depends on how much the goals have in common."
     )
-    holds, telling = judge(BoundTest(e.interval, low, high) for e in had.values())
+    holds, telling = judge(BoundTest(e.interval, low, high) for e in complete.values())
     return Claim(claim, holds, evidence + telling, GROUP)
 
 
@@ -218,7 +218,9 @@ def minimal(printed: Mapping[str, Any], cells: Cells) -> Claim | None:
         "mistakes too, as in the changed-mind paper."
     )
     claim = "The number of extra steps is minimal for all three humans"
-    holds, telling = judge(BoundTest(e.interval, most=most, is_strict=True) for e in had.values())
+    holds, telling = judge(
+        BoundTest(e.interval, most=most, is_strict=True) for e in complete.values()
+    )
     return Claim(claim, holds, evidence + telling, GROUP)
 
 
@@ -234,5 +236,5 @@ def length(printed: Mapping[str, Any], cells: Cells) -> Claim | None:
         "are those of hrcplan: the paper does not list its own."
     )
     claim = f"Combinations of two goals take {mean:g} steps on average"
-    holds, telling = judge([BoundTest(found.interval, mean - within, mean + within)])
+    holds, telling = judge([BoundTest(duration.interval, mean - within, mean + within)])
     return Claim(claim, holds, evidence + telling, GROUP)

@@ -138,7 +138,7 @@ def waste(data: Mapping[str, Any], beyond: Cells) -> Claim | None:
     claim = f"More changes than one: at most {most:g} wasted robot step per change of goal"
     evidence = f"{words}. Means over {many} pairs of goals each."
     holds, telling = judge(
-        BoundTest(e.interval, most=most * n_changes(human)) for human, e in had.items()
+        BoundTest(e.interval, most=most * n_changes(human)) for human, e in measured.items()
     )
     return Claim(claim, holds, evidence + telling, GROUP)
 
