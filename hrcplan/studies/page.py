@@ -69,7 +69,7 @@ def _multiplicity(sections: str) -> str:
         return ""
     return (
         f"{n:,} means and differences stand here with an error or a 95 % interval. They are not "
-        "corrected for their number: about one in twenty misses its true value by chance."
+        "corrected for their number: about one in twenty misses its true value at random."
     )
 
 

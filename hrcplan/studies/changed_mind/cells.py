@@ -72,7 +72,7 @@ class Cells:
     def difference(
         self, human: str, ours: str, theirs: str, measure: str, share: float = 1.0
     ) -> Interval | None:
-        """Return the mean of ours minus theirs, or minus a share of theirs.
+        """Return the mean of the first minus the second, or minus a share of the second.
 
         It is taken over the runs in which both have a value. The interval is cluster-robust by
         first and by second goal. None if there is no such run, or no value at all of a method.

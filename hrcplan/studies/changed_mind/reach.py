@@ -44,8 +44,8 @@ def wanted(one: Mapping[str, Any], method: str, cells: Cells) -> Claim | None:
     share = cells.difference(human, method, one["beside"], measure, one.get("share", 1.0))
     goal, test = _goal(one, share or gap)
     evidence = (
-        f"{mean_text(ours)} beside {mean_text(theirs)} ({_share(ours, theirs)}); paired difference "
-        f"{interval_text(gap)}, n = {gap.n:,}."
+        f"{mean_text(ours)} against {mean_text(theirs)} ({_share(ours, theirs)}); paired "
+        f"difference {interval_text(gap)}, n = {gap.n:,}."
     )
     return _judged(f"{start} {goal}", test, evidence)
 
