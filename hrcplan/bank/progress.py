@@ -77,7 +77,8 @@ class ProgressTracker:
     def follow(self, progress: Progress, step: int) -> tuple[Progress, Evidence] | None:
         """Return the progress and the evidence after a step; None if no agent can do it.
 
-        What it says, it says about the moment before.
+        What it says, it says about the moment before. A step that changes nothing is progress on no
+        plan, so no goal explains it, also where another agent's step of the same name would be.
         """
         combined = self.combined
         before, world = progress.world, self.bank.table.successor(progress.world, step)
@@ -97,7 +98,7 @@ class ProgressTracker:
         if progress.off:
             seen = self._look_off(progress, step, seen)
         if before == world:
-            return progress, seen
+            return progress, replace(seen, goals=seen.goals[:0], log_shares=seen.log_shares[:0])
         nodes = progress.nodes.copy()
         nodes[movers[0]] = combined.targets.take(movers[1])
         missed = [] if len(movers[0]) == len(goals) else goals[~hit].tolist()

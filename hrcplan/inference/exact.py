@@ -36,7 +36,7 @@ class ExactBelief:
 
     A step that a share s of a goal's remaining plans begins with has likelihood (1 - p) s. A
     mistake has likelihood p, divided by the number of applicable steps that the goal does not need.
-    A step that no goal explains leaves the posterior as it is.
+    A step that no goal explains leaves the posterior as it is; a step that changes nothing is one.
 
     >>> from hrcplan.bank import build_bank
     >>> belief = ExactBelief(build_bank("kitchen", only=["pasta-bean", "pasta-tomato"]))
