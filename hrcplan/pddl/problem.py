@@ -109,6 +109,7 @@ class _Init:
         self.values: dict[FluentKey, Number] = {}
         self.places: dict[FluentKey, int] = {}
         self.timed: list[TimedChange] = []
+        self.negated: set[FluentKey] = set()
 
     def take(self, node: ParseNode) -> None:
         source = self.scope.source
@@ -162,13 +163,22 @@ class _Init:
                 message = f"{quote(str(atom))} stands twice"
                 self.scope.source.warn(node.at, "duplicate-fact", message)
             self.facts.add(fact)
+            self._check_negated(fact, node)
 
     def _negated(self, node: GroupNode) -> None:
         inner = node[1] if len(node) == 2 else None
         if isinstance(inner, GroupNode) and inner.head:
-            read_atom(inner, self.scope)
+            atom = read_atom(inner, self.scope)
+            if atom is not None:
+                self.negated.add((atom.name, *atom.args))
+                self._check_negated((atom.name, *atom.args), node)
         else:
             self.scope.source.error(node.at, "not-a-fact", "(not (p a b)) is expected here")
+
+    def _check_negated(self, fact: FluentKey, node: GroupNode) -> None:
+        if fact in self.facts and fact in self.negated:
+            message = f"{quote(str(Atom(fact[0], fact[1:])))} is both true and false"
+            self.scope.source.error(node.at, "duplicate-value", message, "remove one of the two")
 
     def _value(self, node: GroupNode) -> None:
         source = self.scope.source

@@ -84,3 +84,13 @@ def test_names_have_no_hidden_characters(tmp_path, character):
     assert (fault.line, fault.column, fault.code) == (2, 17, "not-printable")
     assert f"U+{ord(character):04X}" in fault.message
     assert not faults(tmp_path, text.replace(character, ""))
+
+
+@pytest.mark.parametrize("init", ["(p) (not (p))", "(not (p)) (p)"])
+def test_no_fact_is_both_true_and_false(tmp_path, init):
+    domain, problem = tmp_path / "d.pddl", tmp_path / "p.pddl"
+    domain.write_text("(define (domain d) (:predicates (p) (q)) (:action a :effect (q)))")
+    problem.write_text(f"(define (problem b) (:domain d) (:init (not (q)) {init}) (:goal (q)))")
+    (fault,) = check_files([domain, problem])
+    assert (fault.severity, fault.code) == ("error", "duplicate-value")
+    assert "both true and false" in fault.message
