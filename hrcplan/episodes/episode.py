@@ -78,17 +78,29 @@ class EpisodeTurn:
 
 @dataclass(frozen=True)
 class EpisodeRecord:
-    """One episode: its turns, how it ended, and the time of each decision of the robot in ms."""
+    """One episode: its turns, how it ended, and the time of each decision of the robot in ms.
+
+    ``cap`` is the number of timesteps after which an episode ends in any case, and the cost of one
+    that did not reach its goal. ``is_reachable`` says whether the last goal was reached, or could
+    still be at the end.
+    """
 
     course: Course
     turns: tuple[EpisodeTurn, ...]
     ending: str
     decisions_ms: tuple[float, ...] = ()
+    cap: int = 0
+    is_reachable: bool = True
 
     @property
     def n_turns(self) -> int:
         """Timesteps until the last goal was reached, or until the end."""
         return len(self.turns)
+
+    @property
+    def cost(self) -> int:
+        """Timesteps until the last goal was reached; the cap if it was not."""
+        return self.n_turns if self.ending == REACHED else max(self.cap, self.n_turns)
 
     def __repr__(self) -> str:
         goals = " → ".join(map(str, self.course.goals))
@@ -148,7 +160,10 @@ class _Play(Generic[S]):
                 break
             self._robot(self.course.goal(turn))
             turn += 1
-        return EpisodeRecord(self.course, tuple(self.turns), ending, tuple(self.decisions_ms))
+        goal = self.course.goal(turn)
+        is_reachable = ending == REACHED or self.bank.locate(goal, self.state)[1] is not None
+        decisions = tuple(self.decisions_ms)
+        return EpisodeRecord(self.course, tuple(self.turns), ending, decisions, most, is_reachable)
 
     def _ending(self, turn: int, most: int) -> str | None:
         """Return how an episode has ended before a turn of the human; None if it goes on."""

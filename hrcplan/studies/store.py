@@ -183,12 +183,13 @@ class Store:
             return []  # written before the study had this table
         cursor = self._connection.execute(f"select * from main.{table.name}{more}")
         names = [column[0] for column in cursor.description]
-        if missing := {*table.keys, "run", *table.columns} - set(names):
+        if missing := {*table.keys, "run", *table.columns} - {*names, *table.grown}:
             raise self._damaged(f"{table.name} has no column {min(missing)}")
         records = [dict(zip(names, row, strict=True)) for row in cursor]
         for row in records:
             if wrong := next((n for n, value in row.items() if not _is_value(value)), None):
                 raise self._damaged(f"{table.name} holds {wrong} = {row[wrong]!r}")
+            row |= {name: of(row) for name, of in table.grown.items() if name not in names}
         return records
 
     @property

@@ -47,7 +47,8 @@ class StudyTable:
     ``cells`` lists the cells; ``episode`` returns the row of one episode from options, cell and
     seed, and nothing else decides about it, but for the ``clocked`` columns: they are measured by
     the clock and kept in a file of their own. The seed depends on study seed and run only, so that
-    cells are paired. ``at_most`` is the largest number of runs per cell.
+    cells are paired. ``at_most`` is the largest number of runs per cell. ``grown`` are the columns
+    that rows of earlier versions lack, with what their value is there.
     """
 
     name: str
@@ -57,6 +58,7 @@ class StudyTable:
     episode: Callable[[StudyOptions, Cell, Seed], StudyRow]
     at_most: int | None = None
     clocked: tuple[str, ...] = ()
+    grown: Mapping[str, Callable[[StudyRow], CellValue]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)

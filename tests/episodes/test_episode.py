@@ -171,7 +171,9 @@ def test_patience_ends():
     course = Course((BUILT,), mistake_rate=1.0)
     record = play(bank, Frontier(bank, course), Scripted(bank), course)
     assert record.ending == UNFINISHED
-    assert record.n_turns == PATIENCE * 1 + 1 + 1  # the robot has its turn after the human's last
+    assert (
+        record.n_turns == record.cost == PATIENCE * 1 + 1 + 1
+    )  # the robot has its turn after the human's last
     assert all(turn.is_mistake == turn.is_human for turn in record.turns)
 
 
@@ -191,6 +193,8 @@ def test_stuck_when_the_human_can_do_nothing_and_the_robot_does_nothing(goal, n_
     record = play(bank, Frontier(bank, course), Scripted(bank), course)
     assert record.ending == STUCK
     assert record.n_turns == n_turns
+    assert record.is_reachable == (goal == PAINTED)
+    assert record.cost == max(n_turns, record.cap)  # a short episode that failed is not a cheap one
     assert [turn.step for turn in record.turns[-2:]] == [None, None]
 
 

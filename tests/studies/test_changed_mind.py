@@ -20,7 +20,8 @@ TASK = {"domain": str(WORKSHOP / "domain.pddl"), "goals": str(WORKSHOP)}
 QUICK = {**TASK, "methods": "recursive,hrcplan,oracle"}  # no forest is trained for them
 HUMANS = ["fixed", "optimal", "suboptimal"]
 METHODS = ["rhp", "recursive", "recursive-best", "cdp", "infogain", "hrcplan", "oracle"]
-MEASURES = {"first_correct", "last_incorrect_pct", "last_incorrect_step", "correct_pct", "top3_pct",
+MEASURES = {"reached_pct", "stuck_pct", "unfinished_pct",
+            "first_correct", "last_incorrect_pct", "last_incorrect_step", "correct_pct", "top3_pct",
             "wasted_robot_steps", "human_mistakes", "total_steps", "extra_steps",
             "extra_vs_oracle", "detection_delay", "false_changes", "decision_ms"}  # fmt: skip
 
@@ -101,10 +102,31 @@ def test_several_changes_are_to_other_goals_and_in_order() -> None:
         assert list(course.turns) == sorted(set(course.turns))
 
 
+def test_rows_of_an_earlier_version_are_still_reported(tmp_path: Path) -> None:
+    """They lack what was added since; how an episode ended is known, its length was its cost."""
+    run(tmp_path, runs=3)
+    added = ("reached_pct", "stuck_pct", "unfinished_pct", "unreachable_pct", "played_steps")
+    with sqlite3.connect(tmp_path / "rows.sqlite") as old:
+        for table in find(NAME).tables:
+            for name in added:
+                old.execute(f"alter table {table.name} drop column {name}")
+        old.execute("update rows set ending = 'stuck' where run = 0 and method = 'oracle'")
+    found = report_study(tmp_path)
+    shares = {
+        row["cell"]["method"]: row["measures"]["reached_pct"]["mean"] for row in found["rows"]
+    }
+    assert shares["hrcplan"] == 100
+    assert shares["oracle"] < 100
+    assert "rows are of an earlier version" in (tmp_path / "report.html").read_text()
+
+
 def test_measures_agree_with_one_another(tmp_path: Path) -> None:
     run(tmp_path, runs=10)
     for row in rows(tmp_path):
         assert row["ending"] == "reached"
+        shares = ("reached_pct", "stuck_pct", "unfinished_pct", "unreachable_pct")
+        assert [row[name] for name in shares] == [100, 0, 0, 0]
+        assert row["played_steps"] == row["total_steps"]
         assert 0 <= row["correct_pct"] <= row["top3_pct"] <= 100
         assert row["last_incorrect_step"] <= row["total_steps"]
         assert row["extra_vs_oracle"] <= row["extra_steps"] or row["human_mistakes"] == 0

@@ -53,7 +53,7 @@ def row(human: str, method: str, run: int) -> StudyRow:
         "human_mistakes": int(errs and run % 3 == 0), "total_steps": total, "extra_steps": extra,
         "extra_vs_oracle": extra, "detection_delay": q + noise if declares and changes else None,
         "n_detected": int(declares and changes > 0),
-        "false_changes": (0.2 * q + noise) * declares, "decision_ms": 1.5 * q,
+        "reached_pct": 100.0, "false_changes": (0.2 * q + noise) * declares, "decision_ms": 1.5 * q,
     }  # fmt: skip
     return made
 
@@ -373,3 +373,8 @@ def test_episodes_that_did_not_reach_their_goal_are_told() -> None:
     text = endings(Cells("rows", OPTIONS, rows))
     assert f"In 1 of {len(rows):,} episodes" in text
     assert f"{rows[0]['human']} {rows[0]['method']} 1" in text
+    assert "In 0 of them it had become unreachable" in text
+    rows[0]["unreachable_pct"] = 100.0
+    assert "In 1 of them it had become unreachable" in endings(Cells("rows", OPTIONS, rows))
+    rows[0]["unreachable_pct"] = None
+    assert "earlier version" in endings(Cells("rows", OPTIONS, rows))

@@ -2,26 +2,44 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, replace
 from functools import lru_cache
 from statistics import fmean
 
-from hrcplan.episodes.episode import EpisodeRecord, play
+from hrcplan.episodes.episode import REACHED, STUCK, UNFINISHED, EpisodeRecord, play
 from hrcplan.episodes.humans import Course
 from hrcplan.episodes.measures import changes, guesses, mistakes, waits, wasted
 from hrcplan.studies.changed_mind import scenario
-from hrcplan.studies.study import Cell, Seed, StudyOptions, StudyRow
+from hrcplan.studies.study import Cell, CellValue, Seed, StudyOptions, StudyRow
 
+SUCCESS = ("reached_pct", "stuck_pct", "unfinished_pct")
 MEASURES = (
+    *SUCCESS,
     "first_correct", "last_incorrect_pct", "last_incorrect_step", "correct_pct", "top3_pct",
     "wasted_robot_steps", "human_mistakes", "total_steps", "extra_steps", "extra_vs_oracle",
     "detection_delay", "false_changes", "decision_ms",
 )  # fmt: skip
 CLOCKED = ("decision_ms",)
-DETAILS = ("n_detected", "false_before", "robot_waits")
+DETAILS = ("n_detected", "false_before", "robot_waits", "unreachable_pct", "played_steps")
 UNIT = ("first", "second")
 DRAWN = (*UNIT, "goals", "turns", "ending")
-COLUMNS = (*DRAWN, *(name for name in MEASURES if name not in CLOCKED), *DETAILS)
+ENDINGS = (REACHED, STUCK, UNFINISHED)
+
+
+def _is(ending: str) -> Callable[[StudyRow], CellValue]:
+    return lambda row: 100.0 * (row["ending"] == ending)
+
+
+GROWN: Mapping[str, Callable[[StudyRow], CellValue]] = {
+    **{f"{ending}_pct": _is(ending) for ending in ENDINGS},
+    "unreachable_pct": lambda row: None,
+    "played_steps": lambda row: row["total_steps"],
+}
+"""Columns that the rows of earlier versions lack, with their values there: how an episode ended was
+noted, and its length was its cost."""
+_OLD = (name for name in (*MEASURES, *DETAILS) if name not in (*CLOCKED, *GROWN))
+COLUMNS = (*DRAWN, *_OLD, *GROWN)
 ORACLE = "oracle"
 
 
@@ -45,9 +63,12 @@ def simulated(options: StudyOptions, cell: Cell, seed: Seed) -> StudyRow:
         "wasted_robot_steps": wasted(record),
         "human_mistakes": mistakes(record),
         "robot_waits": waits(record),
-        "total_steps": record.n_turns,
-        "extra_steps": record.n_turns - n_faultless,
-        "extra_vs_oracle": record.n_turns - n_oracle,
+        "total_steps": record.cost,
+        "extra_steps": record.cost - n_faultless,
+        "extra_vs_oracle": record.cost - n_oracle,
+        **{f"{end}_pct": 100.0 * (record.ending == end) for end in ENDINGS},
+        "unreachable_pct": 100.0 * (not record.is_reachable),
+        "played_steps": record.n_turns,
         "decision_ms": fmean(record.decisions_ms) if record.decisions_ms else 0.0,
     }
 
@@ -61,9 +82,9 @@ def _play(options: StudyOptions, name: str, method: str, course: Course) -> Epis
 
 @lru_cache(maxsize=64)
 def _oracles(options: tuple[tuple[str, str], ...], name: str, course: Course) -> tuple[int, int]:
-    """Return how long an oracle's episode lasts with a faultless human, and with this one."""
+    """Return what an oracle's episode costs with a faultless human, and with this one."""
     faultless = replace(course, mistake_rate=0.0, wait_rate=0.0)
     lengths = {
-        wanted: _play(dict(options), name, ORACLE, wanted).n_turns for wanted in (faultless, course)
+        wanted: _play(dict(options), name, ORACLE, wanted).cost for wanted in (faultless, course)
     }
     return lengths[faultless], lengths[course]

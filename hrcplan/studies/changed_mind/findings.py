@@ -4,20 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from hrcplan.episodes.episode import REACHED
+from hrcplan.episodes.episode import PATIENCE, REACHED
 from hrcplan.studies.changed_mind import claims, figures, reach, scenario, tables
 from hrcplan.studies.changed_mind.cells import Cells
+from hrcplan.studies.changed_mind.episodes import SUCCESS
 from hrcplan.studies.measure import number
 from hrcplan.studies.page import escape, panels, picture, readings, table
 from hrcplan.studies.study import Claim, Findings, Section, StudyOptions, StudyRows
 
-GUESSES = ("first_correct", "last_incorrect_step", "last_incorrect_pct", "correct_pct", "top3_pct",
+GUESSES = (*SUCCESS,
+           "first_correct", "last_incorrect_step", "last_incorrect_pct", "correct_pct", "top3_pct",
            "detection_delay", "n_detected", "false_changes")  # fmt: skip
-STEPS = ("wasted_robot_steps", "human_mistakes", "robot_waits", "total_steps", "extra_steps",
+STEPS = (*SUCCESS, "unreachable_pct",
+         "wasted_robot_steps", "human_mistakes", "robot_waits", "total_steps", "extra_steps",
          "extra_vs_oracle")  # fmt: skip
-COMPARED = ("first_correct", "last_incorrect_step", "last_incorrect_pct", "correct_pct",
+COMPARED = ("reached_pct",
+            "first_correct", "last_incorrect_step", "last_incorrect_pct", "correct_pct",
             "detection_delay", "false_changes", "wasted_robot_steps", "total_steps")  # fmt: skip
-COMPACT = ("first_correct", "last_incorrect_step", "correct_pct", "false_changes",
+COMPACT = ("reached_pct", "first_correct", "last_incorrect_step", "correct_pct", "false_changes",
            "wasted_robot_steps", "extra_vs_oracle")  # fmt: skip
 PLOTTED = {
     "correct_pct": "Right guesses",
@@ -133,18 +137,25 @@ def all_means(cells: Cells) -> Section | None:
 
 
 def endings(cells: Cells) -> str:
-    """Return whether all goals were reached: an episode that ends otherwise looks short."""
+    """Return whether all goals were reached, and if not how the other episodes are counted."""
     n_all = sum(map(len, cells.rows.values()))
     missed = {
-        f"{human} {method}": n
+        f"{human} {method}": failures
         for (human, method), rows in cells.rows.items()
-        if (n := sum(row["ending"] != REACHED for row in rows))
+        if (failures := [row for row in rows if row["ending"] != REACHED])
     }
     if not missed:
         return f"In all {n_all:,} episodes the last goal was reached."
-    words = ", ".join(f"{escape(cell)} {n}" for cell, n in missed.items())
+    words = ", ".join(f"{escape(cell)} {len(failures)}" for cell, failures in missed.items())
+    failed = [row for failures in missed.values() for row in failures]
+    text = f"In {len(failed)} of {n_all:,} episodes the last goal was not reached: {words}. "
+    if any(row["unreachable_pct"] is None for row in failed):
+        return f"{text}These rows are of an earlier version: such an episode counts as short."
+    n_lost = sum(bool(row["unreachable_pct"]) for row in failed)
     return (
-        f"In {sum(missed.values())} of {n_all:,} episodes the last goal was not reached: {words}."
+        f"{text}In {n_lost} of them it had become unreachable. Such an episode costs as many "
+        f"timesteps as it could have taken at most ({PATIENCE} times the steps that its goals "
+        "need), however short it was."
     )
 
 
@@ -245,7 +256,8 @@ def banks(cells: Cells) -> Section | None:
     present = [method for method in BANKS if method in cells.methods]
     if len(present) < 2:
         return None
-    names = ("false_changes", "false_before", "n_detected", "detection_delay", "correct_pct",
+    names = ("reached_pct",
+             "false_changes", "false_before", "n_detected", "detection_delay", "correct_pct",
              "wasted_robot_steps")  # fmt: skip
     parts = [
         "<p>The changed-mind paper calls a history consistent if a policy of the bank has its "

@@ -27,6 +27,9 @@ HERE = Path(__file__).parent
 MAIN = "rows"
 SPREAD = 4  # further changes come within the time that a fraction of the goal's steps takes
 
+ROW_FORMAT = 2
+"""It changes when episodes get other columns or values: rows of two formats are not mixed."""
+
 ADDED = ("methods", "humans")
 """Options that name more than one part, with commas between."""
 RENAMED = {"paper": "rhp"}
@@ -203,6 +206,7 @@ def inputs(options: StudyOptions) -> str:
     )
     goals = [bank_of(*task).goals for task in tasks]
     texts = [text for one in goals for text in (*one.names, *map(str, one.formulas))]
+    texts.append(f"rows of format {ROW_FORMAT}")
     keys = ("study", "humans", "methods", "tables")
     return SCENARIO.inputs(keys, [one.problem for one in goals], texts)
 
