@@ -156,7 +156,9 @@ def _types(section: GroupNode | None, source: SourceText) -> dict[str, tuple[str
         if name == OBJECT:
             continue
         if name in types:
-            hint = f"write '{name} - (either {' '.join({*types[name], *parents})})'"
+            above = dict.fromkeys(p for p in (*types[name], *parents) if p != OBJECT)
+            either = f"write '{name} - (either {' '.join(above)})'"
+            hint = either if len(above) > 1 else "remove one of the two"
             message = f"type {quote(name)} is declared twice"
             source.warn(name.at, "duplicate-type", message, hint)
         both = [*types.get(str(name), ()), *parents]

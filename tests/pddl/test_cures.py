@@ -94,3 +94,18 @@ def test_no_fact_is_both_true_and_false(tmp_path, init):
     (fault,) = check_files([domain, problem])
     assert (fault.severity, fault.code) == ("error", "duplicate-value")
     assert "both true and false" in fault.message
+
+
+@pytest.mark.parametrize(
+    ("types", "hint"),
+    [
+        ("b c - object a - b a - c", "write 'a - (either b c)'"),
+        ("a b a", "remove one of the two"),
+        ("b - object a - b a", "remove one of the two"),
+    ],
+)
+def test_a_type_that_is_listed_twice(tmp_path, types, hint):
+    text = f"""(define (domain d) (:requirements :typing) (:types {types})
+ (:predicates (p ?x - a)) (:action n :parameters (?x - a) :effect (p ?x)))"""
+    (fault,) = faults(tmp_path, text)
+    assert (fault.code, fault.hint) == ("duplicate-type", hint)
