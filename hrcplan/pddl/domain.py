@@ -18,7 +18,7 @@ from hrcplan.pddl.requirements import check_requirements, read_requirements
 from hrcplan.pddl.scope import Scope
 from hrcplan.pddl.source import SECTION_SIMILARITY, SourceText
 from hrcplan.pddl.trajectories import SECTION, read_constraints
-from hrcplan.pddl.typed_lists import Entry, params_of, read_typed, report_types
+from hrcplan.pddl.typed_lists import Entry, params_of, read_typed, report_types, with_dashes
 
 _UNSUPPORTED = {
     ":axiom": "axioms of PDDL 1.2",
@@ -241,7 +241,7 @@ def _signatures(
 
 def _without_result_types(section: GroupNode | None, source: SourceText) -> Iterator[ParseNode]:
     """Yield declarations, skipping the ``- number`` that may follow functions."""
-    nodes = iter(section[1:] if section else ())
+    nodes = iter(with_dashes(section[1:] if section else (), source))
     for node in nodes:
         if node != "-":
             yield node

@@ -146,16 +146,18 @@ def _read_even(text: str, source: SourceText) -> list[ParseNode]:
             group.append(inner)
             stack.append(inner)
             group = inner
-            deepest = max(deepest, len(stack))
-            if deepest > MAX_DEPTH:
-                raise _UnevenError(inner.at)
+            if len(stack) > deepest:
+                deepest = len(stack)
+                if deepest > MAX_DEPTH:
+                    raise _UnevenError(inner.at)
         elif token == ")":
             stack.pop()
             if not stack:
                 raise _UnevenError(match.start())
             group = stack[-1]
         elif token[0] != ";":
-            word = word_at(token, match.start())
+            word = WordNode(token)
+            word.at = match.start()
             if token[0] == ":" and not _is_in_place(word, group, len(stack)):
                 raise _UnevenError(word.at)
             if token[0] == "?":

@@ -101,12 +101,16 @@ class Scope:
             self.source.error(group.at, "wrong-arity", message, f"declared as {signature}")
             return None
         fits = [self._fits(t, p) for t, p in zip(terms, signature.params, strict=True)]
-        return tuple(map(self.term, terms)) if all(fits) else None
+        if not all(fits):
+            return None
+        return tuple(map(self.term, terms)) if self.renames else tuple(map(str, terms))
 
     def _fits(self, term: WordNode, param: Param) -> bool:
         types = self.types_of(term)
         if types is None:
             return False
+        if types == param.types:  # most are, and files have many
+            return True
         is_a = self.domain.is_a
         if any(is_a(t, param.types) for t in types) or not self._declared(*types, *param.types):
             return True

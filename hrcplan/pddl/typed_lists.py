@@ -23,7 +23,7 @@ def read_typed(
     A type that is not among ``types`` is an error, unless ``types`` is None.
     """
     waiting: list[WordNode] = []
-    rest = iter(_with_dashes(nodes, source, types))
+    rest = iter(with_dashes(nodes, source, types))
     for node in rest:
         if isinstance(node, GroupNode):
             source.error(node.at, "not-a-name", "a name is expected here, not a group")
@@ -44,8 +44,8 @@ def read_typed(
         yield name, (OBJECT,)
 
 
-def _with_dashes(
-    nodes: Sequence[ParseNode], source: SourceText, types: Collection[str] | None
+def with_dashes(
+    nodes: Sequence[ParseNode], source: SourceText, types: Collection[str] | None = None
 ) -> Iterator[ParseNode]:
     """Yield the nodes with every dash as a word of its own, also one that touches a name."""
     for node, following in pairwise((*nodes, None)):

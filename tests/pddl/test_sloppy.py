@@ -38,6 +38,7 @@ SLOPPY = {
     "missing-space": [
         ("(free ?c)\n", "(free?c)\n"),
         ("?c - crane ?s - spot)\n", "?c -crane ?s - spot)\n"),
+        ("  (:action", "  (:functions (weight ?c - crane) -number (reach))\n  (:action"),
     ],
     "undeclared-supertype": [("crane spot - object", "crane spot - thing")],
     "duplicate-type": [("crane spot - object", "crane spot - object thing - object spot - thing")],

@@ -1,0 +1,1 @@
+"""Measure hrcplan on PDDL of public archives, beside other readers, VAL and planners."""

@@ -1,0 +1,114 @@
+"""Pairs of a domain and its smallest problem in a folder, or in a bare git repository."""
+
+from __future__ import annotations
+
+import random
+import re
+import subprocess
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+
+MOST_BYTES = 300_000
+_COMMENT = re.compile(r";[^\n]*")
+_DOMAIN = re.compile(r"\(\s*define\s*\(\s*domain\s+([^\s()]+)", re.IGNORECASE)
+_PROBLEM = re.compile(r"\(\s*define\s*\(\s*problem\b", re.IGNORECASE)
+_DOMAIN_OF = re.compile(r"\(\s*:domain\s+([^\s()]+)", re.IGNORECASE)
+_DIGITS = re.compile(r"\d+")
+
+
+@dataclass(frozen=True)
+class Pair:
+    """A domain file and a problem file."""
+
+    domain: Path
+    problem: Path
+
+
+@dataclass(frozen=True)
+class _Problem:
+    path: PurePosixPath
+    domain: str
+    size: int
+
+
+def export(source: Path, target: Path) -> Path:
+    """Return a folder with the PDDL files of an archive: itself, or what ``HEAD`` holds."""
+    if not (source / "HEAD").exists():
+        return source
+    listing = _git(source, "ls-tree", "-r", "-l", "-z", "HEAD").decode(errors="replace")
+    for line in listing.split("\0"):
+        entry, _, name = line.partition("\t")
+        if not name.endswith(".pddl") or not entry.split()[3].isdigit():
+            continue  # no PDDL, or a file that this copy of the repository lacks
+        if int(entry.split()[3]) <= MOST_BYTES:
+            (target / name).parent.mkdir(parents=True, exist_ok=True)
+            (target / name).write_text(entry.split()[2])
+    _fill(source, [path for path in target.rglob("*.pddl") if path.is_file()])
+    return target
+
+
+def _fill(source: Path, files: list[Path]) -> None:
+    """Replace the hash that stands in every file by the content of that hash."""
+    names = "\n".join(path.read_text() for path in files)
+    data = _git(source, "cat-file", "--batch", text=names.encode())
+    place = 0
+    for path in files:
+        end = data.index(b"\n", place)
+        size = int(data[place:end].split()[2])
+        path.write_bytes(data[end + 1 : end + 1 + size])
+        place = end + size + 2
+
+
+def _git(source: Path, *words: str, text: bytes = b"") -> bytes:
+    command = ["git", "-c", "safe.directory=*", "-C", str(source), *words]
+    return subprocess.run(command, input=text, capture_output=True, check=True).stdout
+
+
+def pairs(folder: Path, n: int, seed: int) -> list[Pair]:
+    """Return a sample of ``n`` domains, one of each name and folder, with a small problem."""
+    domains: dict[tuple[PurePosixPath, str], list[PurePosixPath]] = {}
+    problems = list[_Problem]()
+    for path in sorted(folder.rglob("*.pddl")):
+        if not path.is_file() or path.stat().st_size > MOST_BYTES:
+            continue
+        text = _COMMENT.sub("", path.read_text(errors="replace")).lower()
+        place = PurePosixPath(path.relative_to(folder))
+        if domain := _DOMAIN.search(text):
+            domains.setdefault((place.parent, domain[1]), []).append(place)
+        elif _PROBLEM.search(text):
+            of = _DOMAIN_OF.search(text)
+            problems.append(_Problem(place, of[1] if of else "", len(text)))
+    rng = random.Random(seed)
+    keys = sorted(domains, key=str)
+    rng.shuffle(keys)
+    chosen = (_pair(folder, rng.choice(domains[key]), key[1], problems) for key in keys)
+    return [pair for pair in chosen if pair is not None][:n]
+
+
+def _pair(folder: Path, domain: PurePosixPath, name: str, problems: list[_Problem]) -> Pair | None:
+    near = [(rank, p) for p in problems if (rank := _rank(domain, name, p)) is not None]
+    if not near:
+        return None
+    return Pair(folder / domain, folder / min(near, key=lambda item: item[0])[1].path)
+
+
+def _rank(domain: PurePosixPath, name: str, problem: _Problem) -> tuple[int, int, int, str] | None:
+    """Return how far a problem is from a domain; None where it is another domain's."""
+    if problem.domain != name:
+        return None
+    numbers = [_DIGITS.findall(path.stem) for path in (domain, problem.path)]
+    other = int(bool(numbers[0]) and numbers[0][-1:] != numbers[1][-1:])
+    common = len(_common(domain.parent.parts, problem.path.parent.parts))
+    distance = len(domain.parent.parts) + len(problem.path.parent.parts) - 2 * common
+    return (distance, other, problem.size, str(problem.path)) if distance <= 2 else None
+
+
+def _common(first: tuple[str, ...], second: tuple[str, ...]) -> list[str]:
+    def shared() -> Iterator[str]:
+        for a, b in zip(first, second, strict=False):
+            if a != b:
+                return
+            yield a
+
+    return list(shared())

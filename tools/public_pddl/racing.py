@@ -1,0 +1,135 @@
+"""``hrcplan plan --any`` beside planners that are called directly on the same files."""
+
+from __future__ import annotations
+
+import random
+import resource
+import subprocess
+import sys
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from statistics import median
+from tempfile import TemporaryDirectory
+
+from hrcplan.pddl.inputs import read
+from hrcplan.pddl.model import TOTAL_COST, Problem
+from hrcplan.planners.enhsp import _FIRST as ENHSP_SEARCH
+from hrcplan.planners.enhsp import _JAR, _inside, find_java
+from hrcplan.planners.fast_downward import _FIRST as DOWNWARD_SEARCH
+from hrcplan.planners.fast_downward import _SCRIPT, find_binary
+from public_pddl.archive import Pair
+
+TIMEOUT_S = 60
+OVERRUN_S = 1
+OURS = "hrcplan"
+
+
+@dataclass(frozen=True)
+class Run:
+    """Seconds of one call by the clock and of processor time, and whether it came with a plan."""
+
+    solved: bool
+    elapsed_s: float
+    cpu_s: float
+
+
+def language(problem: Problem) -> str:
+    """Return the part of PDDL that decides which planners can be called."""
+    domain = problem.domain
+    if domain.is_temporal:
+        return "temporal"
+    if domain.changed_functions - {TOTAL_COST}:
+        return "numeric"
+    text = Path(domain.path).read_text(errors="replace").lower()
+    return (
+        "ADL" if any(word in text for word in ("(forall", "(exists", "(when", "(or")) else "STRIPS"
+    )
+
+
+def commands(pair: Pair, kind: str) -> dict[str, list[str]]:
+    """Return the calls of the planners that take a task of this kind."""
+    files = [str(pair.domain), str(pair.problem)]
+    python = Path(sys.executable)
+    limit = ["--timeout", str(TIMEOUT_S)]
+    calls = {
+        OURS: [str(python.with_name("hrcplan")), "plan", "--any", *limit, *files],
+        "kairos": [str(python.with_name("kairos")), "solve", *files, "--no-anytime", *limit],
+    }
+    if kind in ("ADL", "STRIPS"):
+        script = _SCRIPT.replace("domain.pddl problem.pddl", '"$3" "$4"')
+        program = ["/bin/sh", "-c", script, str(python), str(find_binary()), DOWNWARD_SEARCH]
+        calls["fast-downward"] = [*program, *files]
+    if kind == "numeric":
+        jar = ["-jar", str(_inside("up_enhsp", _JAR)), "-o", files[0], "-f", files[1]]
+        calls["enhsp"] = [str(find_java()), *jar, *ENHSP_SEARCH]
+    return calls
+
+
+def call(argv: Sequence[str], folder: Path) -> Run:
+    """Return what one call did; a planner's own limit is ours, and a second later it is killed."""
+    start, worked = time.perf_counter(), _processor_s()
+    try:
+        done = subprocess.run(argv, cwd=folder, capture_output=True, timeout=TIMEOUT_S + 15)
+        solved = done.returncode == 0
+        solved &= b"Problem unsolvable" not in done.stdout
+    except subprocess.TimeoutExpired:
+        solved = False
+    return Run(solved, time.perf_counter() - start, _processor_s() - worked)
+
+
+def _processor_s() -> float:
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
+
+
+def tasks(readable: Sequence[Pair], n: int, seed: int) -> list[tuple[str, Pair]]:
+    """Return ``n`` tasks, as many of each kind as there are."""
+    kinds: dict[str, list[Pair]] = {"STRIPS": [], "ADL": [], "numeric": [], "temporal": []}
+    for pair in random.Random(seed).sample(readable, len(readable)):
+        part = kinds[language(read(pair.domain, pair.problem))]
+        if len(part) <= n // len(kinds):
+            part.append(pair)
+    rows = [(kind, part[i]) for i in range(n) for kind, part in kinds.items() if i < len(part)]
+    return rows[:n]
+
+
+def report(readable: Sequence[Pair], n: int, seed: int) -> None:
+    """Print each task's seconds, then who solves how many, and what hrcplan adds."""
+    print("\n| task | kind | hrcplan | best planner alone |\n|---|---|---|---|")
+    results = list[tuple[Run, Run]]()
+    for kind, pair in tasks(readable, n, seed):
+        with TemporaryDirectory() as folder:
+            calls = commands(pair, kind)
+            runs = {name: call(argv, Path(folder)) for name, argv in calls.items()}
+        ours = runs.pop(OURS)
+        name = min(runs, key=lambda name: (not runs[name].solved, runs[name].elapsed_s))
+        results.append((ours, runs[name]))
+        print(f"| {pair.domain.parent.name}/{pair.problem.stem} | {kind} | {_cell(ours)} ", end="")
+        print(f"| {name} {_cell(runs[name])} |", flush=True)
+    _summary(results)
+
+
+def _cell(run: Run) -> str:
+    times = f"{run.elapsed_s:.2f} s ({run.cpu_s:.2f} s of processor time)"
+    return times if run.solved else f"none in {times}"
+
+
+def _summary(results: Sequence[tuple[Run, Run]]) -> None:
+    ours, best = (sum(runs[i].solved for runs in results) for i in range(2))
+    both = [(a.elapsed_s, b.elapsed_s) for a, b in results if a.solved and b.solved]
+    late = sum(a.elapsed_s > TIMEOUT_S + OVERRUN_S for a, _ in results)
+    print(
+        f"\nsolved: hrcplan {ours}, the best planner of each task {best}, both {len(both)} ", end=""
+    )
+    print(f"of {len(results)}; limit overrun: {late}")
+    if both:
+        added = [a - b for a, b in both]
+        print(f"added: median {median(added):.2f} s, at most {max(added):.2f} s; ", end="")
+        within = sum(a <= 2 * b + 1 for a, b in both)
+        print(f"within twice + 1 s: {within} of {len(both)}; ", end="")
+        print(
+            f"median of time over that of the best: {median(a / b for a, b in both):.2f}",
+            flush=True,
+        )
