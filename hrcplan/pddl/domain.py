@@ -157,8 +157,8 @@ def _types(section: GroupNode | None, source: SourceText) -> dict[str, tuple[str
             continue
         if name in types:
             above = dict.fromkeys(p for p in (*types[name], *parents) if p != OBJECT)
-            either = f"write '{name} - (either {' '.join(above)})'"
-            hint = either if len(above) > 1 else "remove one of the two"
+            all_above = " ".join(above) if len(above) == 1 else f"(either {' '.join(above)})"
+            hint = f"write '{name} - {all_above}' once" if above else "remove one of the two"
             message = f"type {quote(name)} is declared twice"
             source.warn(name.at, "duplicate-type", message, hint)
         both = [*types.get(str(name), ()), *parents]
