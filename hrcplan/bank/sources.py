@@ -17,7 +17,7 @@ KINDS = ("problems", ramirez_geffner.KIND)
 
 
 def read_goals(domain: str, goals: str | None = None) -> Goals:
-    """Return the goals of a folder, or of a domain's shipped problems.
+    """Return the goals of a folder, or of ``problems/DOMAIN`` here, or else the shipped ones.
 
     Problem files stand in the order of their names; a folder may also be one of Ramírez and
     Geffner's, with ``template.pddl`` and ``hyps.dat``.
@@ -32,7 +32,8 @@ def read_goals(domain: str, goals: str | None = None) -> Goals:
             or initial states differ; the message names the differences.
     """
     first = SourceFile.read(library.find_domain(domain))
-    folder = None if goals is None else library.find_goals(goals)
+    stem = Path(domain).stem
+    folder = library.own_goals(stem) if goals is None else library.find_goals(goals)
     if folder is not None and ramirez_geffner.is_folder(folder):
         parts = (ramirez_geffner.TEMPLATE, ramirez_geffner.HYPOTHESES)
         files = (SourceFile.read(folder / part) for part in parts)

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     "--range",
     "limits",
     nargs=2,
-    type=float,
+    type=options.FiniteNumber(),
     metavar="LEAST MOST",
     help="The values of ELEMENT to examine; by default the range in the domain file, else 0 10.",
 )

@@ -99,7 +99,7 @@ HELP = """Carry out DOMAIN PROBLEM with a simulated human, and replan before act
 @click.option("--resume", is_flag=True, help="Continue the run in the journal.")
 @click.option(
     "--speed",
-    type=click.FloatRange(0, min_open=True),
+    type=options.FiniteNumber(0, min_open=True),
     default=None,
     metavar="X",
     help="Simulated seconds per second; as fast as possible if not given.",

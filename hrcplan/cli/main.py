@@ -41,6 +41,7 @@ COMMANDS = {
 INTERNAL_ERROR = 5
 INTERRUPTED = 130
 TERMINATED = 143
+HUNG_UP = 129
 
 
 class _Commands(click.RichGroup):
@@ -68,6 +69,8 @@ class _Commands(click.RichGroup):
         output.JSON = "--json" in words  # an error before options are read is a document, too
         if threading.current_thread() is threading.main_thread():
             signal.signal(signal.SIGTERM, lambda *_: sys.exit(TERMINATED))
+            if signal.getsignal(signal.SIGHUP) is not signal.SIG_IGN:  # as nohup sets it
+                signal.signal(signal.SIGHUP, lambda *_: sys.exit(HUNG_UP))
         run = partial(super().main, words, prog_name, complete_var, standalone_mode=False, **more)
         with _old_names_on_stderr():
             code = _exit_code(words, run)

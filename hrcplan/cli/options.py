@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
@@ -19,7 +20,7 @@ NAMES = (
 )
 GOALS = (
     "GOALS: a folder of problem files with the same objects and initial state, or a folder with "
-    "template.pddl and hyps.dat; by default the shipped problems of DOMAIN."
+    "template.pddl and hyps.dat; by default ./problems/DOMAIN, or else the shipped problems."
 )
 PLANNER = (
     "PLANNER: auto, a name that 'hrcplan planners' lists, up:NAME (an engine of "
@@ -88,10 +89,37 @@ def planner(help_text: str) -> Callable[[F], F]:
     )
 
 
+class FiniteNumber(click.FloatRange):
+    """A number in a range; ``nan`` and the infinities are none.
+
+    Args:
+        cap: Greater numbers, also infinity, stand for this one.
+    """
+
+    def __init__(
+        self, least: float | None = None, *, min_open: bool = False, cap: float | None = None
+    ) -> None:
+        super().__init__(least, min_open=min_open)
+        self.cap = cap
+
+    def convert(self, value: Any, param: Any, ctx: Any) -> float:
+        """Return the number."""
+        number = float(super().convert(value, param, ctx))
+        if self.cap is not None and number > self.cap:
+            return self.cap
+        if not math.isfinite(number):
+            self.fail(f"'{value}' is no finite number", param, ctx)
+        return number
+
+
+MOST_SECONDS = 1e8  # about three years: clocks and planners can count more, but not all of them
+SECONDS = FiniteNumber(0, min_open=True, cap=MOST_SECONDS)
+
+
 def timeout(help_text: str, default: float | None) -> Callable[[F], F]:
     """Return the option ``--timeout``, in seconds."""
     return click.option(
-        "--timeout", type=click.FloatRange(0, min_open=True), default=default,
+        "--timeout", type=SECONDS, default=default,
         show_default=default is not None, metavar="SECONDS", help=help_text,
     )  # fmt: skip
 

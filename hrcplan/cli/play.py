@@ -51,29 +51,32 @@ def command(script: str, methods: tuple[str, ...], show_why: bool) -> int:
 
 def _side_by_side(played: Sequence[NarratedEpisode]) -> Any:
     """Return a table with a row per turn and a column per method."""
+    from rich.markup import escape
     from rich.table import Table
 
     table = Table(box=None, padding=(0, 2, 0, 0), header_style="bold")
     table.add_column("t", justify="right")
     table.add_column("goal", no_wrap=True)
     for episode in played:
-        table.add_column(episode.method, no_wrap=True)
+        table.add_column(escape(episode.method), no_wrap=True)
     for t in range(max(len(episode.turns) for episode in played)):
         turns = [e.turns[t] if t < len(e.turns) else None for e in played]
         goal = next(turn.goal for turn in turns if turn is not None)
         last = next((e.turns[t - 1].goal for e in played if 0 < t <= len(e.turns)), None)
-        table.add_row(str(t), "" if goal == last else goal, *map(_cell, turns))
+        table.add_row(str(t), "" if goal == last else escape(goal), *map(_cell, turns))
     return table
 
 
 def _cell(turn: NarratedTurn | None) -> str:
+    from rich.markup import escape
+
     if turn is None:
         return ""
-    action = (turn.action or "waits").strip("()")
+    action = escape((turn.action or "waits").strip("()"))
     if turn.agent == "human":
         return f"[dim]human[/] {action}"
     mark = "" if turn.is_needed or turn.action is None else " [red]not needed[/]"
-    goals = "\n".join(_believed(goal, p, goal == turn.goal) for goal, p in turn.top)
+    goals = "\n".join(_believed(escape(goal), p, goal == turn.goal) for goal, p in turn.top)
     return f"[bold]robot {action}[/]{mark}\n{goals}"
 
 

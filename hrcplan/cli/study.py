@@ -39,7 +39,7 @@ command.add_command(play.command)
 @click.argument("name", metavar="NAME")
 @click.option(
     "--runs",
-    type=click.IntRange(1),
+    type=click.IntRange(1, 1_000_000),
     metavar="N",
     help="Runs per cell; by default 1000 (failure-anticipation) or 3 per ordered pair of "
     "goals (changed-mind).",
@@ -47,7 +47,7 @@ command.add_command(play.command)
 @options.seed("Random seed: everything random is derived from it.", least=None)
 @click.option(
     "--jobs",
-    type=click.IntRange(1),
+    type=click.IntRange(1, 4096),
     default=lambda: len(os.sched_getaffinity(0)),
     show_default="all processors",
     metavar="N",

@@ -17,7 +17,10 @@ _TEXT_DECIMALS = 12
 _FRACTION = re.compile(r"[+-]?\d{1,9999}(/\d{1,9999}|(\.\d{1,999})?(e[+-]?\d{1,3})?)", re.ASCII)
 
 
-_NUMBER = re.compile(r"[+-]?([0-9]{1,150}(\.[0-9]{0,30})?|\.[0-9]{1,30})(e[+-]?[0-9]{1,2})?")
+_NUMBER = re.compile(
+    r"[+-]?(([0-9]{1,150}(\.[0-9]{0,30})?|\.[0-9]{1,30})(e[+-]?[0-9]{1,2})?"
+    r"|[0-9]{0,150}\.[0-9]{31,129})"  # as the writer spells out small numbers
+)
 
 
 def exact(number: Number | float | str) -> Number:

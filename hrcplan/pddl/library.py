@@ -93,12 +93,30 @@ def find_problem(domain: str, name: str) -> Path:
 
 
 def find_goals(name: str) -> Path:
-    """Return a folder of goals given by path or by the name of a folder of shipped problems.
+    """Return a folder of goals given by path, or by name: ``problems/NAME`` here, else shipped.
 
     A path that exists wins.
     """
+    if os.path.exists(name):
+        return Path(name)
     shipped = root() / "problems" / name
-    return shipped if os.path.isdir(shipped) and not os.path.exists(name) else Path(name)
+    return own_goals(name) or (shipped if os.path.isdir(shipped) else Path(name))
+
+
+def own_goals(name: str) -> Path | None:
+    """Return the folder ``problems/NAME`` of the current folder; None if it holds no problems.
+
+    A warning says that it is not the shipped one of the same name.
+    """
+    own, shipped = Path("problems", name), root() / "problems" / name
+    if not os.path.isdir(own) or next(own.glob("*.pddl"), None) is None:
+        return None
+    if os.path.isdir(shipped):
+        if os.path.samefile(own, shipped):
+            return None
+        message = f"'{name}' is the folder ./{own} here, not the shipped one of that name"
+        warnings.warn(message, OwnFileWarning, stacklevel=4)
+    return own
 
 
 def domain_file_for(name: str, problem: Path | None) -> Path | None:

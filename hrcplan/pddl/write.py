@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from fractions import Fraction
 from itertools import groupby
 
-from hrcplan.core.numbers import Number, number_text
+from hrcplan.core.numbers import Number, decimal_of, number_text
 from hrcplan.pddl.dialect import symbolic, without_numbers
 from hrcplan.pddl.model import (
     OBJECT,
@@ -40,23 +41,23 @@ from hrcplan.pddl.model import (
 )
 
 WIDTH = 100
-MAX_DECIMALS = 30  # our reader takes no more
+MAX_DECIMALS = 129  # of a number that our reader takes: 30, moved by an exponent of 99
 _TIMES = {"start": "at start", "end": "at end", "all": "over all"}
 
 
 def decimal_text(value: Number) -> str:
-    """Return a number as PDDL text: exact up to 30 decimals, else rounded to twelve.
+    """Return a number as PDDL text: exact up to 129 decimals, else rounded to twelve.
+
+    What twelve decimals would round to zero has all of them.
 
     >>> from fractions import Fraction
     >>> decimal_text(Fraction(1, 2**20)), decimal_text(Fraction(1, 3))
     ('0.00000095367431640625', '0.333333333333')
     """
-    scaled = value * 10**MAX_DECIMALS
-    if isinstance(value, int) or value.denominator == 1 or scaled.denominator != 1:
-        return number_text(value)
-    whole, decimals = divmod(abs(int(scaled)), 10**MAX_DECIMALS)
-    sign = "-" if value < 0 else ""
-    return f"{sign}{whole}.{decimals:0{MAX_DECIMALS}}".rstrip("0")
+    is_exact = (value * 10**MAX_DECIMALS).denominator == 1
+    if is_exact or (value and abs(Fraction(value)) < Fraction(1, 10**12)):
+        return decimal_of(value, MAX_DECIMALS)
+    return number_text(value)
 
 
 def domain_text(domain: Domain, *, strip_costs: bool = False) -> str:

@@ -11,6 +11,7 @@ import shlex
 import shutil
 from collections.abc import Iterable, Iterator
 from pathlib import Path
+from stat import S_ISREG
 from tempfile import NamedTemporaryFile, TemporaryDirectory
 
 from hrcplan.core.numbers import Number
@@ -73,8 +74,7 @@ class CommandPlanner:
             (cwd / "problem.pddl").write_text(problem_text(problem))
             limits = ProcessLimits(request.time_left_s, request.memory_bytes)
             finished = run(list(self._argv(cwd, limits.time_s)), cwd=cwd, limits=limits)
-            files = sorted(cwd.glob("plan*"), key=lambda f: f.stat().st_mtime_ns)
-            texts = [finished.stdout, *(f.read_text(errors="replace") for f in files)]
+            texts = [finished.stdout, *_plan_files(cwd, limits.output_bytes)]
         plans = [plan for text in texts for plan in find_plans(text, problem)]
         return self._answer(problem, finished, plans)
 
@@ -115,6 +115,20 @@ class CommandPlanner:
 def _is_crash(code: int) -> bool:
     """Whether an exit code says that a program failed; shells add 128 to a signal's number."""
     return code in _CRASHED or code > _SIGNAL
+
+
+def _plan_files(folder: Path, most_bytes: int) -> list[str]:
+    """Return the plan files of a planner, oldest first; together no more than ``most_bytes``.
+
+    Folders, FIFOs, links and the like are left out; so is a file that does not fit any more.
+    """
+    found: list[tuple[int, str]] = []
+    for path in folder.glob("plan*"):
+        stat = path.lstat()
+        if S_ISREG(stat.st_mode) and stat.st_size <= most_bytes:
+            most_bytes -= stat.st_size
+            found.append((stat.st_mtime_ns, path.read_text(errors="replace")))
+    return [text for _, text in sorted(found, key=lambda item: item[0])]
 
 
 def _saved(output: str) -> str:

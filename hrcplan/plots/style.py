@@ -30,6 +30,7 @@ FILLS = ("#8CC8EC", "#F2C46D", "#7CCBB1", "#E6B3CF", "#F3EC8B", "#A9C1E8", "#EDA
 DPI = 150
 _Sharing = bool | Literal["none", "all", "row", "col"]
 _STYLE = {
+    "text.parse_math": False,  # names of files may hold dollars
     "svg.hashsalt": "hrcplan",
     "font.family": "DejaVu Sans",
     "font.size": 9,

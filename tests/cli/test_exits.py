@@ -12,6 +12,7 @@ import pytest
 from click.testing import CliRunner, Result
 
 from hrcplan.cli import main
+from hrcplan.cli.options import MOST_SECONDS, SECONDS
 
 ROOT = Path(__file__).parents[2]
 ENV = {**os.environ, "PYTHONPATH": str(ROOT)}
@@ -202,3 +203,33 @@ def test_python_m_does_not_import_from_the_current_folder(tmp_path: Path) -> Non
         (tmp_path / f"{name}.py").write_text("raise SystemExit(99)")
     done = shell("hrcplan check nosuch.pddl", tmp_path)
     assert done.returncode == 3, done.stderr
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["plan", "kitchen/pasta-bean", "--timeout", "nan"],
+        ["plan", "kitchen/pasta-bean", "--timeout", "-inf"],
+        ["execute", "transport/two-boxes", "--timeout", "nan"],
+        ["execute", "transport/two-boxes", "--speed", "inf"],
+        ["allocation", "transport/two-boxes", "motivation human", "--range", "nan", "3"],
+        ["allocation", "transport/two-boxes", "motivation human", "--range", "3", "inf"],
+        ["study", "run", "changed-mind", "--runs", "9" * 20, "-o", "none"],
+        ["study", "run", "changed-mind", "--jobs", "9" * 20, "-o", "none"],
+        ["validate", "transport/two-boxes", "none", "--epsilon", "nan"],
+    ],
+    ids=lambda words: f"{words[0]} {words[-2]} {words[-1][:4]}",
+)
+def test_a_limit_that_is_none_is_named(words: list[str], tmp_path: Path) -> None:
+    run = subprocess.run(
+        [sys.executable, "-m", "hrcplan", *words], capture_output=True, text=True, cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(ROOT)}, check=False, timeout=60,
+    )  # fmt: skip
+    assert run.returncode == 2
+    assert next(word for word in words if word.startswith("--")) in run.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("seconds", ["inf", "1e10"])
+def test_a_timeout_may_be_endless(seconds: str) -> None:
+    assert SECONDS.convert(seconds, None, None) == MOST_SECONDS

@@ -58,3 +58,33 @@ def test_ctrl_c_leaves_nothing_behind(tmp_path: Path, flags: list[str]) -> None:
         time.sleep(0.05)
     assert running(marker) == []
     assert list(tmp_path.iterdir()) == []
+
+
+def test_ctrl_c_while_the_command_line_is_imported(tmp_path: Path) -> None:
+    (tmp_path / "rich_click.py").write_text("raise KeyboardInterrupt\n")
+    run = subprocess.run(
+        [sys.executable, "-m", "hrcplan", "planners"], capture_output=True, text=True,
+        env={**os.environ, "PYTHONPATH": f"{tmp_path}:{ROOT}"}, check=False, timeout=20,
+    )  # fmt: skip
+    assert run.returncode == 130
+    assert run.stderr == "error: interrupted\n"
+
+
+def test_a_terminal_that_closes_leaves_no_temporary_folder(tmp_path: Path) -> None:
+    marker = f"marker-{os.getpid()}-{tmp_path.name}"
+    planner = (
+        f"cmd:{sys.executable} -c 'import time; time.sleep(60)' {marker} {{domain}} {{problem}}"
+    )
+    process = subprocess.Popen(
+        [sys.executable, "-m", "hrcplan", "plan", "kitchen/parfait-nut", "--planner", planner],
+        env={**os.environ, "PYTHONPATH": str(ROOT), "TMPDIR": str(tmp_path)},
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+    )  # fmt: skip
+    limit = time.monotonic() + 20
+    while not running(f"sleep(60) {marker}") and time.monotonic() < limit:
+        time.sleep(0.05)
+    assert any(tmp_path.iterdir())
+    process.send_signal(signal.SIGHUP)
+    process.communicate(timeout=20)
+    assert process.returncode == 129
+    assert list(tmp_path.iterdir()) == []

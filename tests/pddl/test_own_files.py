@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from hrcplan.bank.sources import read_goals
 from hrcplan.pddl.inputs import read
 from hrcplan.pddl.library import OwnFileWarning, find_domain, find_problem
 
@@ -42,3 +43,28 @@ def test_a_file_of_something_else_does_not_hide_a_shipped_one(
     Path("transport.pddl").write_text(PROBLEM.format(name="transport", domain="other"))
     Path("two-boxes.pddl").write_text(PROBLEM.format(name="two-boxes", domain="other"))
     assert read("transport/two-boxes").domain.name == "transport"
+
+
+@pytest.mark.parametrize("goals", [None, "firstaid"])
+def test_the_goals_of_an_own_domain(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, goals: str | None
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("problems/firstaid").mkdir(parents=True)
+    Path("firstaid.pddl").write_text(DOMAIN.format(name="firstaid"))
+    for name in ("x", "y"):
+        text = PROBLEM.format(name=name, domain="firstaid")
+        Path(f"problems/firstaid/{name}.pddl").write_text(text)
+    assert read_goals("firstaid", goals).names == ("x", "y")
+
+
+def test_own_goals_win_over_shipped_ones_with_a_warning(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    own = Path("problems/kitchen")
+    own.mkdir(parents=True)
+    assert len(read_goals("kitchen").names) > 1
+    (own / "mine.pddl").write_bytes(find_problem("kitchen", "pasta-bean").read_bytes())
+    with pytest.warns(OwnFileWarning, match=r"the folder ./problems/kitchen here"):
+        assert len(read_goals("kitchen").names) == 1

@@ -92,6 +92,18 @@ def test_lines_stay_readable() -> None:
     assert len(init.splitlines()) < len(problem.facts) + len(problem.values)
 
 
+@given(st.integers(-(10**30), 10**30), st.integers(-60, 99))
+def test_each_number_of_a_file_is_written_so_that_it_is_read_back(digits: int, shift: int) -> None:
+    word = f"{digits}e{-shift}"
+    value = to_number(word)
+    assert value is not None
+    assert to_number(decimal_text(value)) == value
+
+
+def test_a_small_number_without_an_end_is_not_zero() -> None:
+    assert 0 < Fraction(decimal_text(Fraction(1, 3 * 10**40))) < Fraction(1, 10**40)
+
+
 @given(st.fractions().filter(lambda f: 10**30 % f.denominator == 0) | st.integers())
 def test_numbers_whose_decimals_end_are_exact(value: Fraction) -> None:
     text = decimal_text(value)

@@ -164,3 +164,12 @@ def test_of_no_valid_plans_the_last(boxes: Problem) -> None:
     plans = list(find_plans(f"{WRONG}\n{WRONG.replace('wp1)', 'wp2)')}", boxes))
     assert len(plans) == 2
     assert best_of(boxes, plans) == plans[1]
+
+
+@pytest.mark.parametrize(
+    "trick", ["mkdir plan", "mkfifo plan", "truncate -s 100G plan", "ln -s /dev/zero plan"]
+)
+def test_a_plan_that_is_no_ordinary_file_is_left_out(trick: str, boxes: Problem) -> None:
+    with pytest.raises(PlannerError) as error:
+        solve(f"sh -c '{trick}' {{domain}} {{problem}} {{plan}}", boxes)
+    assert error.value.code == "plan-not-read"

@@ -6,6 +6,7 @@ import io
 import re
 import subprocess
 import sys
+from dataclasses import replace
 
 import matplotlib as mpl
 import pytest
@@ -119,3 +120,9 @@ def test_equal_plots_are_equal_bytes(problem: Problem, form: str) -> None:
 def test_colors_of_a_plot_differ() -> None:
     for colors in (style.LINES, style.FILLS):
         assert len(set(colors)) == len(colors) == 8
+
+
+def test_dollars_in_names_are_no_formulas() -> None:
+    names = ("$a^", "b$$")
+    picture = posterior.draw(replace(INFERENCE, goals=names), "svg")
+    assert all(name.encode() in picture for name in names)
