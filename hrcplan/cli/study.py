@@ -57,7 +57,8 @@ command.add_command(play.command)
     "--limit",
     type=click.IntRange(1),
     metavar="N",
-    help="Run only the first N episodes of the main table; they are spread evenly over cells.",
+    help="Run only the first N episodes of the main table, spread evenly over cells, and at most "
+    "as many of all other tables together.",
 )
 @click.option("--domain", metavar="DOMAIN", help="The domain; by default that of the paper.")
 @click.option(

@@ -42,7 +42,8 @@ def run_study(
         runs: Runs per cell; by default as many as the study says.
         seed: From which everything random is derived.
         jobs: Worker processes.
-        limit: Episodes of the study's first table, spread evenly over its cells.
+        limit: Episodes of the study's first table, spread evenly over its cells, and at most as
+            many of all its other tables together.
         options: The study's own options; None values stand for its defaults.
         progress: Called with the numbers of rows done and wanted.
         say: Called with what is going on, where that takes long.
@@ -62,6 +63,8 @@ def run_study(
     with Store.to_write(Path(folder), about, study.tables) as store:
         left = store.missing(study.tables, wanted)
         done = len(wanted) - len(left)
+        if progress is not None:
+            progress(done, len(wanted))
         if left:
             study.prepare(chosen, jobs, say)
         for results in _results(name, chosen, seed, left, jobs):
@@ -79,7 +82,7 @@ def _results(
     name: str, options: StudyOptions, seed: int, left: list[Episode], jobs: int
 ) -> Iterator[list[tuple[Episode, StudyRow]]]:
     """Yield rows in the order of the episodes, not in that of their ends."""
-    chunks = [left[i : i + _CHUNK] for i in range(0, len(left), _CHUNK)]
+    chunks = _chunks(left)
     if jobs == 1 or len(chunks) < 2:
         yield from (_rows(name, options, seed, chunk) for chunk in chunks)
         return
@@ -89,6 +92,16 @@ def _results(
                        initializer=_end_with, initargs=(os.getpid(),))  # fmt: skip
     with safe_path():
         yield from workers(delayed(_rows)(name, options, seed, chunk) for chunk in chunks)
+
+
+def _chunks(left: list[Episode]) -> list[list[Episode]]:
+    """Return episodes in chunks that grow, so that progress shows after the first episode."""
+    chunks, at = [], 0
+    while at < len(left):
+        size = min(_CHUNK, max(1, at))
+        chunks.append(left[at : at + size])
+        at += size
+    return chunks
 
 
 def _end_with(parent: int) -> None:

@@ -212,17 +212,23 @@ def episodes(
 ) -> Iterator[Episode]:
     """Yield the episodes of a study in their fixed order.
 
-    Those of the first table come run by run, each over all cells, and ``limit`` cuts them after
-    that many: a larger one extends a smaller one. The other tables come cell by cell; under a limit
-    they get as many runs as the first table completes, but at least one.
+    Those of the first table come run by run, each over all cells; those of the other tables follow,
+    also run by run. ``limit`` cuts the first table after that many, and all other tables together
+    after as many again; these get no more runs than the first table completes, but at least one. A
+    larger limit extends a smaller one.
     """
-    for table in study.tables:
-        cells = table.cells(options)
-        wanted = runs if table.at_most is None else min(runs, table.at_most)
-        if table is study.tables[0]:
-            episodes = (Episode(table.name, cell, run) for run in range(wanted) for cell in cells)
-            yield from islice(episodes, limit)
-            if limit is not None and cells:
-                runs = min(runs, max(1, limit // len(cells)))
-        else:
-            yield from (Episode(table.name, cell, run) for cell in cells for run in range(wanted))
+    first, *others = study.tables
+    cells = first.cells(options)
+    yield from islice(_by_run([first], options, runs), limit)
+    if limit is not None and cells:
+        runs = min(runs, max(1, limit // len(cells)))
+    yield from islice(_by_run(others, options, runs), limit)
+
+
+def _by_run(tables: Sequence[StudyTable], options: StudyOptions, runs: int) -> Iterator[Episode]:
+    """Yield the episodes of tables: the first run of every cell, then the second, and so on."""
+    cells = [(table, cell) for table in tables for cell in table.cells(options)]
+    for run in range(runs):
+        for table, cell in cells:
+            if table.at_most is None or run < table.at_most:
+                yield Episode(table.name, cell, run)

@@ -302,3 +302,25 @@ def test_a_failing_episode_is_named_and_the_rows_before_it_stay(
     document = report_study(tmp_path / "out", "breaking:STUDY")
     assert document["n_rows"] == 32
     assert document["rows"][0]["measures"]["x"] == {"mean": 1.0, "se": 0.0}
+
+
+@pytest.mark.parametrize("name", ["changed-mind", "failure-anticipation"])
+def test_a_limit_bounds_all_tables(name: str) -> None:
+    """Also sweeps and variants; a larger limit holds all that a smaller one does."""
+    study, smaller = find(name), set()
+    main = study.tables[0].name
+    for limit in (1, 8, 40, 300):
+        wanted = list(episodes(study, study.options, 1000, limit))
+        assert sum(one.table == main for one in wanted) == limit
+        assert sum(one.table != main for one in wanted) <= limit
+        assert len(set(wanted)) == len(wanted)
+        assert smaller <= set(wanted)
+        smaller = set(wanted)
+
+
+def test_progress_is_told_from_the_start(tmp_path: Path) -> None:
+    told: list[tuple[int, int]] = []
+    run(tmp_path, limit=3, progress=lambda done, wanted: told.append((done, wanted)))
+    assert told[0] == (0, told[-1][1])
+    assert told[1][0] == 1
+    assert told[-1][0] == told[-1][1]
