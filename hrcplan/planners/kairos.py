@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 # The ones that were best somewhere on the shipped problems; auto, lama and lama-novelty never were.
 TIMED_PRESETS = ("ehc", "novelty", "ff", "eager-lama", "goals")
 CLASSICAL_PRESETS = ("auto",)
+LAST_PRESET = "auto"  # it has engines that choose durations, where the searches above give up
 PATIENCE = 0.1
 """A search that finds nothing better for this part of its time is over."""
 
@@ -91,6 +92,7 @@ class _Portfolio:
     def solve(self, presets: tuple[str, ...] | None) -> Answer:
         problem = self._parse()
         temporal = self.request.problem.domain.is_temporal
+        last = LAST_PRESET if temporal and presets is None else None
         if presets is None:
             presets = TIMED_PRESETS if temporal else CLASSICAL_PRESETS
         for position, preset in enumerate(presets):
@@ -103,6 +105,9 @@ class _Portfolio:
             self._check(result)
             if self.proven or (self.best and self.request.any_plan):
                 break
+        else:
+            if last and self.best is None and self.request.time_left_s > 0:
+                self._check(self._search(problem, last, self.request.time_left_s))
         return self._answer()
 
     def _parse(self) -> kairos.Problem:

@@ -47,6 +47,24 @@ def test_the_portfolio_is_as_good_as_its_best_preset(name: str, motivation: int)
     assert metric(problem, answer) == min(single)
 
 
+def test_a_duration_that_decides_what_is_reached_is_chosen() -> None:
+    domain = """(define (domain press)
+      (:requirements :fluents :durative-actions :duration-inequalities)
+      (:predicates (shut)) (:functions (force) (most))
+      (:durative-action push :parameters ()
+        :duration (<= ?duration (- (most) (force)))
+        :condition (and) :effect (at end (increase (force) ?duration)))
+      (:action close :parameters () :precondition (> (force) 0) :effect (shut)))"""
+    problem = read(
+        domain,
+        """(define (problem p) (:domain press) (:init (= (force) 0) (= (most) 9))
+      (:goal (shut)) (:metric minimize (total-time)))""",
+    )
+    answer = solve(problem, any_plan=True)
+    assert answer.plan is not None
+    assert validate(problem, answer.plan).valid
+
+
 def test_its_own_figure_is_reported() -> None:
     problem = read("transport", "two-boxes").with_values({HUMAN: Fraction(17, 8)})
     answer = solve(problem)

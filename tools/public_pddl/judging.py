@@ -62,7 +62,8 @@ def changed(plan: Plan, kind: str, problem: Problem, rng: random.Random) -> Plan
             args = list(actions[at].args)
             if not args:
                 return None
-            args[rng.randrange(len(args))] = rng.choice(sorted(problem.objects))
+            names = {*problem.objects, *(arg for action in actions for arg in action.args)}
+            args[rng.randrange(len(args))] = rng.choice(sorted(names))
             actions[at] = replace(actions[at], args=tuple(args))
     return replace(plan, actions=tuple(actions)) if tuple(actions) != plan.actions else None
 
