@@ -68,6 +68,18 @@ command.add_command(play.command)
 )
 @click.option("--goals", metavar="GOALS", help="The goals. Only changed-mind.")
 @click.option(
+    "--quality",
+    metavar="Q",
+    help="Build banks of all sequences up to Q times optimal, as `bank build` does. Only "
+    "changed-mind.",
+)
+@click.option(
+    "--alternatives",
+    metavar="Q",
+    help="Build banks of plans up to Q times optimal in which each step is needed. Only "
+    "changed-mind.",
+)
+@click.option(
     "--method",
     "methods",
     multiple=True,

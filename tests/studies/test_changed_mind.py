@@ -331,3 +331,17 @@ def test_names_of_earlier_versions_still_work() -> None:
     rows = [{"human": "optimal", "method": name, "run": 0} for name in ("paper", "paper, in order")]
     current = study.present_rows(study.tables[0], rows)
     assert [row["method"] for row in current] == ["rhp", "rhp, in order"]
+
+
+def test_bank_options_are_passed_on(tmp_path: Path) -> None:
+    plain, more = (
+        scenario.bank_of(TASK["domain"], TASK["goals"], quality) for quality in ("", "6/5")
+    )
+    assert all(a.plans <= b.plans for a, b in zip(plain.graphs, more.graphs, strict=True))
+    assert more.recipe.quality > plain.recipe.quality
+    run(tmp_path / "more", runs=1, options={**QUICK, "quality": "1.2"})
+    assert report_study(tmp_path / "more")["about"]["options"]["quality"] == "1.2"
+    with pytest.raises(UsageError, match="no multiple"):
+        run(tmp_path / "bad", options={**QUICK, "quality": "much"})
+    with pytest.raises(UsageError, match="exclude"):
+        run(tmp_path / "bad", options={**QUICK, "quality": "2", "alternatives": "2"})

@@ -324,3 +324,19 @@ def test_progress_is_told_from_the_start(tmp_path: Path) -> None:
     assert told[0] == (0, told[-1][1])
     assert told[1][0] == 1
     assert told[-1][0] == told[-1][1]
+
+
+@pytest.mark.parametrize("share", [0.3, 0.6, 1.0])
+def test_a_folder_of_a_stopped_run_is_reported(tmp_path: Path, share: float) -> None:
+    """Whatever rows are missing: there are too few to tell, and nothing else goes wrong."""
+    run(tmp_path, limit=8)
+    with sqlite3.connect(tmp_path / "rows.sqlite") as stopped:
+        for table in find(NAME).tables:
+            stopped.execute(
+                f"delete from {table.name} where abs(random()) % 100 < {round(100 * share)}"
+                if share < 1
+                else f"delete from {table.name}"
+            )
+    found = report_study(tmp_path)
+    assert {claim["verdict"] for claim in found["claims"]} <= {"fails", "too-few"}
+    assert (tmp_path / "report.html").is_file()

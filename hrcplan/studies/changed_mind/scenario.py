@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Mapping
+from fractions import Fraction
 from functools import lru_cache
 from itertools import permutations
 from pathlib import Path
@@ -11,7 +12,8 @@ from typing import Any
 
 from hrcplan.assistance import ASSISTANTS, Assistant
 from hrcplan.assistance.assistant import needs_training
-from hrcplan.bank import Bank, Goals, build, read_goals
+from hrcplan.bank import Bank, BuildOptions, Goals, build, read_goals
+from hrcplan.bank.bank import OPTIMAL
 from hrcplan.core.text import nearest
 from hrcplan.episodes.episode import TurnWorld
 from hrcplan.episodes.humans import HUMANS, Course, EpisodeHuman
@@ -113,14 +115,17 @@ def goals_of(domain: str, goals: str) -> Goals:
 
 
 @lru_cache(maxsize=4)
-def bank_of(domain: str, goals: str) -> Bank:
-    """Return the bank of all optimal plans.
+def bank_of(domain: str, goals: str, quality: str = "", alternatives: str = "") -> Bank:
+    """Return the bank of all optimal plans, or of those up to a multiple of the optimum.
 
     Raises:
-        UsageError: if there are fewer than two goals, or one has no plan, or of human and robot one
-            is missing.
+        UsageError: if a multiple is no number, there are fewer than two goals, or one has no plan,
+            or of human and robot one is missing.
     """
-    bank = build(goals_of(domain, goals))
+    recipe = BuildOptions(
+        quality=_multiple(quality) or OPTIMAL, alternatives=_multiple(alternatives)
+    )
+    bank = build(goals_of(domain, goals), recipe)
     for kind, who in (("human", people(bank.goals.problem)), ("robot", robots(bank.goals.problem))):
         if bank.goals.problem.agents and not who:
             raise UsageError(f"there is no {kind} among the agents", code=f"no-{kind}")
@@ -133,9 +138,17 @@ def bank_of(domain: str, goals: str) -> Bank:
     return bank
 
 
-def task_of(options: StudyOptions, human: str) -> tuple[str, str]:
-    """Return domain and goals that a human is studied with."""
-    return options["domain"], human_data(human).get("goals", options["goals"])
+def _multiple(text: str) -> Fraction | None:
+    try:
+        return Fraction(text) if text else None
+    except (ValueError, ZeroDivisionError):
+        raise UsageError(f"'{text}' is no multiple, such as 1.2 or 6/5") from None
+
+
+def task_of(options: StudyOptions, human: str) -> tuple[str, str, str, str]:
+    """Return domain and goals that a human is studied with, and the multiples of its bank."""
+    goals = human_data(human).get("goals", options["goals"])
+    return options["domain"], goals, options["quality"], options["alternatives"]
 
 
 def human_data(name: str) -> Mapping[str, Any]:
@@ -152,16 +165,16 @@ def human(name: str, bank: Bank, course: Course, options: StudyOptions) -> Episo
 
 
 @lru_cache(maxsize=32)
-def robot(name: str, domain: str, goals: str) -> Assistant[Any]:
+def robot(name: str, domain: str, goals: str, *multiples: str) -> Assistant[Any]:
     """Return an assistant: one of the study's methods, or a part of that name."""
     changes = dict(data()["methods"].get(name, {}))
-    bank = bank_of(domain, goals)
+    bank = bank_of(domain, goals, *multiples)
     kind = ASSISTANTS.find(changes.pop("part", name))
     belief = str(changes.get("belief"))
     if belief in METHODS.built_in:
         changes["belief"] = METHODS.find(belief)(bank)
     elif belief in data()["methods"]:
-        changes["belief"] = robot(belief, domain, goals)
+        changes["belief"] = robot(belief, domain, goals, *multiples)
     return kind(bank, **changes)
 
 
@@ -188,9 +201,9 @@ def _learns(method: str) -> bool:
 
 
 @lru_cache(maxsize=4)
-def world(name: str, domain: str, goals: str) -> TurnWorld:
+def world(name: str, domain: str, goals: str, *multiples: str) -> TurnWorld:
     """Return the world of the episodes; each episode resets it."""
-    shared: TurnWorld = WORLDS.find(name)(bank_of(domain, goals))
+    shared: TurnWorld = WORLDS.find(name)(bank_of(domain, goals, *multiples))
     return shared
 
 
