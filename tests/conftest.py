@@ -125,5 +125,11 @@ def hall() -> Bank:
 
 
 @pytest.fixture(scope="session")
+def hall_in_sequence(hall: Bank) -> Bank:
+    """The same with plans that are sequences, as a bank has them that is not of team plans."""
+    return worlds.without_turns(hall)
+
+
+@pytest.fixture(scope="session")
 def walk() -> worlds.Walk:
     return worlds.random_walk

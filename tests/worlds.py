@@ -1,10 +1,12 @@
 """Small worlds with several goals, whose plans can be listed; fixtures of them are in conftest."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
 from hrcplan.bank import Bank, Goals, from_problems
+from hrcplan.bank.construct import optimal_graph
 from hrcplan.pddl.check import domain_in, problem_in
 from hrcplan.pddl.model import Problem
 from hrcplan.pddl.source import SourceText
@@ -66,6 +68,15 @@ def world(domain: str, problem: str, goals: dict[str, str]) -> Goals:
     model = domain_in(SourceText("domain", domain))
     texts = (problem.format(name=name, goal=goal) for name, goal in goals.items())
     return from_problems([problem_in(model, SourceText("problem", text)) for text in texts])
+
+
+def without_turns(bank: Bank) -> Bank:
+    """Return a bank of the shortest sequences of steps, instead of team plans."""
+    graphs = tuple(
+        optimal_graph(bank.table, tests, bank.initial, name=name)
+        for name, tests in zip(bank.names, bank.goals.tests, strict=True)
+    )
+    return replace(bank, graphs=graphs)
 
 
 def problem_from(domain: str, problem: str) -> Problem:

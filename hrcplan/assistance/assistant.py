@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Hashable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Generic, Protocol, TypeVar, runtime_checkable
 
 from hrcplan.assistance.explanation import (
@@ -29,6 +29,7 @@ from hrcplan.inference.belief import (
     HasProgress,
     S_contra,
     TracksProgress,
+    after_wait,
     n_declared,
 )
 
@@ -184,10 +185,19 @@ class BeliefAssistant(ValueAssistant[AssistantState[S]], Generic[S]):
         progress = self._progress_after(state.progress, belief, step)
         return AssistantState(belief, progress, state.last if robot else step, belief.ignored)
 
-    def _progress_after(self, progress: Progress, belief: BeliefState, step: int) -> Progress:
+    def observe_wait(self, state: AssistantState[S]) -> AssistantState[S]:
+        """Return the state after a wait of the agent whose turn it is, where agents take turns."""
+        belief: S = after_wait(self.belief, state.belief)
+        progress = self._progress_after(state.progress, belief, None)
+        return replace(state, belief=belief, progress=progress)
+
+    def _progress_after(
+        self, progress: Progress, belief: BeliefState, step: int | None
+    ) -> Progress:
         if self._shares_progress and isinstance(belief, HasProgress):
             return belief.progress
-        followed = self.tracker.follow(progress, step)
+        tracker = self.tracker
+        followed = tracker.wait(progress) if step is None else tracker.follow(progress, step)
         return progress if followed is None else followed[0]
 
     def posterior(self, state: AssistantState[S]) -> Floats:

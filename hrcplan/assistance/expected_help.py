@@ -12,7 +12,10 @@ import numpy as np
 
 from hrcplan.assistance.assistant import AssistantState, BeliefAssistant
 from hrcplan.assistance.explanation import StepChoice
+from hrcplan.assistance.step_values import DEAD_END
 from hrcplan.bank import Bank
+from hrcplan.bank.progress import Progress
+from hrcplan.bank.team_moves import TeamChoices
 from hrcplan.inference.belief import Belief
 from hrcplan.inference.switching import SwitchingBelief
 
@@ -72,6 +75,9 @@ class ExpectedHelp(BeliefAssistant[Any]):
         return float(saving / total)
 
     def _now(self, state: AssistantState[Any]) -> StepChoice:
+        choices = self.step_values.in_turn(state.progress)
+        if choices is not None:
+            return self._in_turn(choices, state)
         next_steps = self.step_values.next_steps(state.progress)
         steps = self.step_values.candidates(state.progress, next_steps)
         saved, needed = self.step_values.expected_saving(
@@ -79,3 +85,22 @@ class ExpectedHelp(BeliefAssistant[Any]):
         )
         worth = saved - self.waste_price * (1 - needed)
         return StepChoice(tuple(steps), tuple(worth.tolist()))
+
+    def _in_turn(self, choices: TeamChoices, state: AssistantState[Any]) -> StepChoice:
+        """Return what each step is expected to save a team that takes turns.
+
+        Where the humans wait and the robot would, too, only the likeliest goal that it can help
+        counts.
+        """
+        posterior, steps = self.posterior(state), tuple(choices.steps.tolist())
+        saved = np.nan_to_num(choices.saved.clip(-DEAD_END, DEAD_END))
+        worth = posterior @ saved - self.waste_price * (1 - posterior @ choices.is_next)
+        if steps and worth.max() <= 0 and self._humans_wait(state.progress):
+            # Of the goals that a step helps, which a goal that is reached already is not.
+            worth = saved[int(np.where(saved.max(axis=1) > 0, posterior, -1.0).argmax())]
+        return StepChoice(steps, tuple(worth.tolist()))
+
+    def _humans_wait(self, progress: Progress) -> bool:
+        """Return whether no human has acted in its last turn."""
+        moment = progress.moment
+        return moment is not None and moment.without_human >= len(self.bank.team) - 1

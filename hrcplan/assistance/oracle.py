@@ -55,6 +55,11 @@ class Oracle(BankAssistant[OracleState]):
             return replace(state, ignored=IMPOSSIBLE)
         return replace(state, progress=followed[0], ignored=None)
 
+    def observe_wait(self, state: OracleState) -> OracleState:
+        """Return the state after a wait of the agent whose turn it is, where agents take turns."""
+        followed = self.tracker.wait(state.progress)
+        return state if followed is None else replace(state, progress=followed[0])
+
     def posterior(self, state: OracleState) -> Floats:
         """Return certainty of the goal."""
         posterior = np.zeros(len(self.names))
@@ -63,6 +68,10 @@ class Oracle(BankAssistant[OracleState]):
 
     def choose(self, state: OracleState) -> int | None:
         """Return a step that the goal has next and the robot can do; None if there is none."""
+        choices = self.step_values.in_turn(state.progress)
+        if choices is not None:
+            steps = choices.next_steps(state.goal or 0)
+            return steps[_spread(state.world) % len(steps)] if steps else None
         following = self.step_values.next_steps(state.progress)
         useful = set(following.steps[following.goals == state.goal].tolist())
         steps = [s for s in self.step_values.candidates(state.progress, following) if s in useful]

@@ -9,6 +9,7 @@ import numpy as np
 
 from hrcplan.bank import PlanGraph
 from hrcplan.bank.progress import OffGraph, Progress, ProgressTracker
+from hrcplan.bank.team_moves import TeamChoices
 from hrcplan.bank.walk import shortest
 from hrcplan.core.arrays import Floats, Ids
 from hrcplan.core.deprecation import Renamed
@@ -55,6 +56,18 @@ class StepValues:
             more = list(graph.next(node)) if graph.n_nodes else []
             steps, goals = np.append(steps, more), np.append(goals, [goal] * len(more))
         return NextSteps(steps.astype(np.int64), goals.astype(np.int64, copy=False))
+
+    def in_turn(self, progress: Progress) -> TeamChoices | None:
+        """Return what the next robot in turn can do; None where agents do not take turns.
+
+        If it is not a robot's turn, the humans before it are taken to wait.
+        """
+        moves, moment = self.tracker.moves, progress.moment
+        if moves is None or moment is None or not any(moves.is_robot):
+            return None
+        while not moves.is_robot[moment.turn]:
+            moment = moves.after(moment, None)
+        return moves.choices(progress.world, moment)
 
     def candidates(self, progress: Progress, next_steps: NextSteps) -> list[int]:
         """Return the next steps that one of the agents can do, in order."""

@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 from hrcplan.bank.bank import Bank
 from hrcplan.bank.graph import PlanGraph
 from hrcplan.bank.search import group_rows
-from hrcplan.core.arrays import Ids, Words
+from hrcplan.bank.team import ANYBODY, step_owners
+from hrcplan.core.arrays import Bools, Ids, Words
 from hrcplan.search.packed_states import PackedRules
 
 
@@ -60,9 +61,19 @@ def _edge_fault(graph: PlanGraph, n_steps: int) -> str | None:
         return "a step does not raise the cost"
     if ((np.diff(graph.first) == 0) != graph.is_goal).any():
         return "a dead end, or a goal that goes on"
-    if len(np.union1d(graph.targets, [0])) != n:
+    is_target = np.zeros(n, dtype=np.bool_)
+    is_target[graph.targets] = is_target[0] = True
+    if not is_target.all() and (graph.team is None or not _are_waits(graph, is_target)):
         return "a node is out of reach"
     return None
+
+
+def _are_waits(graph: PlanGraph, is_target: Bools) -> bool:
+    """Return whether the nodes that are no targets have the state of a node one timestep before."""
+    states = graph.packing.states(graph.rows)
+    timesteps = [graph.layers[layer][0] for layer in graph.layer_of]
+    places = set(zip(states, timesteps, strict=True))
+    return all((states[n], timesteps[n] - 1) in places for n in np.flatnonzero(~is_target))
 
 
 def _meaning(bank: Bank, goal: int) -> str | None:
@@ -74,7 +85,22 @@ def _meaning(bank: Bank, goal: int) -> str | None:
     if (rules.meets(graph.rows, bank.goals.tests[goal]) != graph.is_goal).any():
         return f"'{name}': a goal node is no goal state, or the other way round"
     wrong = _wrong_edges(graph, rules, len(bank.table))
-    return f"'{name}': {wrong} edges are not what the steps do" if wrong else None
+    if wrong:
+        return f"'{name}': {wrong} edges are not what the steps do"
+    late = _wrong_turns(graph, bank)
+    return f"'{name}': {late} edges are not in the turns of their agents" if late else None
+
+
+def _wrong_turns(graph: PlanGraph, bank: Bank) -> int:
+    """Return how many edges do not lead to the timestep after their agent's next turn."""
+    if graph.team is None:
+        return 0
+    agents = graph.team.agents
+    owners = np.array(step_owners(bank.table, agents))[graph.steps]
+    times = np.array([int(cost) for cost, _ in graph.layers])[graph.layer_of]
+    sources = np.repeat(times, np.diff(graph.first))
+    n_waits = np.where(owners == ANYBODY, 0, (owners - graph.team.first - sources) % len(agents))
+    return int((times[graph.targets] != sources + n_waits + 1).sum())
 
 
 def _wrong_edges(graph: PlanGraph, rules: PackedRules, n_steps: int) -> int:

@@ -16,6 +16,7 @@ from hrcplan.bank.goals import Goals
 from hrcplan.bank.graph import PlanGraph
 from hrcplan.bank.search import MAX_MIB, BuildLimits
 from hrcplan.bank.sources import read_goals
+from hrcplan.bank.team import team_graph
 from hrcplan.core.text import plural
 from hrcplan.errors import UsageError
 from hrcplan.pddl.conventions import robots
@@ -69,7 +70,7 @@ class Bank:
     graphs: tuple[PlanGraph, ...]
     recipe: BuildOptions = BuildOptions()
     build_s: float = 0.0
-    _rerooted: dict[tuple[int, int], PlanGraph] = field(default_factory=dict)
+    _rerooted: dict[tuple[int, int, int | None], PlanGraph] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         nodes = sum(graph.n_nodes for graph in self.graphs)
@@ -103,42 +104,69 @@ class Bank:
             raise UsageError(f"the bank has no goal '{name}'", code="unknown-goal", hint=hint)
         return self.names.index(name)
 
-    def graph_from(self, goal: int, state: int, limits: BuildLimits = NO_LIMITS) -> PlanGraph:
+    @cached_property
+    def team(self) -> tuple[str, ...]:
+        """The agents in the order of their turns, if plans are team plans; else empty."""
+        team = self.graphs[0].team if self.graphs else None
+        return team.agents if team is not None else ()
+
+    def graph_from(
+        self, goal: int, state: int, limits: BuildLimits = NO_LIMITS, *, turn: int | None = None
+    ) -> PlanGraph:
         """Return the graph of all optimal plans of a goal from another state; the bank caches it.
+
+        Args:
+            goal: The goal.
+            state: The state.
+            limits: Time and memory.
+            turn: Whose turn it is there, as an index of ``team``; by default that of the first
+                agent.
 
         Raises:
             LimitError: if time or memory runs out.
         """
-        key = (goal, state & self.relevant_facts(goal))
+        turn = (turn or 0) if self.team else None
+        key = (goal, state & self.relevant_facts(goal), turn)
         known = self._rerooted.get(key)
         if known is None:
-            known = self._rerooted[key] = optimal_graph(
-                self.table, self.goals.tests[goal], state, name=self.names[goal], limits=limits
-            )
+            tests, name = self.goals.tests[goal], self.names[goal]
+            if turn is not None:
+                known = team_graph(self.table, tests, state, turn, name=name, limits=limits)
+            else:
+                known = optimal_graph(self.table, tests, state, name=name, limits=limits)
+            self._rerooted[key] = known
             while sum(graph.n_nodes + 1 for graph in self._rerooted.values()) > MAX_REROOTED:
                 self._rerooted.pop(next(iter(self._rerooted)))
         return known
 
     def locate(
-        self, goal: int, state: int, limits: BuildLimits = NO_LIMITS
+        self, goal: int, state: int, limits: BuildLimits = NO_LIMITS, *, turn: int | None = None
     ) -> tuple[PlanGraph, int | None]:
         """Return a graph of a goal and the node in it that a state is at, whatever led there.
 
         It is the goal's own graph where that holds the state, else one that begins at the state.
         The node is None if the goal can no longer be reached.
 
+        Args:
+            goal: The goal.
+            state: The state.
+            limits: Time and memory for a graph that begins at the state.
+            turn: Whose turn it is, as an index of ``team``; any turn by default.
+
         Raises:
             LimitError: if time or memory runs out.
         """
-        node = self.node(goal, state)
+        node = self.node(goal, state, turn)
         if node is not None:
             return self.graphs[goal], node
-        other = self.graph_from(goal, state, limits)
+        other = self.graph_from(goal, state, limits, turn=turn)
         return other, 0 if other.n_nodes else None
 
-    def node(self, goal: int, state: int) -> int | None:
+    def node(self, goal: int, state: int, turn: int | None = None) -> int | None:
         """Return the node of a goal's own graph that a state is at; None if it is off the graph."""
         graph = self.graphs[goal]
+        if self.team:
+            return graph.node_of(state, turn)
         node = graph.node_of(state)
         if node is None and self._overwritten[goal] and not self.goals.is_reached(goal, state):
             candidates = map(graph.node_of, _variants(state, self._overwritten[goal]))
@@ -311,4 +339,6 @@ def _graph(bank: Bank, goal: int, limits: BuildLimits) -> PlanGraph:
         return bounded_graph(
             bank.table, tests, bank.initial, recipe.quality, name=name, limits=limits
         )
-    return optimal_graph(bank.table, tests, bank.initial, name=name, limits=limits)
+    takes_turns = bank.agents == "kept" and bank.goals.problem.agents and recipe.cost == STEPS
+    build_graph = team_graph if takes_turns else optimal_graph
+    return build_graph(bank.table, tests, bank.initial, name=name, limits=limits)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from typing import Protocol
 
 import numpy as np
 
@@ -119,7 +120,15 @@ def empty_graph(name: str, packing: FactPacking) -> PlanGraph:
     return PlanGraph(name, packing, rows, (), first, none, none, np.zeros(0, dtype=np.bool_))
 
 
-def assemble(table: StepTable, explored: Explored, packing: FactPacking, name: str) -> PlanGraph:
+class HasUnits(Protocol):
+    """What knows the bank cost of an integer price, such as a step table."""
+
+    def in_units(self, price: int) -> Number:
+        """Return an integer price as bank cost."""
+        ...
+
+
+def assemble(table: HasUnits, explored: Explored, packing: FactPacking, name: str) -> PlanGraph:
     """Return what an exploration found, without the states that lead to no goal."""
     alive = explored.is_goal.copy()
     for sources, _, targets in reversed(explored.edges):
@@ -135,7 +144,7 @@ def assemble(table: StepTable, explored: Explored, packing: FactPacking, name: s
     sources, steps, targets = (np.concatenate([part[i] for part in parts]) for i in range(3))
     return PlanGraph(
         name, packing, explored.states[alive], _nonempty(layers, int(alive.sum())),
-        *_by_source(sources, steps, targets, int(alive.sum())), explored.is_goal[alive],
+        *by_source(sources, steps, targets, int(alive.sum())), explored.is_goal[alive],
     )  # fmt: skip
 
 
@@ -146,7 +155,7 @@ def _nonempty(
     return tuple(layer for layer, end in zip(layers, ends, strict=True) if layer[1] < end)
 
 
-def _by_source(
+def by_source(
     sources: Ids, steps: SmallIds, targets: Ids, n_nodes: int
 ) -> tuple[Ids, SmallIds, SmallIds]:
     """Return edges in order of their source and step, each once, and where a source's begin."""
@@ -177,8 +186,8 @@ def merge_equivalent_nodes(graph: PlanGraph, table: StepTable, goal: Tests) -> P
     layers = tuple((cost, int(first[i])) for i, (cost, _) in enumerate(graph.layers))
     return PlanGraph(
         graph.goal, packing, merged[:, 1:].copy(), layers,
-        *_by_source(sources, graph.steps, which[graph.targets], len(merged)),
-        graph.is_goal[order[starts]],
+        *by_source(sources, graph.steps, which[graph.targets], len(merged)),
+        graph.is_goal[order[starts]], team=graph.team,
     )  # fmt: skip
 
 

@@ -25,9 +25,20 @@ BIG = float(1 << 62)  # above it counts are Python integers, below it 64-bit one
 PathCounts = NDArray[Any]
 
 
+@dataclass(frozen=True, slots=True)
+class Team:
+    """Agents in the order of their turns, and the index of the one whose turn the root is."""
+
+    agents: tuple[str, ...]
+    first: int = 0
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class PlanGraph:
     """The valid plans of a goal, from one state on.
+
+    In a graph of team plans the cost is the number of timesteps, so a layer tells whose turn it is.
+    Edges are actions; the agents whose turns lie between two actions wait.
 
     Nodes stand in order of cost so far; the edges of node ``n`` are ``first[n]`` to
     ``first[n + 1]``, in order of their steps. Step ids are those of the bank.
@@ -42,6 +53,7 @@ class PlanGraph:
         targets: The node that each edge leads to.
         is_goal: Which nodes are goal states; nothing follows them.
         complete: False if the graph was made of some plans only (``--sample``).
+        team: Who takes turns; None if plans are sequences without turns.
     """
 
     goal: str
@@ -53,6 +65,7 @@ class PlanGraph:
     targets: SmallIds
     is_goal: Bools
     complete: bool = True
+    team: Team | None = None
 
     def __repr__(self) -> str:
         size = f"{plural(self.n_nodes, 'node')}, {plural(self.n_edges, 'edge')}"
@@ -89,9 +102,27 @@ class PlanGraph:
             node_of.setdefault(state, node)
         return node_of
 
-    def node_of(self, state: int) -> int | None:
-        """Return the cheapest node of a state of the task, or None if it is off the graph."""
-        return self._nodes.get(state & self.relevant_facts)
+    @cached_property
+    def _in_turn(self) -> dict[tuple[int, int], int]:
+        states = enumerate(self.packing.states(self.rows))
+        return {(state, self.turn_of(node)): node for node, state in states}
+
+    def node_of(self, state: int, turn: int | None = None) -> int | None:
+        """Return the cheapest node of a state of the task, or None if it is off the graph.
+
+        Args:
+            state: The state.
+            turn: Whose turn it is, as an index of the team's agents; None if that is not known.
+        """
+        state &= self.relevant_facts
+        return self._nodes.get(state) if turn is None else self._in_turn.get((state, turn))
+
+    def turn_of(self, node: int) -> int:
+        """Return whose turn it is in a node, as an index of the team's agents; 0 without turns."""
+        if self.team is None:
+            return 0
+        timesteps = int(self.layers[self.layer_of[node]][0])
+        return (self.team.first + timesteps) % len(self.team.agents)
 
     def state(self, node: int) -> int:
         """Return the facts of a node, as bits of the task."""

@@ -11,6 +11,7 @@ import numpy as np
 
 from hrcplan.bank import Bank, BuildLimits, PlanGraph
 from hrcplan.bank.combined_graph import ApplicableSteps, combined_graph_of
+from hrcplan.bank.team_moves import Moment, TeamMoves, team_moves
 from hrcplan.core.arrays import Floats, Ids
 from hrcplan.errors import LimitError
 from hrcplan.search.relevance import relevant
@@ -23,22 +24,28 @@ _NOWHERE: Mapping[int, OffGraph] = MappingProxyType({})
 class OffGraph:
     """A goal that has left its graph: where it stands on the graph from ``state`` on.
 
-    The graph is only made when the next step asks for it; None until then.
+    The graph is only made when the next step asks for it; None until then. ``turn`` is whose turn
+    it is, where agents take turns.
     """
 
     state: int
     graph: PlanGraph | None = None
     node: int = 0
+    turn: int | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Progress:
-    """The state of the world, where each goal stands, and which labels can be done, as bits."""
+    """The state of the world, where each goal stands, and which labels can be done, as bits.
+
+    ``moment`` says whose turn it is, where agents take turns.
+    """
 
     world: int
     nodes: Ids
     doable: int
     off: Mapping[int, OffGraph] = field(default_factory=lambda: _NOWHERE)
+    moment: Moment | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,12 +57,15 @@ class Evidence:
         log_shares: For each of these the logarithm of the share of its plans that go on so.
         n_next: For every goal, how many labels could come next in its plans.
         n_doable: How many labels some agent could do.
+        log_odds: For every goal the logarithm of the share of the step among the mistakes; None
+            if all mistakes are alike.
     """
 
     goals: Ids
     log_shares: Floats
     n_next: Ids
     n_doable: int
+    log_odds: Floats | None = None
 
 
 class ProgressTracker:
@@ -72,7 +82,10 @@ class ProgressTracker:
         self._known: dict[tuple[int, int], int] = {}
         self._matters: dict[int, int] = {}
         world = bank.initial
-        self.start = Progress(world, self.combined.roots, self._doable.of(world))
+        self.moves = team_moves(bank)
+        moment = None if self.moves is None else Moment()
+        doable = self._doable.of(world)
+        self.start = Progress(world, self.combined.roots, doable, moment=moment)
 
     def follow(self, progress: Progress, step: int) -> tuple[Progress, Evidence] | None:
         """Return the progress and the evidence after a step; None if no agent can do it.
@@ -84,6 +97,8 @@ class ProgressTracker:
         before, world = progress.world, self.bank.table.successor(progress.world, step)
         if world is None:
             return None
+        if self.moves is not None and progress.moment is not None:
+            return self._follow_turn(self.moves, progress, progress.moment, step)
         goals = combined.concerned(step, before ^ world)
         old = progress.nodes.take(goals)
         hit, places = combined.edges(old, step)
@@ -105,6 +120,52 @@ class ProgressTracker:
         off = self._jumps(progress, step, world, missed, nodes)
         doable = self._doable.after(progress.doable, before, world)
         return Progress(world, nodes, doable, off), seen
+
+    def is_robots_turn(self, progress: Progress) -> bool:
+        """Return whether it is the turn of a robot; False where agents do not take turns."""
+        if self.moves is None or progress.moment is None:
+            return False
+        return self.moves.is_robot[progress.moment.turn]
+
+    def wait(self, progress: Progress) -> tuple[Progress, Evidence] | None:
+        """Return where everything stands after a wait of the agent whose turn it is.
+
+        And what the wait says. None if agents do not take turns: then a wait says nothing.
+        """
+        if self.moves is None or progress.moment is None:
+            return None
+        return self._follow_turn(self.moves, progress, progress.moment, None)
+
+    def _follow_turn(
+        self, moves: TeamMoves, progress: Progress, moment: Moment, step: int | None
+    ) -> tuple[Progress, Evidence]:
+        world = progress.world
+        if step is not None:
+            moment = moves.turn_of(moment, step)
+        choices, after = moves.choices(world, moment), moves.after(moment, step)
+        place = choices.place(step)
+        n_next = np.maximum(1, choices.is_next.sum(axis=1)).astype(np.int64)
+        is_right = choices.waits if step is None else choices.is_next[:, place]
+        if place < 0:  # it changes nothing, so it is a mistake whatever the goal
+            is_right = np.zeros_like(choices.waits)
+        goals = np.flatnonzero(is_right)
+        seen = Evidence(goals, -np.log(n_next[goals]), n_next, len(choices.steps) + 1,
+                        choices.log_odds[:, place])  # fmt: skip
+        if step is not None:
+            world = self.bank.table.successor(world, step) or 0
+        return self._in_turn(progress, world, after), seen
+
+    def _in_turn(self, progress: Progress, world: int, moment: Moment) -> Progress:
+        """Return where everything stands in a state, in a turn."""
+        found = [self.bank.node(goal, world, moment.turn) for goal in range(len(self.bank.names))]
+        combined = self.combined
+        nodes = np.array(
+            [combined.off if node is None else int(offset) + node
+             for offset, node in zip(combined.offsets[:-1], found, strict=True)], dtype=np.int64,
+        )  # fmt: skip
+        off = {g: OffGraph(world, turn=moment.turn) for g, node in enumerate(found) if node is None}
+        doable = self._doable.after(progress.doable, progress.world, world)
+        return Progress(world, nodes, doable, off or _NOWHERE, moment)
 
     def _look_off(self, progress: Progress, step: int, seen: Evidence) -> Evidence:
         label, n_next = self.combined.label, seen.n_next
@@ -131,7 +192,8 @@ class ProgressTracker:
             self._matters[goal] = relevant(bank.table.ops, bank.goals.tests[goal])[1].facts
         state = place.state & self._matters[goal]
         try:
-            graph = self.bank.graph_from(goal, state, BuildLimits(REROOT_MIB))
+            limits = BuildLimits(REROOT_MIB)
+            graph = self.bank.graph_from(goal, state, limits, turn=place.turn)
         except LimitError:  # nothing is known about how this goal goes on
             from hrcplan.bank.construct import empty_graph
 

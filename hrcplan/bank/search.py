@@ -30,10 +30,14 @@ Edges = tuple[Ids, SmallIds, Ids]
 
 @dataclass(frozen=True, slots=True)
 class BuildLimits:
-    """What building may use: MiB of arrays, and the time (of ``time.monotonic``) to stop at."""
+    """What building may use: MiB of arrays, and the time (of ``time.monotonic``) to stop at.
+
+    ``hint`` says in errors what to lower.
+    """
 
     mib: int = MAX_MIB
     deadline: float = float("inf")
+    hint: str = "lower --quality or --alternatives, or build from enumerated plans with --sample N"
 
     def check(self, goal: str, n_bytes: int, n_nodes: int) -> None:
         """Hold a search to its limits.
@@ -41,14 +45,13 @@ class BuildLimits:
         Raises:
             LimitError: naming what to lower.
         """
-        hint = "lower --quality or --alternatives, or build from enumerated plans with --sample N"
         if n_bytes > self.mib << 20:
             so_far = f"{n_nodes} states so far"
             message = f"the plan graph of '{goal}' needs more than {self.mib} MiB ({so_far})"
-            raise LimitError(message, code="memory", hint=f"{hint}; or raise --memory")
+            raise LimitError(message, code="memory", hint=f"{self.hint}; or raise --memory")
         if time.monotonic() > self.deadline:
             message = f"no time left for the plan graph of '{goal}' ({n_nodes} states so far)"
-            raise LimitError(message, code="timeout", hint=f"{hint}; or raise --timeout")
+            raise LimitError(message, code="timeout", hint=f"{self.hint}; or raise --timeout")
 
 
 @dataclass(frozen=True)
@@ -107,7 +110,7 @@ class Explorer:
         self.one_way = len({op.step for op in rules.ops}) == len(rules.ops)
         self.pending: dict[int, _Pending] = {}
         self.queue: list[int] = []
-        self.seen = _Seen()
+        self.seen = SeenStates()
         self.next_bound: int | None = None
         self.n_bytes = self.n_waiting = 0
         self.kept: list[tuple[int, Words]] = []
@@ -186,7 +189,7 @@ class Explorer:
 
     def _changes(self, states: Words) -> Iterator[tuple[Ids, SmallIds, Words]]:
         """Yield what can follow; where a step can be done in several ways, the cheapest."""
-        if self.one_way:
+        if self.one_way or not len(states):
             yield from self.rules.expand(states)
             return
         parts = list(self.rules.expand(states))
@@ -243,7 +246,7 @@ class Bound:
         return np.asarray(self.costs.sum() - bits.astype(np.int64) @ self.costs)
 
 
-class _Seen:
+class SeenStates:
     """States met so far, as few tables of distinct sizes, each sorted by a hash."""
 
     def __init__(self) -> None:

@@ -13,6 +13,7 @@ import json
 import math
 import os
 from collections.abc import Mapping
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -22,8 +23,9 @@ import numpy as np
 from hrcplan.bank.audit import fault, structure_fault
 from hrcplan.bank.bank import Bank, BuildOptions
 from hrcplan.bank.goals import SourceFile
-from hrcplan.bank.graph import PlanGraph
+from hrcplan.bank.graph import PlanGraph, Team
 from hrcplan.bank.sources import goals_in
+from hrcplan.bank.team import turn_order
 from hrcplan.core.array_file import HEADER_FAULTS, Arrays, Format, array
 from hrcplan.core.files import read_bytes, write_atomically
 from hrcplan.core.json_values import JsonValue
@@ -35,7 +37,9 @@ from hrcplan.task.steps import COSTS, StepTable
 
 MAGIC = b"HRCPBANK"
 VERSION = 1
-_FORMAT = Format(MAGIC, VERSION, "bank", "policy bank", "make it with: hrcplan bank build")
+TEAM_VERSION = 2  # of banks of team plans, which earlier versions cannot read
+_FORMAT = Format(MAGIC, VERSION, "bank", "policy bank", "make it with: hrcplan bank build",
+                 also_reads=(TEAM_VERSION,))  # fmt: skip
 _ARRAYS = {"rows": "<u8", "first": "<i8", "steps": "<i4", "targets": "<i4", "is_goal": "|b1"}
 
 
@@ -59,7 +63,8 @@ def dumps(bank: Bank, folder: Path = Path()) -> bytes:
         "goals": graphs,
         "names": list(bank.names),
     }
-    return _FORMAT.encode(header, arrays)
+    file_format = replace(_FORMAT, version=TEAM_VERSION) if bank.team else _FORMAT
+    return file_format.encode(header, arrays)
 
 
 def digest(bank: Bank) -> str:
@@ -76,6 +81,8 @@ def digest(bank: Bank) -> str:
         layers = [[str(cost), first] for cost, first in graph.layers]
         shapes = [one.shape for one in arrays]
         sha.update(json.dumps([graph.packing.positions, layers, shapes]).encode())
+        if graph.team is not None:
+            sha.update(json.dumps(graph.team.agents).encode())
         for one in arrays:
             sha.update(one.data)
     return sha.hexdigest()
@@ -126,6 +133,9 @@ def _structure_fault(bank: Bank) -> str | None:
     names = tuple(graph.goal for graph in bank.graphs)
     if names != bank.names:
         return f"its graphs are of {', '.join(map(str, names)) or 'no goal'}"
+    teams = {graph.team for graph in bank.graphs}
+    if not teams <= {None} and teams != {Team(turn_order(bank.goals.problem))}:
+        return "its agents do not take turns as their problem says"
     n_steps, n_facts = len(bank.table), len(bank.goals.task.facts)
     faults = ((g.goal, structure_fault(g, n_steps, n_facts)) for g in bank.graphs)
     return next((f"'{name}': {fault}" for name, fault in faults if fault), None)
@@ -206,7 +216,9 @@ def _recipe(entry: Mapping[str, Any]) -> BuildOptions:
 
 
 def _graph_entry(graph: PlanGraph, arrays: Arrays) -> dict[str, Any]:
+    team = {} if graph.team is None else {"team": list(graph.team.agents)}
     return {
+        **team,
         "name": graph.goal,
         "plans": int_text(graph.plans),
         "complete": graph.complete,
@@ -221,8 +233,17 @@ def _graph(entry: Mapping[str, Any], body: memoryview) -> PlanGraph:
     return PlanGraph(
         goal=entry["name"], packing=FactPacking(tuple(map(_whole, entry["positions"]))),
         layers=tuple((exact(_fraction(cost)), _whole(first)) for cost, first in entry["layers"]),
-        complete=bool(entry["complete"]), **arrays,
+        complete=bool(entry["complete"]), team=_team(entry), **arrays,
     )  # fmt: skip
+
+
+def _team(entry: Mapping[str, Any]) -> Team | None:
+    if "team" not in entry:
+        return None
+    agents = tuple(map(str, entry["team"]))
+    if not agents:
+        raise ValueError("a team has agents")
+    return Team(agents)
 
 
 def _whole(value: JsonValue) -> int:

@@ -96,6 +96,8 @@ def mapped(path: Path) -> memoryview:
 class Format:
     """A file format; ``noun``, ``title`` and ``hint`` say in errors what it is and how to get one.
 
+    Files of ``version`` are written; those of ``also_reads`` can be read, too.
+
     >>> toys = Format(b"TOYSTOYS", 1, "toy", "box of toys", "buy one")
     >>> toys.decode(toys.encode({"n": 2}, Arrays()), "a file")[0]
     {'n': 2}
@@ -110,6 +112,7 @@ class Format:
     noun: str
     title: str
     hint: str
+    also_reads: tuple[int, ...] = ()
 
     def encode(self, header: Mapping[str, Any], arrays: Arrays) -> bytes:
         """Return header and arrays as the bytes of a file."""
@@ -138,8 +141,10 @@ class Format:
         if len(view) < begin:
             raise self._refusal(shown, f"{self.noun}-truncated", f"is cut short: {len(view)} bytes")
         _, version, _, n_head, n_body = _PREFIX.unpack_from(view)
-        if version != self.version:
-            message = f"is a {self.noun} of format {version}; this hrcplan reads {self.version}"
+        readable = sorted({self.version, *self.also_reads})
+        if version not in readable:
+            reads = " and ".join(map(str, readable))
+            message = f"is a {self.noun} of format {version}; this hrcplan reads {reads}"
             raise self._refusal(shown, f"{self.noun}-version", message)
         if len(view) != begin + n_head + n_body:
             message = f"has {len(view)} bytes instead of {begin + n_head + n_body}"

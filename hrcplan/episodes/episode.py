@@ -14,10 +14,11 @@ import numpy as np
 
 from hrcplan.assistance.assistant import Assistant, inform
 from hrcplan.bank import Bank, StepTable
+from hrcplan.bank.team_moves import Moment, TeamMoves, team_moves
 from hrcplan.core.arrays import Floats
-from hrcplan.episodes.humans import Course, EpisodeHuman
+from hrcplan.episodes.humans import Course, EpisodeHuman, HumanMove, TakesTurns
 from hrcplan.errors import UsageError
-from hrcplan.inference.belief import S, n_declared
+from hrcplan.inference.belief import S, after_wait, n_declared
 from hrcplan.pddl.conventions import robots
 
 PATIENCE = 4  # an episode ends after that many times the steps that its goals need
@@ -130,7 +131,11 @@ def play(
         UsageError: if the human or the robot chooses an index that is no step, or a step that it
             cannot do, or the robot's posterior has no probability for each goal.
     """
-    return _Play(bank, human, robot, course, world or SimulatedTurns(bank), watch).run()
+    moves = team_moves(bank)
+    world = world or SimulatedTurns(bank)
+    if moves is None:
+        return _Play(bank, human, robot, course, world, watch).run()
+    return _TeamPlay(bank, human, robot, course, world, watch, moves).run()
 
 
 class _Play(Generic[S]):
@@ -186,13 +191,21 @@ class _Play(Generic[S]):
         is_last = turn >= max(self.course.turns, default=0)
         return is_last and self.bank.goals.is_reached(wanted, self.state)
 
+    def _move(self, turn: int) -> HumanMove:
+        return self.human.move(turn, self.state, self.last)
+
+    def _observe_wait(self) -> None:
+        """A wait says nothing where it is not known whose turn it is."""
+
     def _human(self, turn: int) -> None:
         goal = self.course.goal(turn)
-        move = self.human.move(turn, self.state, self.last)
+        move = self._move(turn)
         needed = self._do(move.step, goal, self.people)
         if move.step is not None:
             self.last = move.step
             self.belief = self.robot.observe(self.belief, move.step)
+        else:
+            self._observe_wait()
         self.belief = inform(self.robot, self.belief, goal)
         if move.step is None:
             self._note(EpisodeTurn(len(self.turns), True, None, goal, False))
@@ -207,13 +220,18 @@ class _Play(Generic[S]):
             )
         )  # fmt: skip
 
+    def _choice(self) -> int | None:
+        return self.robot.choose(self.belief)
+
     def _robot(self, goal: int) -> None:
         began = time.perf_counter()
-        step = self.robot.choose(self.belief)
+        step = self._choice()
         self.decisions_ms.append((time.perf_counter() - began) * 1e3)
         needed = self._do(step, goal, self.robots)
         if step is not None:
             self.belief = self.robot.observe(self.belief, step, robot=True)
+        else:
+            self._observe_wait()
         self._note(EpisodeTurn(len(self.turns), False, step, goal, needed))
 
     def _do(self, step: int | None, goal: int, agents: frozenset[str]) -> bool:
@@ -230,6 +248,84 @@ class _Play(Generic[S]):
         self.turns.append(turn)
         if self.watch is not None:
             self.watch(turn, self.belief)
+
+
+ROUNDS = 3  # of nothing but waits, after which a team is stuck
+
+
+class _TeamPlay(_Play[S]):
+    """The same with any number of humans and robots, in the order of the team's turns.
+
+    All humans have the same goals and are moved by one ``human``; ``robot`` moves all robots.
+    """
+
+    def __init__(
+        self, bank: Bank, human: EpisodeHuman, robot: Assistant[S], course: Course,
+        world: TurnWorld, watch: EpisodeWatch[S] | None, moves: TeamMoves,
+    ) -> None:  # fmt: skip
+        super().__init__(bank, human, robot, course, world, watch)
+        self.moves, self.moment = moves, Moment()
+        self.all_robots, self.lasts = self.robots, dict[str, int | None]()
+
+    def run(self) -> EpisodeRecord:
+        """Return the record."""
+        costs = [self.bank.graphs[goal].optimal_cost or 0 for goal in self.course.goals]
+        most = PATIENCE * int(sum(costs)) + len(self.moves.is_robot)
+        turn, ending = 0, self._ending(0, most)
+        while ending is None:
+            ending = self._round(turn)
+            turn += 1
+            ending = ending or self._ending(turn, most)
+        return EpisodeRecord(self.course, tuple(self.turns), ending, tuple(self.decisions_ms))
+
+    def _round(self, turn: int) -> str | None:
+        for agent, is_robot in zip(self.bank.team, self.moves.is_robot, strict=True):
+            self.robots = self.people = frozenset({agent})
+            self.last = self.lasts.get(agent)
+            if is_robot:
+                self._robot(self.course.goal(turn))
+            else:
+                self._human(turn)
+                self.lasts[agent] = self.last
+            if self._is_done(turn):
+                return REACHED
+        return None
+
+    def _ending(self, turn: int, most: int) -> str | None:
+        if self._is_done(turn):
+            return REACHED
+        is_last = turn > max(self.course.turns, default=0)
+        if is_last and self.n_waits >= ROUNDS * len(self.bank.team):
+            return STUCK
+        return UNFINISHED if len(self.turns) >= most else None
+
+    def _move(self, turn: int) -> HumanMove:
+        if isinstance(self.human, TakesTurns):
+            return self.human.move_in_turn(turn, self.state, self.last, self.moment)
+        return self.human.move(turn, self.state, self.last)
+
+    def _choice(self) -> int | None:
+        """Return the step of the robot whose turn it is; None if another robot has to do it."""
+        step = super()._choice()
+        if not isinstance(step, int | np.integer) or not 0 <= step < len(self.bank.table):
+            return step
+        is_others = self.bank.table.doer(self.state, int(step), self.all_robots - self.robots)
+        can = self.bank.table.doer(self.state, int(step), self.robots)
+        return None if can is None and is_others is not None else step
+
+    def _observe_wait(self) -> None:
+        self.belief = after_wait(self.robot, self.belief)
+
+    def _do(self, step: int | None, goal: int, agents: frozenset[str]) -> bool:
+        """Do a step in the world; return whether it loses the team no time."""
+        self.n_waits = self.n_waits + 1 if step is None else 0
+        needed = False
+        if step is not None:
+            action = _action(self.bank.table, self.state, step, agents)
+            needed = step in self.moves.choices(self.state, self.moment).next_steps(goal)
+            self.state = self.world.do(self.state, action)
+        self.moment = self.moves.after(self.moment, step)
+        return needed
 
 
 def _action(table: StepTable, state: int, step: SupportsIndex, agents: frozenset[str]) -> int:

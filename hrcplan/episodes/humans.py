@@ -14,6 +14,7 @@ from typing import Protocol, runtime_checkable
 
 from hrcplan.bank import Bank, PlanGraph
 from hrcplan.bank.htn import Htn, decompose
+from hrcplan.bank.team_moves import Moment, team_moves
 from hrcplan.bank.walk import shortest
 from hrcplan.core.registry import Registry
 from hrcplan.pddl.conventions import people
@@ -62,6 +63,15 @@ class EpisodeHuman(Protocol):
         ...
 
 
+@runtime_checkable
+class TakesTurns(Protocol):
+    """A human, or several with the same goals, who take turns in a team."""
+
+    def move_in_turn(self, turn: int, world: int, last: int | None, moment: Moment) -> HumanMove:
+        """Return what the human does whose turn it is; see ``EpisodeHuman.move``."""
+        ...
+
+
 Draw = Callable[[], float]
 """The next random number of a turn, in [0, 1)."""
 
@@ -69,17 +79,58 @@ Draw = Callable[[], float]
 class Frontier:
     """A human who takes any step that a valid plan of its goal has next, all alike.
 
+    In a team it takes any step that loses the team no time. If only waiting loses none, it waits;
+    but if no robot has acted since its last turn, it does the best step without the robots.
+
     Args:
         bank: The plans.
         course: What is wanted and when.
+
+    Attributes:
+        needs_graph: Whether ``choose`` looks at the plans of the goal.
     """
+
+    needs_graph = False
 
     def __init__(self, bank: Bank, course: Course) -> None:
         self.bank, self.course = bank, course
         self._doers = people(bank.goals.problem)
+        self._moves = team_moves(bank)
+
+    def move_in_turn(self, turn: int, world: int, last: int | None, moment: Moment) -> HumanMove:
+        """Return what the human does whose turn it is."""
+        if self._moves is None:
+            return self.move(turn, world, last)
+        course, place = self.course, f"/{moment.turn}" if moment.turn else ""
+        draws = iter(_draws(course.seed + place, turn))
+        if next(draws) < course.wait_rate:
+            return HumanMove(None)
+        goal, errs = course.goal(turn), next(draws) < course.mistake_rate
+        choices = self._moves.choices(world, moment)
+        steps = choices.next_steps(goal)
+        needed = self.bank.graphs[goal].used_steps.union(steps)
+        wrong = [step for step in choices.steps.tolist() if step not in needed] if errs else []
+        if wrong:
+            return HumanMove(wrong[int(next(draws) * len(wrong))], is_mistake=True)
+        if not steps:
+            return HumanMove(None)
+        return HumanMove(self._chosen(goal, world, moment, steps, last, draws.__next__))
+
+    def _chosen(
+        self, goal: int, world: int, moment: Moment, steps: Sequence[int], last: int | None,
+        draw: Draw,
+    ) -> int:  # fmt: skip
+        """Return one of the next steps; all alike if they are not in the plans of the goal."""
+        if self.needs_graph:
+            graph, node = self.bank.locate(goal, world, turn=moment.turn)
+            if node is not None and graph.next(node).keys() >= set(steps):
+                return self.choose(graph, node, steps, last, draw)
+        return steps[int(draw() * len(steps))]
 
     def move(self, turn: int, world: int, last: int | None) -> HumanMove:
         """Return what the human does in a turn, in a state, after its own last step."""
+        if self._moves is not None:
+            return self.move_in_turn(turn, world, last, Moment())
         course, draws = self.course, iter(_draws(self.course.seed, turn))
         if next(draws) < course.wait_rate:
             return HumanMove(None)
@@ -118,6 +169,8 @@ class Frontier:
 class ByPlans(Frontier):
     """A human who follows any valid plan, all plans alike: steps with more plans are likelier."""
 
+    needs_graph = True
+
     def choose(
         self, graph: PlanGraph, node: int, steps: Sequence[int], last: int | None, draw: Draw
     ) -> int:
@@ -137,6 +190,8 @@ class CliqueChain(Frontier):
     The model of the changed-mind paper (IV-B). The network is derived from the plans of the goal,
     and orders some steps that plans leave open; steps of the robot may deviate from this order.
     """
+
+    needs_graph = True
 
     def choose(
         self, graph: PlanGraph, node: int, steps: Sequence[int], last: int | None, draw: Draw
@@ -168,6 +223,12 @@ class Scripted(Frontier):
         """Return the next step of the script that can be done, else what follows in a plan."""
         able = self._able(world, self.steps)
         return HumanMove(able[0]) if able else super().move(turn, world, last)
+
+    def move_in_turn(self, turn: int, world: int, last: int | None, moment: Moment) -> HumanMove:
+        """Return the next step of the script that can be done, else what follows in a plan."""
+        doer = frozenset(self.bank.team[moment.turn : moment.turn + 1])
+        able = list(self.bank.table.able(world, self.steps, doer))
+        return HumanMove(able[0]) if able else super().move_in_turn(turn, world, last, moment)
 
 
 @lru_cache(maxsize=MAX_NETWORKS)

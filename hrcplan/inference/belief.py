@@ -66,6 +66,20 @@ class Belief(Protocol[S]):
         ...
 
 
+@runtime_checkable
+class ObservesWaits(Protocol[S]):
+    """A belief to which a wait says something, where agents take turns."""
+
+    def observe_wait(self, state: S) -> S:
+        """Return the belief after a wait of the agent whose turn it is."""
+        ...
+
+
+def after_wait(belief: Belief[S], state: S) -> S:
+    """Return a belief after a wait; as it was if waits say nothing to it."""
+    return belief.observe_wait(state) if isinstance(belief, ObservesWaits) else state
+
+
 @dataclass(frozen=True, slots=True)
 class GoalChange:
     """A change of goal just before observation ``at`` (0-based), and how probable it is.

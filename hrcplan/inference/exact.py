@@ -13,6 +13,7 @@ from hrcplan.core.arrays import Floats
 from hrcplan.inference.probabilities import normalized
 
 MISTAKE_RATE = 0.01
+IMPROBABLE = -50.0  # the least logarithm of the share of a mistake
 UNEXPLAINED = "no goal explains this step"
 IMPOSSIBLE = "no agent can do this step here"
 
@@ -36,7 +37,9 @@ class ExactBelief:
 
     A step that a share s of a goal's remaining plans begins with has likelihood (1 - p) s. A
     mistake has likelihood p, divided by the number of applicable steps that the goal does not need.
-    A step that no goal explains leaves the posterior as it is; a step that changes nothing is one.
+    Where agents take turns, all next steps of a goal are alike, and so are mistakes that lose the
+    team as much time. A step that no goal explains leaves the posterior as it is; a step that changes
+    nothing is one.
 
     >>> from hrcplan.bank import build_bank
     >>> belief = ExactBelief(build_bank("kitchen", only=["pasta-bean", "pasta-tomato"]))
@@ -79,9 +82,22 @@ class ExactBelief:
             return ExactState(moved, state.scores, UNEXPLAINED)
         return ExactState(moved, state.scores + self.log_likelihood(seen))
 
+    def observe_wait(self, state: ExactState) -> ExactState:
+        """Return the belief after a wait of the agent whose turn it is, where agents take turns."""
+        followed = self.tracker.wait(state.progress)
+        if followed is None:
+            return state
+        moved, seen = followed
+        if self.tracker.is_robots_turn(state.progress) or not len(seen.goals):
+            return ExactState(moved, state.scores)
+        return ExactState(moved, state.scores + self.log_likelihood(seen))
+
     def log_likelihood(self, seen: Evidence) -> Floats:
         """Return the log likelihood of a step under each goal."""
-        log_likelihood = self._mistakes.take(seen.n_doable - seen.n_next)
+        if seen.log_odds is None:
+            log_likelihood = self._mistakes.take(seen.n_doable - seen.n_next)
+        else:
+            log_likelihood = self._wrong + np.maximum(seen.log_odds, IMPROBABLE)
         log_likelihood[seen.goals] = self._right + seen.log_shares
         return log_likelihood
 

@@ -23,6 +23,7 @@ from hrcplan.inference.changes import (
 from hrcplan.inference.probabilities import weights_to_posterior
 
 MISTAKE_RATES = (0.002, 0.1)
+IMPROBABLE = 1e-12  # the least share of a step among the mistakes
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,7 +53,8 @@ class SwitchingBelief:
     """The posterior of the present goal.
 
     A step of the goal has likelihood (1 - p) over the number of steps that could come next in its
-    plans; a mistake p over the number of steps that could be done and would not.
+    plans; a mistake p over the number of steps that could be done and would not. Where agents take
+    turns, a mistake is the less likely the more time it loses the team, and a wait is evidence.
 
     Args:
         bank: The plans.
@@ -96,9 +98,24 @@ class SwitchingBelief:
         filtered = self.filter.step(state.filtered, self.likelihood(seen))
         return SwitchingState(moved, filtered, is_human=True)
 
+    def observe_wait(self, state: SwitchingState) -> SwitchingState:
+        """Return the belief after a wait of the agent whose turn it is, where agents take turns."""
+        followed = self.tracker.wait(state.progress)
+        if followed is None:
+            return state
+        moved, seen = followed
+        if self.tracker.is_robots_turn(state.progress):
+            return SwitchingState(moved, state.filtered)
+        filtered = self.filter.step(state.filtered, self.likelihood(seen))
+        return SwitchingState(moved, filtered, is_human=True)
+
     def likelihood(self, seen: Evidence) -> Floats:
         """Return the likelihood of a step, by mistake rate and goal."""
-        likelihood: Floats = self.rates / np.maximum(1, seen.n_doable - seen.n_next)
+        likelihood: Floats = (
+            self.rates / np.maximum(1, seen.n_doable - seen.n_next)
+            if seen.log_odds is None
+            else self.rates * np.maximum(np.exp(seen.log_odds), IMPROBABLE)
+        )
         likelihood[:, seen.goals] = (1 - self.rates) / seen.n_next[seen.goals]
         return likelihood
 

@@ -101,6 +101,8 @@ def expected(brute, recipe):
 def test_graphs_hold_exactly_the_plans_of_every_sequence(recipe, world, read_world, brute, words):
     goals = read_world(*world)
     bank = build(goals, recipe)
+    if bank.team:  # test_team.py
+        return
     graph, slow = bank.graphs[0], brute(bank)
     if recipe.alternatives is None and graph.plans > MAX_PLANS:
         return
@@ -148,7 +150,7 @@ def test_landmarks_only_save_work(world, read_world):
 
 
 @settings(max_examples=40)
-@given(world=worlds(), data=st.data())
+@given(world=worlds(agents=("", "fixed")), data=st.data())
 def test_a_graph_from_another_state_goes_on_from_there(world, data, read_world, brute, words):
     bank = build(read_world(*world))
     state = bank.initial

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from hrcplan.bank import build
+from hrcplan.bank.team_moves import Moment, TeamMoves
 from hrcplan.inference import batch
 from hrcplan.inference.changes import ChangeFilter
 from hrcplan.inference.classifier.forest import ForestBelief
@@ -49,6 +50,12 @@ def bank(request):
     return request.getfixturevalue(request.param)
 
 
+@pytest.fixture(params=["workshop", "hall_in_sequence"])
+def listed(request):
+    """Banks whose plans are listed as sequences."""
+    return request.getfixturevalue(request.param)
+
+
 def test_beliefs_about_a_bank_share_its_graphs_as_long_as_there_is_one(workshop):
     bank = build(workshop.goals.only(["rope-red", "wire-red"]))
     first, second = ExactBelief(bank), RecursiveBelief(bank)
@@ -85,14 +92,62 @@ def test_every_belief_keeps_the_laws(bank, walk, make):
     check_belief(belief, sequences[:6] if isinstance(belief, CostBelief) else sequences)
 
 
-def test_exact_equals_bayes_over_listed_plans(bank, walk):
+def test_exact_equals_bayes_over_listed_plans(listed, walk):
     """Also after mistakes, steps that no goal explains, and on graphs from other states."""
-    belief = ExactBelief(bank, mistake_rate=0.05)
-    for steps in runs(bank, walk):
+    belief = ExactBelief(listed, mistake_rate=0.05)
+    for steps in runs(listed, walk):
         for length, row in enumerate(batch(belief, steps)):
             assert row.tolist() == pytest.approx(
-                enumerated_beliefs.exact(bank, steps[:length], 0.05), abs=1e-8
+                enumerated_beliefs.exact(listed, steps[:length], 0.05), abs=1e-8
             )
+
+
+def test_a_team_has_few_next_steps_and_mistakes_that_cost_time(hall):
+    """All that loses the team no time is alike; the more time is lost, the odder a step is."""
+    moves = TeamMoves(hall)
+    step = hall.table.find(["go", "ann", "b", "a"])
+    choices = moves.choices(hall.initial, Moment())
+    n_right = choices.is_next.sum(axis=1)
+    right = choices.is_next[:, choices.place(step)]
+    assert 0 < right.sum() < len(hall.names)
+    lost = -choices.saved[:, choices.place(step)]  # compared with waiting
+    chances = []
+    for goal in range(len(hall.names)):
+        if right[goal]:
+            chances.append(0.95 / n_right[goal])
+            continue
+        # Waiting is next where nothing else is; what costs t more timesteps is odder by e^(-t/2).
+        assert choices.waits[goal] == (not n_right[goal])
+        others = [i for i in range(len(choices.steps)) if not choices.is_next[goal, i]]
+        weights = [math.exp(0.5 * choices.saved[goal, i]) for i in others]
+        weights += [] if choices.waits[goal] else [1.0]
+        chances.append(0.05 * math.exp(-0.5 * lost[goal]) / sum(weights))
+    belief = ExactBelief(hall, mistake_rate=0.05)
+    found = belief.posterior(belief.observe(belief.start(), step))
+    assert found.tolist() == pytest.approx((np.array(chances) / sum(chances)).tolist())
+    switching = SwitchingBelief(hall, mistake_rates=[0.05])
+    found = switching.posterior(switching.observe(switching.start(), step))
+    assert found.tolist() == pytest.approx((np.array(chances) / sum(chances)).tolist())
+
+
+def test_a_wait_speaks_for_goals_for_which_only_waiting_loses_nothing(hall):
+    waits = TeamMoves(hall).choices(hall.initial, Moment()).waits
+    assert 0 < waits.sum() < len(waits)
+    for belief in (ExactBelief(hall), SwitchingBelief(hall)):
+        start = belief.start()
+        after = belief.observe_wait(start)
+        posterior = belief.posterior(after)
+        assert posterior[waits].min() > 10 * posterior[~waits].max()
+        assert after.progress.moment.turn == 1
+        # The robot's own wait is no evidence.
+        later = belief.observe_wait(after)
+        assert belief.posterior(later).tolist() == posterior.tolist()
+        assert later.progress.moment == Moment(0, 2, 2)
+
+
+def test_waits_say_nothing_where_agents_do_not_matter(workshop):
+    for belief in (ExactBelief(workshop), SwitchingBelief(workshop)):
+        assert belief.observe_wait(belief.start()).progress is belief.tracker.start
 
 
 def test_the_share_of_plans_decides(workshop):
@@ -108,15 +163,15 @@ def test_the_share_of_plans_decides(workshop):
     assert math.exp(seen[1].log_shares[place]) == pytest.approx(share)
 
 
-def test_switching_equals_all_histories(bank, walk):
+def test_switching_equals_all_histories(listed, walk):
     rates, chances = (0.01, 0.2), {"hazard": 0.15, "never": 0.3, "settles": 0.6}
-    belief = SwitchingBelief(bank, mistake_rates=rates, **chances)
-    for steps in [run[:4] for run in runs(bank, walk)]:
+    belief = SwitchingBelief(listed, mistake_rates=rates, **chances)
+    for steps in [run[:4] for run in runs(listed, walk)]:
         rows = batch(belief, steps)
         for length in range(1, len(steps) + 1):
-            expected = np.zeros(len(bank.names))
+            expected = np.zeros(len(listed.names))
             for goals, _, weight in enumerated_beliefs.histories(
-                bank, steps[:length], rates, **chances
+                listed, steps[:length], rates, **chances
             ):
                 expected[goals[-1]] += weight
             assert rows[length].tolist() == pytest.approx((expected / expected.sum()).tolist())

@@ -1,0 +1,203 @@
+"""What a team still needs to a goal, from every state that it can get to, in every turn.
+
+It is (timesteps, actions) in one number, least of all team plans: see `hrcplan.bank.team`. One
+search forward finds the states, and one search backward for each goal the numbers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from functools import cached_property
+from weakref import WeakValueDictionary
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hrcplan.bank.bank import Bank
+from hrcplan.bank.search import SeenStates, group_rows
+from hrcplan.bank.team import ANYBODY, step_owners
+from hrcplan.core.arrays import Ids, Words
+from hrcplan.errors import LimitError, UsageError
+from hrcplan.pddl.conventions import people
+from hrcplan.search.packed_states import FactPacking, PackedRules
+
+MAX_STATES = 1_000_000
+TIMESTEP = 1 << 12  # actions are counted below it
+NEVER = np.iinfo(np.int32).max - 2 * TIMESTEP  # the goal is out of reach
+
+Costs = NDArray[np.int32]
+
+
+@dataclass(frozen=True, slots=True)
+class _Backward:
+    """Actions of one agent by the state they lead to: those of state ``s`` begin at ``first[s]``.
+
+    ``sources`` are the states in which they are done.
+    """
+
+    first: Ids
+    sources: Ids
+
+    def into(self, states: Ids) -> tuple[Ids, Ids]:
+        """Return the sources of actions into states, and the state that each leads to."""
+        lengths = self.first[states + 1] - self.first[states]
+        begins = np.repeat(self.first[states] - (lengths.cumsum() - lengths), lengths)
+        return self.sources[begins + np.arange(len(begins))], np.repeat(states, lengths)
+
+
+@dataclass(eq=False)
+class CostToGo:
+    """The costs to go of all goals of a bank of team plans.
+
+    ``of(...)`` has one row per goal. Without robots they are those of a team whose robots only
+    wait.
+
+    Raises:
+        LimitError: if the team can get to more than ``max_states`` states.
+    """
+
+    bank: Bank
+    max_states: int = MAX_STATES
+    _places: dict[int, int] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        """Find the states, and the actions between them."""
+        table = self.bank.table
+        self._packing = FactPacking(tuple(range(len(table.task.facts))))
+        rules = PackedRules(table.ops, self._packing)
+        rows = group_rows(self._reach(rules))[0]
+        self._keys = _keys(rows)
+        owners = np.array(step_owners(table, self.bank.team), dtype=np.int64)
+        steps = np.array([op.step for op in table.ops], dtype=np.int64)
+        found = [(s, steps[ops], self._keys.searchsorted(_keys(after)))
+                 for s, ops, after in rules.expand(rows)]  # fmt: skip
+        sources, labels, targets = (
+            np.concatenate([np.zeros(0, np.int64), *(part[i] for part in found)]) for i in range(3)
+        )
+        order = np.lexsort((labels, sources))
+        self._sources, self._steps, self._targets = sources[order], labels[order], targets[order]
+        self._owners = owners[self._steps]
+        self._first = self._sources.searchsorted(np.arange(len(rows) + 1))
+        self._is_goal = [rules.meets(rows, tests) for tests in self.bank.goals.tests]
+
+    def _reach(self, rules: PackedRules) -> Words:
+        """Return the states that the team can get to."""
+        layer = self._packing.row(self.bank.initial).reshape(1, -1)
+        seen, layers, n = SeenStates(), [layer], 1
+        seen.add(layer)
+        while len(layer):
+            after = np.concatenate([layer[:0], *(rows for _, _, rows in rules.expand(layer))])
+            after = group_rows(after)[0] if len(after) else after
+            layer = after[~seen.contains(after)]
+            n += len(layer)
+            if n > self.max_states:
+                message = f"the agents can get to more than {self.max_states:,} states"
+                raise LimitError(message, code="memory", hint="use fewer objects or agents")
+            seen.add(layer)
+            layers.append(layer)
+        return np.concatenate(layers)
+
+    def place(self, state: int) -> int:
+        """Return the index of a state of the task.
+
+        Raises:
+            UsageError: if the team cannot get to it.
+        """
+        known = self._places.get(state)
+        if known is None:
+            key = _keys(self._packing.row(state).reshape(1, -1))
+            known = int(self._keys.searchsorted(key)[0])
+            if known == len(self._keys) or self._keys[known] != key[0]:
+                raise UsageError("the agents cannot get to this state")
+            self._places[state] = known
+        return known
+
+    def actions(self, place: int, turn: int) -> tuple[Ids, Ids]:
+        """Return the steps that an agent can do in its turn, and the states they lead to."""
+        part = slice(self._first[place], self._first[place + 1])
+        mine = (self._owners[part] == turn) | (self._owners[part] == ANYBODY)
+        return self._steps[part][mine], self._targets[part][mine]
+
+    def of(self, places: Ids | int, turn: int, *, with_robots: bool = True) -> Costs:
+        """Return the cost to go: one row per goal, one column per place; `NEVER` if there is none.
+
+        Args:
+            places: Indices of states.
+            turn: Whose turn it is, as an index of the team's agents.
+            with_robots: Whether the robots act; if not, they wait in all their turns.
+        """
+        return (self._costs if with_robots else self._costs_alone)[:, turn, places]
+
+    @cached_property
+    def _costs(self) -> Costs:
+        return np.stack([self._backward(goal, range(len(self.bank.team))) for goal in self._goals])
+
+    @cached_property
+    def _costs_alone(self) -> Costs:
+        humans = people(self.bank.goals.problem)
+        acting = [i for i, agent in enumerate(self.bank.team) if agent in humans]
+        return np.stack([self._backward(goal, acting) for goal in self._goals])
+
+    @property
+    def _goals(self) -> range:
+        return range(len(self._is_goal))
+
+    @cached_property
+    def _into(self) -> list[_Backward]:
+        """The actions of each agent, by the state they lead to."""
+        return list(self._actions_into())
+
+    def _actions_into(self) -> Iterator[_Backward]:
+        for turn in range(len(self.bank.team)):
+            mine = np.flatnonzero((self._owners == turn) | (self._owners == ANYBODY))
+            order = mine[np.argsort(self._targets[mine], kind="stable")]
+            first = self._targets[order].searchsorted(np.arange(len(self._keys) + 1))
+            yield _Backward(first, self._sources[order])
+
+    def _backward(self, goal: int, acting: range | list[int]) -> Costs:
+        """Return the cost to go to one goal, by turn and state."""
+        n_turns = len(self.bank.team)
+        costs = np.full((n_turns, len(self._keys)), NEVER, dtype=np.int32)
+        costs[:, self._is_goal[goal]] = 0
+        layer = [np.flatnonzero(self._is_goal[goal])] * n_turns
+        while any(map(len, layer)):
+            layer = [
+                self._one_before(costs, turn, layer[(turn + 1) % n_turns], turn in acting)
+                for turn in range(n_turns)
+            ]
+        return costs
+
+    def _one_before(self, costs: Costs, turn: int, states: Ids, acts: bool) -> Ids:
+        """Set the cost of what leads to states of the next turn; return where it was not set."""
+        following = costs[(turn + 1) % len(costs)]
+        sources, prices = states, following[states] + TIMESTEP
+        if acts:
+            before, targets = self._into[turn].into(states)
+            sources = np.concatenate([sources, before])
+            prices = np.concatenate([prices, following[targets] + TIMESTEP + 1])
+        # What is cheaper by timesteps was set in an earlier round.
+        new = costs[turn][sources] // TIMESTEP > prices // TIMESTEP
+        np.minimum.at(costs[turn], sources[new], prices[new])
+        return np.unique(sources[new])
+
+
+def _keys(rows: Words) -> NDArray[np.bytes_]:
+    """Return rows as byte strings that sort as `group_rows` sorts the rows."""
+    wide = np.ascontiguousarray(rows.astype(">u8"))
+    return wide.view(f"S{8 * rows.shape[1]}").ravel()
+
+
+_SHARED: WeakValueDictionary[int, CostToGo] = WeakValueDictionary()
+
+
+def cost_to_go_of(bank: Bank) -> CostToGo:
+    """Return the costs to go of a bank of team plans; all who ask for one bank share them.
+
+    Raises:
+        LimitError: if the team can get to too many states.
+    """
+    found = _SHARED.get(id(bank))
+    if found is None:
+        found = _SHARED[id(bank)] = CostToGo(bank)
+    return found

@@ -1,0 +1,159 @@
+"""What an agent of a team does next for each goal, in its turn, and how odd anything else would be.
+
+A human does a step that loses the team nothing. If only waiting loses nothing, it waits; but if no
+robot has acted since its last turn, it counts on the robots no longer, and does the best step
+towards the goal without them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hrcplan.bank.bank import Bank
+from hrcplan.bank.cost_to_go import NEVER, TIMESTEP, Costs, cost_to_go_of
+from hrcplan.bank.team import ANYBODY, step_owners
+from hrcplan.core.arrays import Bools, Floats, Ids
+from hrcplan.errors import LimitError
+from hrcplan.pddl.conventions import robots
+
+DECAY = 0.5  # a step that loses one timestep more is less likely as a mistake by exp(-DECAY)
+LOST = 1e-6  # the weight of a mistake that loses the goal
+MAX_KNOWN = 50_000  # choices that are remembered
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """Whose turn it is, and for how many turns no robot, and no human, has acted."""
+
+    turn: int = 0
+    without_robot: int = 0
+    without_human: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class TeamChoices:
+    """What an agent can do in its turn.
+
+    Attributes:
+        steps: The steps, in order.
+        is_next: For each goal and step, whether the agent does it for the goal.
+        waits: For each goal, whether the agent waits for it.
+        log_odds: For each goal and step, and then for waiting, the log of its share among the
+            mistakes.
+        saved: For each goal and step, the timesteps that it saves compared with waiting; negative
+            if it costs some, NaN if the goal is out of reach either way.
+    """
+
+    steps: Ids
+    is_next: Bools
+    waits: Bools
+    log_odds: Floats
+    saved: Floats
+
+    def next_steps(self, goal: int) -> list[int]:
+        """Return the steps that the agent does for a goal, in order."""
+        found: list[int] = self.steps[self.is_next[goal]].tolist()
+        return found
+
+    def place(self, step: int | None) -> int:
+        """Return the column of a step, or of waiting; -1 if the agent cannot do the step."""
+        if step is None:
+            return len(self.steps)
+        return next(iter(np.flatnonzero(self.steps == step).tolist()), -1)
+
+
+class TeamMoves:
+    """Knows for every state and turn what the agents of a team do for each goal.
+
+    Args:
+        bank: A bank of team plans.
+
+    Raises:
+        LimitError: if the team can get to too many states.
+    """
+
+    def __init__(self, bank: Bank) -> None:
+        self.bank, self.costs = bank, cost_to_go_of(bank)
+        self.n_turns = len(bank.team)
+        taken = robots(bank.goals.problem)
+        self.is_robot = [agent in taken for agent in bank.team]
+        self._owners = step_owners(bank.table, bank.team)
+        self._known: dict[tuple[int, int, bool], TeamChoices] = {}
+
+    def after(self, moment: Moment, step: int | None) -> Moment:
+        """Return the moment after a step, or after a wait of the agent whose turn it is.
+
+        If the step is another agent's, those between have waited.
+        """
+        n_waits = 0 if step is None else self._n_waits(moment, step)
+        turn = (moment.turn + n_waits) % self.n_turns
+        acts, n_turns = step is not None, n_waits + 1
+        return Moment(
+            (turn + 1) % self.n_turns,
+            0 if acts and self.is_robot[turn] else moment.without_robot + n_turns,
+            0 if acts and not self.is_robot[turn] else moment.without_human + n_turns,
+        )
+
+    def _n_waits(self, moment: Moment, step: int) -> int:
+        owner = self._owners[step]
+        return 0 if owner == ANYBODY else (owner - moment.turn) % self.n_turns
+
+    def turn_of(self, moment: Moment, step: int) -> Moment:
+        """Return the moment at which a step is done, once the agents before its agent waited."""
+        for _ in range(self._n_waits(moment, step)):
+            moment = self.after(moment, None)
+        return moment
+
+    def choices(self, world: int, moment: Moment) -> TeamChoices:
+        """Return what the agent whose turn it is can do."""
+        alone = moment.without_robot >= self.n_turns and not self.is_robot[moment.turn]
+        key = (self.costs.place(world), moment.turn, alone)
+        known = self._known.get(key)
+        if known is None:
+            if len(self._known) >= MAX_KNOWN:
+                self._known.clear()
+            known = self._known[key] = self._choices(*key)
+        return known
+
+    def _choices(self, place: int, turn: int, alone: bool) -> TeamChoices:
+        steps, targets = self.costs.actions(place, turn)
+        following = (turn + 1) % self.n_turns
+        now = self.costs.of(np.array([place]), turn)
+        wait = self.costs.of(np.array([place]), following) + TIMESTEP
+        after = self.costs.of(targets, following) + TIMESTEP + 1
+        is_next = (after == now) & (now < NEVER)
+        if alone and len(steps):
+            own = self.costs.of(targets, following, with_robots=False)
+            best = own.min(axis=1, keepdims=True)
+            stuck = ~is_next.any(axis=1, keepdims=True) & (best < NEVER) & (now > 0)
+            is_next |= stuck & (own == best)
+        waits = ~is_next.any(axis=1) & (now[:, 0] > 0)  # who has reached its goal is not waiting
+        odd = _weights(np.concatenate([after, wait], axis=1), now)
+        odd[np.concatenate([is_next, waits[:, None]], axis=1)] = 0
+        totals = np.maximum(odd.sum(axis=1, keepdims=True), LOST)
+        with np.errstate(divide="ignore"):
+            log_odds = np.log(odd / totals)
+        return TeamChoices(steps, is_next, waits, log_odds, _saved(wait, after))
+
+
+def team_moves(bank: Bank) -> TeamMoves | None:
+    """Return what the agents of a team do; None without turns, or if there are too many states."""
+    try:
+        return TeamMoves(bank) if bank.team else None
+    except LimitError:  # the graphs alone have to do, without regard to turns
+        return None
+
+
+def _weights(costs: Costs, now: Costs) -> Floats:
+    """Return how likely mistakes are, from what they cost; the scale does not matter."""
+    lost = costs // TIMESTEP - now // TIMESTEP
+    return np.where(costs < NEVER, np.maximum(np.exp(-DECAY * lost), LOST), LOST)
+
+
+def _saved(wait: Costs, after: Costs) -> Floats:
+    """Return the timesteps that steps save compared with waiting."""
+    saved: Floats = (wait // TIMESTEP - after // TIMESTEP).astype(np.float64)
+    saved[(wait >= NEVER) & (after >= NEVER)] = np.nan
+    return saved
