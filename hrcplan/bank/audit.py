@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from hrcplan.bank.bank import Bank
 from hrcplan.bank.graph import PlanGraph
 from hrcplan.bank.search import group_rows
-from hrcplan.bank.team import ANYBODY, step_owners
+from hrcplan.bank.team import ANY_AGENT, step_owners
 from hrcplan.core.arrays import Bools, Ids, Words
 from hrcplan.search.packed_states import PackedRules
 
@@ -99,7 +99,7 @@ def _wrong_turns(graph: PlanGraph, bank: Bank) -> int:
     owners = np.array(step_owners(bank.table, agents))[graph.steps]
     times = np.array([int(cost) for cost, _ in graph.layers])[graph.layer_of]
     sources = np.repeat(times, np.diff(graph.first))
-    n_waits = np.where(owners == ANYBODY, 0, (owners - graph.team.first - sources) % len(agents))
+    n_waits = np.where(owners == ANY_AGENT, 0, (owners - graph.team.first - sources) % len(agents))
     return int((times[graph.targets] != sources + n_waits + 1).sum())
 
 

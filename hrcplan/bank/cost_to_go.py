@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from hrcplan.bank.bank import Bank
 from hrcplan.bank.search import SeenStates, group_rows
-from hrcplan.bank.team import ANYBODY, step_owners
+from hrcplan.bank.team import ANY_AGENT, step_owners
 from hrcplan.core.arrays import Ids, Words
 from hrcplan.errors import LimitError, UsageError
 from hrcplan.pddl.conventions import people
@@ -70,10 +70,11 @@ class CostToGo:
         self._keys = _keys(rows)
         owners = np.array(step_owners(table, self.bank.team), dtype=np.int64)
         steps = np.array([op.step for op in table.ops], dtype=np.int64)
-        found = [(s, steps[ops], self._keys.searchsorted(_keys(after)))
+        changes = [(s, steps[ops], self._keys.searchsorted(_keys(after)))
                  for s, ops, after in rules.expand(rows)]  # fmt: skip
         sources, labels, targets = (
-            np.concatenate([np.zeros(0, np.int64), *(part[i] for part in found)]) for i in range(3)
+            np.concatenate([np.zeros(0, np.int64), *(part[i] for part in changes)])
+            for i in range(3)
         )
         order = np.lexsort((labels, sources))
         self._sources, self._steps, self._targets = sources[order], labels[order], targets[order]
@@ -116,7 +117,7 @@ class CostToGo:
     def actions(self, place: int, turn: int) -> tuple[Ids, Ids]:
         """Return the steps that an agent can do in its turn, and the states they lead to."""
         part = slice(self._first[place], self._first[place + 1])
-        mine = (self._owners[part] == turn) | (self._owners[part] == ANYBODY)
+        mine = (self._owners[part] == turn) | (self._owners[part] == ANY_AGENT)
         return self._steps[part][mine], self._targets[part][mine]
 
     def of(self, places: Ids | int, turn: int, *, with_robots: bool = True) -> Costs:
@@ -150,7 +151,7 @@ class CostToGo:
 
     def _actions_into(self) -> Iterator[_Backward]:
         for turn in range(len(self.bank.team)):
-            mine = np.flatnonzero((self._owners == turn) | (self._owners == ANYBODY))
+            mine = np.flatnonzero((self._owners == turn) | (self._owners == ANY_AGENT))
             order = mine[np.argsort(self._targets[mine], kind="stable")]
             first = self._targets[order].searchsorted(np.arange(len(self._keys) + 1))
             yield _Backward(first, self._sources[order])
@@ -197,7 +198,7 @@ def cost_to_go_of(bank: Bank) -> CostToGo:
     Raises:
         LimitError: if the team can get to too many states.
     """
-    found = _SHARED.get(id(bank))
-    if found is None:
-        found = _SHARED[id(bank)] = CostToGo(bank)
-    return found
+    costs = _SHARED.get(id(bank))
+    if costs is None:
+        costs = _SHARED[id(bank)] = CostToGo(bank)
+    return costs

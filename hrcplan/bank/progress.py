@@ -157,13 +157,15 @@ class ProgressTracker:
 
     def _in_turn(self, progress: Progress, world: int, moment: Moment) -> Progress:
         """Return where everything stands in a state, in a turn."""
-        found = [self.bank.node(goal, world, moment.turn) for goal in range(len(self.bank.names))]
+        places = [self.bank.node(goal, world, moment.turn) for goal in range(len(self.bank.names))]
         combined = self.combined
         nodes = np.array(
             [combined.off if node is None else int(offset) + node
-             for offset, node in zip(combined.offsets[:-1], found, strict=True)], dtype=np.int64,
+             for offset, node in zip(combined.offsets[:-1], places, strict=True)], dtype=np.int64,
         )  # fmt: skip
-        off = {g: OffGraph(world, turn=moment.turn) for g, node in enumerate(found) if node is None}
+        off = {
+            g: OffGraph(world, turn=moment.turn) for g, node in enumerate(places) if node is None
+        }
         doable = self._doable.after(progress.doable, progress.world, world)
         return Progress(world, nodes, doable, off or _NOWHERE, moment)
 

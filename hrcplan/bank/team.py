@@ -43,8 +43,8 @@ HINT = (
 
 def turn_order(problem: Problem) -> tuple[str, ...]:
     """Return the agents as they take turns: humans first, then robots, each in object order."""
-    taken = robots(problem)
-    return tuple(sorted(problem.agents, key=lambda agent: agent in taken))
+    controllable = robots(problem)
+    return tuple(sorted(problem.agents, key=lambda agent: agent in controllable))
 
 
 def team_graph(
@@ -68,12 +68,12 @@ def team_graph(
     turns = _Turns(table, team.agents)
     ops, needed = relevant(turns.ops, goal)
     packing = FactPacking.of_facts(needed.facts)
-    found = _explore(ops, packing, goal, state | turns.facts[turn], name,
+    explored = _explore(ops, packing, goal, state | turns.facts[turn], name,
                      replace(limits, hint=HINT))  # fmt: skip
-    if found is None:
+    if explored is None:
         plain = FactPacking.of_facts(needed.facts & ~turns.all_facts)
         return replace(empty_graph(name, plain), team=team)
-    whole = assemble(_Units(), found, packing, name)
+    whole = assemble(_Units(), explored, packing, name)
     graph = replace(_without_waits(whole, turns), team=team)
     return merge_equivalent_nodes(graph, table, goal)
 
@@ -97,12 +97,12 @@ def _explore(
     rules, start = PackedRules(ops, packing), packing.row(state)
     while True:
         search = Explorer(rules, goal, marks, bound, optimal=True, limits=limits, name=name)
-        found = search.run(start)
-        if found.cost is not None:
-            return found
-        if found.next_bound is None:
+        explored = search.run(start)
+        if explored.cost is not None:
+            return explored
+        if explored.next_bound is None:
             return None
-        bound = max(found.next_bound, bound + TIMESTEP)
+        bound = max(explored.next_bound, bound + TIMESTEP)
 
 
 @dataclass(frozen=True)
@@ -135,7 +135,7 @@ class _Turns:
         owners = self.owners
         for turn in range(len(self.agents)):
             for op in self.table.ops:
-                if owners[op.step] in (turn, ANYBODY):
+                if owners[op.step] in (turn, ANY_AGENT):
                     yield self._in_turn(op, turn, TIMESTEP + 1)
             wait = Operator(ALWAYS, (), (), step=len(self.table) + turn, cost=0)
             yield self._in_turn(wait, turn, TIMESTEP)
@@ -154,14 +154,14 @@ class _Turns:
         return step_owners(self.table, self.agents)
 
 
-ANYBODY = -1
+ANY_AGENT = -1
 
 
 def step_owners(table: StepTable, agents: Sequence[str]) -> list[int]:
-    """Return the index of the agent that does each step, or ANYBODY if it names no agent."""
+    """Return the index of the agent that does each step, or ANY_AGENT if it names no agent."""
     place: dict[str | None, int] = {agent: i for i, agent in enumerate(agents)}
     actions = table.task.actions
-    return [place.get(actions[table[i].actions[0]].agent, ANYBODY) for i in range(len(table))]
+    return [place.get(actions[table[i].actions[0]].agent, ANY_AGENT) for i in range(len(table))]
 
 
 def _without_waits(graph: PlanGraph, turns: _Turns) -> PlanGraph:
@@ -175,7 +175,7 @@ def _without_waits(graph: PlanGraph, turns: _Turns) -> PlanGraph:
     after_wait = np.full(n, -1, dtype=np.int64)
     after_wait[sources[is_wait]] = graph.targets[is_wait]
     owner = np.array([*turns.owners, *range(len(turns.agents))])
-    anybody = owner[graph.steps] == ANYBODY
+    anybody = owner[graph.steps] == ANY_AGENT
     owners, places = np.arange(n), np.arange(n)
     parts: list[tuple[Ids, SmallIds, Ids]] = []
     for n_waits in range(len(turns.agents)):

@@ -13,7 +13,7 @@ import numpy as np
 
 from hrcplan.bank.bank import Bank
 from hrcplan.bank.cost_to_go import NEVER, TIMESTEP, Costs, cost_to_go_of
-from hrcplan.bank.team import ANYBODY, step_owners
+from hrcplan.bank.team import ANY_AGENT, step_owners
 from hrcplan.core.arrays import Bools, Floats, Ids
 from hrcplan.errors import LimitError
 from hrcplan.pddl.conventions import robots
@@ -54,8 +54,8 @@ class TeamChoices:
 
     def next_steps(self, goal: int) -> list[int]:
         """Return the steps that the agent does for a goal, in order."""
-        found: list[int] = self.steps[self.is_next[goal]].tolist()
-        return found
+        next_steps: list[int] = self.steps[self.is_next[goal]].tolist()
+        return next_steps
 
     def place(self, step: int | None) -> int:
         """Return the column of a step, or of waiting; -1 if the agent cannot do the step."""
@@ -77,8 +77,8 @@ class TeamMoves:
     def __init__(self, bank: Bank) -> None:
         self.bank, self.costs = bank, cost_to_go_of(bank)
         self.n_turns = len(bank.team)
-        taken = robots(bank.goals.problem)
-        self.is_robot = [agent in taken for agent in bank.team]
+        controllable = robots(bank.goals.problem)
+        self.is_robot = [agent in controllable for agent in bank.team]
         self._owners = step_owners(bank.table, bank.team)
         self._known: dict[tuple[int, int, bool], TeamChoices] = {}
 
@@ -98,7 +98,7 @@ class TeamMoves:
 
     def _n_waits(self, moment: Moment, step: int) -> int:
         owner = self._owners[step]
-        return 0 if owner == ANYBODY else (owner - moment.turn) % self.n_turns
+        return 0 if owner == ANY_AGENT else (owner - moment.turn) % self.n_turns
 
     def turn_of(self, moment: Moment, step: int) -> Moment:
         """Return the moment at which a step is done, once the agents before its agent waited."""

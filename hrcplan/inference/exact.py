@@ -37,9 +37,9 @@ class ExactBelief:
 
     A step that a share s of a goal's remaining plans begins with has likelihood (1 - p) s. A
     mistake has likelihood p, divided by the number of applicable steps that the goal does not need.
-    Where agents take turns, all next steps of a goal are alike, and so are mistakes that lose the
-    team as much time. A step that no goal explains leaves the posterior as it is; a step that changes
-    nothing is one.
+    A step that no goal explains leaves the posterior as it is; a step that changes nothing is one.
+    Where agents take turns, all next steps of a goal are equally likely, and so are mistakes that
+    lose the team as much time.
 
     >>> from hrcplan.bank import build_bank
     >>> belief = ExactBelief(build_bank("kitchen", only=["pasta-bean", "pasta-tomato"]))
