@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence, Set
+from dataclasses import replace
 from itertools import islice
 
 import numpy as np
@@ -41,12 +42,12 @@ class ImaginedSteps:
         for goal, place in progress.off.items():
             graph, node = place.graph, place.node
             if graph is None:
-                graph, place_on_graph = self.bank.locate(goal, place.state)
+                graph, place_on_graph = self.bank.locate(goal, place.state, turn=place.turn)
                 if place_on_graph is None:
                     continue
                 node = place_on_graph
             off[goal] = OffGraph(place.state, graph, node)
-        return Progress(progress.world, progress.nodes, progress.doable, off)
+        return replace(progress, off=off)
 
     def next_steps(self, progress: Progress) -> NextSteps:
         """Return the steps that can come next in the plans of each goal."""
@@ -58,6 +59,9 @@ class ImaginedSteps:
         world = self.bank.table.successor(before, step)
         if world is None or world == before:
             return progress
+        if self.tracker.moves is not None:
+            moved = self.tracker.after_turn(self.tracker.moves, progress, step)
+            return replace(moved, off=self._off(progress, step, world))
         goals = combined.concerned(step, before ^ world)
         hit, places = combined.edges(progress.nodes.take(goals), step)
         nodes = progress.nodes.copy()

@@ -128,9 +128,9 @@ class ProgressTracker:
         return self.moves.is_robot[progress.moment.turn]
 
     def wait(self, progress: Progress) -> tuple[Progress, Evidence] | None:
-        """Return where everything stands after a wait of the agent whose turn it is.
+        """Return the progress and the evidence after a wait of the agent whose turn it is.
 
-        And what the wait says. None if agents do not take turns: then a wait says nothing.
+        None if agents do not take turns: then a wait says nothing.
         """
         if self.moves is None or progress.moment is None:
             return None
@@ -140,14 +140,17 @@ class ProgressTracker:
         self, moves: TeamMoves, progress: Progress, moment: Moment, step: int | None
     ) -> tuple[Progress, Evidence]:
         world = progress.world
+        after = moves.after(moment, step)
         if step is not None:
             moment = moves.turn_of(moment, step)
-        choices, after = moves.choices(world, moment), moves.after(moment, step)
+        choices = moves.choices(world, moment)
         place = choices.place(step)
         n_next = np.maximum(1, choices.is_next.sum(axis=1)).astype(np.int64)
         is_right = choices.waits if step is None else choices.is_next[:, place]
-        if place < 0:  # it changes nothing, so it is a mistake whatever the goal
-            is_right = np.zeros_like(choices.waits)
+        if place < 0:  # it changes nothing, so it is progress for no goal
+            return progress, Evidence(
+                np.zeros(0, np.int64), np.zeros(0), n_next, len(choices.steps)
+            )
         goals = np.flatnonzero(is_right)
         seen = Evidence(goals, -np.log(n_next[goals]), n_next, len(choices.steps) + 1,
                         choices.log_odds[:, place])  # fmt: skip
@@ -155,8 +158,13 @@ class ProgressTracker:
             world = self.bank.table.successor(world, step) or 0
         return self._in_turn(progress, world, after), seen
 
+    def after_turn(self, moves: TeamMoves, progress: Progress, step: int) -> Progress:
+        """Return the progress after an applicable step, where agents take turns."""
+        world = self.bank.table.successor(progress.world, step) or 0
+        return self._in_turn(progress, world, moves.after(progress.moment or Moment(), step))
+
     def _in_turn(self, progress: Progress, world: int, moment: Moment) -> Progress:
-        """Return where everything stands in a state, in a turn."""
+        """Return the progress in a state, in a turn."""
         places = [self.bank.node(goal, world, moment.turn) for goal in range(len(self.bank.names))]
         combined = self.combined
         nodes = np.array(

@@ -4,6 +4,7 @@ import pytest
 
 from hrcplan.bank import build_bank
 from hrcplan.inference.exact import UNEXPLAINED, ExactBelief
+from tests.worlds import without_turns
 
 DOMAIN = """
 (define (domain hands) (:requirements :strips :typing)
@@ -19,15 +20,16 @@ PROBLEM = """
 """
 
 
-@pytest.fixture(scope="module")
-def belief(tmp_path_factory: pytest.TempPathFactory) -> ExactBelief:
+@pytest.fixture(scope="module", params=["sequences", "turns"])
+def belief(tmp_path_factory: pytest.TempPathFactory, request: pytest.FixtureRequest) -> ExactBelief:
     folder = tmp_path_factory.mktemp("hands")
     domain, goals = folder / "domain.pddl", folder / "goals"
     domain.write_text(DOMAIN)
     goals.mkdir()
     for goal in ("soup", "salad"):
         (goals / f"{goal}.pddl").write_text(PROBLEM.format(goal=goal))
-    return ExactBelief(build_bank(str(domain), str(goals)))
+    bank = build_bank(str(domain), str(goals))
+    return ExactBelief(without_turns(bank) if request.param == "sequences" else bank)
 
 
 def test_a_step_that_changes_nothing_leaves_the_belief(belief: ExactBelief) -> None:
@@ -46,4 +48,5 @@ def test_the_same_step_of_the_other_agent_is_evidence(belief: ExactBelief) -> No
     first = belief.observe(belief.start(), names.index(("wash", "ann")))
     other = belief.observe(first, names.index(("wash", "bob")))
     assert other.ignored is None
-    assert belief.posterior(other).tolist() != belief.posterior(first).tolist()
+    if belief.tracker.moves is None:  # in turns both goals have the same next steps here
+        assert belief.posterior(other).tolist() != belief.posterior(first).tolist()
