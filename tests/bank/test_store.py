@@ -85,8 +85,8 @@ def test_what_is_no_bank_and_a_foreign_version(world):
     (world / "bad.bank").write_bytes(data + b"\0")
     with pytest.raises(InputError, match="bytes instead of"):
         load(world / "bad.bank")
-    (world / "bad.bank").write_bytes(data[:8] + struct.pack("<I", 2) + data[12:])
-    with pytest.raises(InputError, match="format 2; this hrcplan reads 1"):
+    (world / "bad.bank").write_bytes(data[:8] + struct.pack("<I", 3) + data[12:])
+    with pytest.raises(InputError, match="format 3; this hrcplan reads 1 and 2"):
         load(world / "bad.bank")
     (world / "bad.bank").write_text("(define (problem p))")
     with pytest.raises(InputError, match="is no policy bank"):
