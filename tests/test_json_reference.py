@@ -19,6 +19,7 @@ TYPES: dict[str, tuple[type, ...]] = {
     "str": (str,), "bool": (bool,), "int": (int,), "number": (int, float), "list": (list,),
 }  # fmt: skip
 BAD = "(define (problem x) (:domain transport) (:objects a - wpp) (:goal (at human nowhere)))"
+CLOSE = "0: (move human wp1 wp4) [50]\n50.0001: (grasp human blue wp4) [50]\n"
 SEEN = """(get human yogurt)
 (get human berries)
 (turn_on human blender)
@@ -37,6 +38,7 @@ COMMANDS = {
     "validate": [
         ["validate", "transport/two-boxes", "{w}/good.plan"],
         ["validate", "transport/two-boxes", "{w}/bad.plan"],
+        ["validate", "transport/two-boxes", "{w}/close.plan"],
     ],
     "check": [["check", "{w}/bad.pddl"]],
     "allocation": [["allocation", "transport/two-boxes", "motivation human"]],
@@ -66,7 +68,8 @@ COMMANDS = {
         ["new-problem", "transport", "--from", "two-boxes", "--goal", "(box-at green wp5)",
          "--name", "n", "-o", "{w}/n.pddl"],
     ],
-    "Errors": [["plan", "transport", "no-such-problem"], ["check", "--nonsense"]],
+    "Errors": [["plan", "transport", "no-such-problem"], ["check", "--nonsense"],
+               ["validate", "transport/two-boxes", "{w}/cut.plan"]],
 }  # fmt: skip
 
 
@@ -110,6 +113,8 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (work / "seen.txt").write_text(SEEN)
     (work / "good.plan").write_text("")
     (work / "bad.plan").write_text("(move human wp1 wp2)")
+    (work / "close.plan").write_text(CLOSE)
+    (work / "cut.plan").write_text("0: (move human wp1 wp4) [50")
     (work / "goals").mkdir()
     for name in ("parfait-fruit", "parfait-nut", "smoothie-berry"):
         text = (ROOT / "problems" / "kitchen" / f"{name}.pddl").read_text("utf-8")
