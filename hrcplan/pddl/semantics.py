@@ -207,6 +207,19 @@ def mentions(
             return
 
 
+def compares(formula: Formula) -> bool:
+    """Return whether a condition compares numbers anywhere; quantifiers are not expanded."""
+    match formula:
+        case Compare():
+            return True
+        case Not(body) | Quantified(_, _, body):
+            return compares(body)
+        case And(parts) | Or(parts):
+            return any(map(compares, parts))
+        case _:
+            return False
+
+
 def instances(params: Sequence[Param], binding: Binding, problem: Problem) -> Iterator[Binding]:
     """Yield ``binding`` extended by every choice of objects for ``params``.
 

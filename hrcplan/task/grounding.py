@@ -9,7 +9,7 @@ from math import inf
 from hrcplan.core.numbers import Number
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, Constant, Fact, Problem
-from hrcplan.pddl.semantics import ground_key, instances, mentions
+from hrcplan.pddl.semantics import compares, ground_key, instances, mentions
 from hrcplan.task.actions import GroundAction, ground_actions
 from hrcplan.task.changing import Reached, combinations, reached_values, value_fact
 from hrcplan.task.conditions import Grounder, Tests, all_of, any_of
@@ -95,7 +95,8 @@ class Grounding:
             UnsupportedError: if bits cannot hold the goal.
         """
         grounder = Grounder(problem, self.bits, self.constant)
-        named = {key for is_fact, key in mentions(problem.goal, {}, problem) if not is_fact}
+        looked_at = mentions(problem.goal, {}, problem) if compares(problem.goal) else ()
+        named = {key for is_fact, key in looked_at if not is_fact}
         if not named.isdisjoint([(TOTAL_COST,), (TOTAL_TIME,)]):
             message = "the goal looks at the cost or time of the plan"
             raise UnsupportedError(message, hint="enhsp and kairos plan with such numbers")
