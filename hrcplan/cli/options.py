@@ -102,7 +102,9 @@ class FiniteNumber(click.FloatRange):
         super().__init__(least, min_open=min_open)
         self.cap = cap
 
-    def convert(self, value: Any, param: Any, ctx: Any) -> float:
+    def convert(
+        self, value: float, param: click.Parameter | None, ctx: click.Context | None
+    ) -> float:
         """Return the number."""
         number = float(super().convert(value, param, ctx))
         if self.cap is not None and number > self.cap:

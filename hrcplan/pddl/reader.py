@@ -103,7 +103,7 @@ def read_nodes(source: SourceText) -> list[ParseNode]:
 
 
 def _report_hidden(text: str, source: SourceText) -> None:
-    """Report each character outside of comments that nobody sees, where it stands first.
+    """Report each invisible character outside of comments, at its first place.
 
     Names with such characters look like others, and could steer a terminal.
     """

@@ -122,13 +122,13 @@ def _plan_files(folder: Path, most_bytes: int) -> list[str]:
 
     Folders, FIFOs, links and the like are left out; so is a file that does not fit any more.
     """
-    found: list[tuple[int, str]] = []
+    texts: list[tuple[int, str]] = []
     for path in folder.glob("plan*"):
         stat = path.lstat()
         if S_ISREG(stat.st_mode) and stat.st_size <= most_bytes:
             most_bytes -= stat.st_size
-            found.append((stat.st_mtime_ns, path.read_text(errors="replace")))
-    return [text for _, text in sorted(found, key=lambda item: item[0])]
+            texts.append((stat.st_mtime_ns, path.read_text(errors="replace")))
+    return [text for _, text in sorted(texts, key=lambda item: item[0])]
 
 
 def _saved(output: str) -> str:

@@ -63,6 +63,15 @@ class Worker(Generic[M]):
         """Return whether it uses more memory than this; what it shares counts in part."""
         return resident(self.pid) > memory_bytes and proportional(self.pid) > memory_bytes
 
+    @property
+    def is_running(self) -> bool:
+        """Whether the worker has not ended; one that was waited for elsewhere has ended."""
+        try:
+            state = os.waitid(os.P_PID, self.pid, os.WEXITED | os.WNOHANG | os.WNOWAIT)
+        except ChildProcessError:
+            return False
+        return state is None
+
     def signal(self, number: int) -> None:
         """Send a signal, unless it has ended."""
         with contextlib.suppress(ProcessLookupError):
@@ -82,8 +91,7 @@ def end(workers: Sequence[Worker[Any]]) -> None:
     deadline = time.monotonic() + GRACE_S
     waiting = list(workers)
     while waiting and time.monotonic() < deadline:
-        waiting = [worker for worker in waiting if os.waitid(
-            os.P_PID, worker.pid, os.WEXITED | os.WNOHANG | os.WNOWAIT) is None]  # fmt: skip
+        waiting = [worker for worker in waiting if worker.is_running]
         time.sleep(0.005 if waiting else 0)
     for worker in waiting:
         worker.signal(signal.SIGKILL)

@@ -167,7 +167,7 @@ def test_no_plans_are_made_for_what_may_never_happen(workshop, monkeypatch):
     robot = ExpectedHelp(workshop)
     state = after(robot, ("unfold", "red"))
     look = Lookahead(robot.step_values)
-    monkeypatch.setattr(Bank, "reroot", None)
+    monkeypatch.setattr(Bank, "graph_from", None)
     place = look.after(look.root(state), workshop.table.find(("seal", "red")))
     lost = set(np.flatnonzero(place.progress.nodes == robot.tracker.combined.off).tolist())
     assert lost

@@ -149,7 +149,7 @@ NEW_DOMAIN = """
 NEW_PROBLEM = """
 (define (problem spring) (:domain garden)
   (:objects ann rover - agent b1 b2 b3 - bed)
-  (:init (controllable rover) (= (fatigue ann) 1) (= (fatigue rover) 1) (= (total-cost) 0))
+  (:init (controllable rover) (= (fatigue ann) 1) (= (fatigue rover) 2) (= (total-cost) 0))
   (:goal (and (sown b1) (sown b2) (sown b3)))
   (:metric minimize (+ (total-cost) (total-time))))
 """

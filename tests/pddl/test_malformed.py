@@ -132,6 +132,6 @@ def test_a_line_of_two_megabytes_is_quoted_in_part_only(
     )
     started = time.process_time()
     diagnostics = check_files([path])
-    assert time.process_time() - started < 10
+    assert time.process_time() - started < 60  # quadratic work would take hours
     assert code in {d.code for d in diagnostics}
     assert all(len(d.message) + len(d.hint or "") <= LONGEST_QUOTE for d in diagnostics)
