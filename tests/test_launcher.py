@@ -186,7 +186,7 @@ def test_every_check_runs_and_all_allows_no_skips(
 ) -> None:
     root = make_project(tmp_path / "checkout")
     outcome(start(root, "--version", tool=root / "tools" / "test"))
-    for name in ("ruff", "mypy", "lint-imports", "pytest"):
+    for name in ("ruff", "mypy", "lint-imports", "pytest", "mkdocs"):
         tool = root / ".venv" / "bin" / name
         tool.write_text(f'#!/bin/sh\necho "called {name} <$HRCPLAN_NO_SKIPS> $*"\n')
         tool.chmod(0o755)
@@ -200,6 +200,7 @@ def test_every_check_runs_and_all_allows_no_skips(
         "ruff",
         "mypy",
         "lint-imports",
+        "mkdocs",
         "pytest",
     ]
     assert f"<{no_skips}>" in called[-1]

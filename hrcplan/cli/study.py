@@ -29,6 +29,7 @@ command.add_command(play.command)
 @command.command(
     "run",
     epilog=options.notes(
+        "Q: a factor of at least 1, as in 1.2.",
         "NAME: failure-anticipation, changed-mind, or module:NAME of your own study.",
         "DOMAIN, PROBLEM: paths, or the names of shipped files.",
         options.GOALS,

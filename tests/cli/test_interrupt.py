@@ -79,6 +79,7 @@ def test_a_terminal_that_closes_leaves_no_temporary_folder(tmp_path: Path) -> No
         [sys.executable, "-m", "hrcplan", "plan", "kitchen/parfait-nut", "--planner", planner],
         env={**os.environ, "PYTHONPATH": str(ROOT), "TMPDIR": str(tmp_path)},
         stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+        preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL),  # not that of nohup
     )  # fmt: skip
     limit = time.monotonic() + 20
     while not running(f"sleep(60) {marker}") and time.monotonic() < limit:
