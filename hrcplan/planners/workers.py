@@ -27,6 +27,7 @@ Work = Callable[[Callable[[M], None]], None]
 GRACE_S = 0.5
 """Between the request to end, in which a planner's processes are cleared up, and a kill."""
 _LENGTH = 8
+_BLOCKED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 class Worker(Generic[M]):
@@ -38,9 +39,14 @@ class Worker(Generic[M]):
     def __init__(self, work: Work[M]) -> None:
         self.fd, write = os.pipe()
         parent = os.getpid()
-        self.pid = os.fork()
-        if self.pid == 0:
-            _become(work, write, parent)
+        # In the copy, a handler of the caller would leave through the code of the caller.
+        mask = signal.pthread_sigmask(signal.SIG_BLOCK, _BLOCKED)
+        try:
+            self.pid = os.fork()
+            if self.pid == 0:
+                _become(work, write, parent, mask)
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, mask)
         os.close(write)
         self._pending = bytearray()
         self.is_over = False
@@ -103,8 +109,8 @@ class _Ended(BaseException):
     """The worker was asked to end; not an Exception, so that nothing on the way handles it."""
 
 
-def _become(work: Work[M], write: int, parent: int) -> NoReturn:
-    """Do the work in this forked copy, and end."""
+def _become(work: Work[M], write: int, parent: int, mask: set[int]) -> NoReturn:
+    """Do the work in this forked copy, and end; ``mask`` are the signals that it blocks."""
     try:
         gc.freeze()  # what is shared stays shared
         faulthandler.disable()  # a request to end may abort an extension that is being imported
@@ -114,6 +120,7 @@ def _become(work: Work[M], write: int, parent: int) -> NoReturn:
             os.dup2(quiet, stream)
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         signal.signal(signal.SIGTERM, _raise)
+        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM, 0, 0, 0)
         if os.getppid() == parent:
             work(lambda message: _send(write, message))
