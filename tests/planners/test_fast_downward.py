@@ -61,19 +61,11 @@ def test_any_plan_is_not_called_optimal(parfait: Problem) -> None:
     assert validate(parfait, answer.plan).metric == answer.objective
 
 
-def test_plans_improve_until_the_search_ends(parfait: Problem) -> None:
+def test_plans_improve_until_the_search_ends() -> None:
     """The search for better plans is one that the installed program accepts."""
-    costs: list[float] = []
-    request = Request(
-        read("transport", "two-boxes"),
-        any_plan=True,
-        improves=True,
-        on_plan=lambda plan: costs.append(len(plan.actions)),
-        deadline=time.monotonic() + 30,
-    )
-    answer = FastDownward().solve(request)
-    assert answer.status is Status.SOLVED
-    assert costs
+    deadline = time.monotonic() + 30
+    request = Request(read("transport", "two-boxes"), deadline, any_plan=True, improves=True)
+    assert FastDownward().solve(request).status is Status.SOLVED
 
 
 def test_the_sequential_reading_of_a_temporal_problem_is_no_proof() -> None:
