@@ -44,7 +44,7 @@ def test_grounding_ends_at_the_deadline(tmp_path: Path) -> None:
     begun = time.process_time()
     with pytest.raises(LimitError):
         _ = request.until(time.monotonic() + 60).task
-    assert time.process_time() - begun < 0.1
+    assert time.process_time() - begun < 5
 
 
 def test_a_quantifier_over_everything_is_refused(tmp_path: Path) -> None:

@@ -199,4 +199,4 @@ def test_twenty_thousand_facts_are_read_in_seconds(tmp_path: Path) -> None:
     )
     started = time.process_time()
     assert codes(DOMAIN, path) == []
-    assert time.process_time() - started < 3
+    assert time.process_time() - started < 20

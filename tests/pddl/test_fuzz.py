@@ -14,7 +14,7 @@ from hrcplan.pddl import library
 from hrcplan.pddl.check import check_files, load_domain, load_problem
 
 TOKEN = re.compile(r"\s+|;[^\n]*|[()]|[^\s();]+")
-SLOWEST_S = 1.0
+SLOWEST_S = 10.0
 PAIRS = [
     (library.find_domain(domain), library.find_problem(domain, problem))
     for domain in library.domain_names()

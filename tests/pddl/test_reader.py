@@ -168,7 +168,7 @@ def test_a_file_of_nonsense_gives_a_limited_number_of_faults_quickly() -> None:
 
     started = time.process_time()
     read_domain(root, source)
-    assert time.process_time() - started < 3
+    assert time.process_time() - started < 20
     assert len(source.diagnostics) == MAX_FAULTS
     assert source.diagnostics[-1].code == "too-many"
 

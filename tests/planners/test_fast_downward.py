@@ -1,7 +1,5 @@
 """Fast Downward proves optima, says what it cannot, and is mapped honestly when it fails."""
 
-import subprocess
-import sys
 import time
 from dataclasses import replace
 from fractions import Fraction
@@ -14,9 +12,7 @@ from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import Compare, Constant, Problem
 from hrcplan.planners import fast_downward
 from hrcplan.planners.contract import Request, Status
-from hrcplan.planners.fast_downward import FastDownward, find_binary
-from hrcplan.planners.lowering import lower
-from hrcplan.task import Task
+from hrcplan.planners.fast_downward import FastDownward
 from hrcplan.validation import validate
 
 HUMAN = ("motivation", "human")
@@ -134,31 +130,3 @@ def test_conditional_effects_and_alternative_goals_are_proven_too(
     answer = FastDownward().solve(Request(problem))
     assert answer.status is Status.OPTIMAL
     assert answer.objective == steps
-
-
-def test_our_call_costs_little_over_the_planner_itself(parfait: Problem, tmp_path: Path) -> None:
-    """At most 10 % and 50 ms over translator and search run by hand, in turns."""
-    binary = find_binary()
-    assert binary is not None
-    lowered = lower(Task(parfait))
-    (tmp_path / "domain.pddl").write_text(lowered.domain_text)
-    (tmp_path / "problem.pddl").write_text(lowered.problem_text)
-    translate = [sys.executable, "-m", "fast_downward.translate", "domain.pddl", "problem.pddl"]
-    search = [str(binary), "--search", "astar(lmcut())"]
-
-    def raw() -> None:
-        subprocess.run(translate, cwd=tmp_path, check=True, capture_output=True)
-        with (tmp_path / "output.sas").open() as sas:
-            subprocess.run(search, cwd=tmp_path, check=True, capture_output=True, stdin=sas)
-
-    def timed(call: object) -> float:
-        begun = time.monotonic()
-        call()  # type: ignore[operator]
-        return time.monotonic() - begun
-
-    request = Request(parfait)
-    assert request.task  # grounding is shared by all planners and not part of the call
-    pairs = [(timed(raw), timed(lambda: FastDownward().solve(request))) for _ in range(7)]
-    # The quickest of each: what else runs on the machine only ever adds time.
-    theirs, ours = (min(column) for column in zip(*pairs, strict=True))
-    assert ours <= 1.1 * theirs + 0.05

@@ -62,7 +62,7 @@ class Impatient:
         return None
 
     def solve(self, request: Request) -> Answer:
-        time.sleep(min(request.time_left_s, 0.3))
+        time.sleep(min(request.time_left_s, 2))
         return Answer(Status.UNSOLVED, note=f"slept with {request.time_left_s:.0f} s left")
 
 
@@ -169,8 +169,8 @@ def test_the_limit_is_for_all_planners_together(
     monkeypatch.setattr(registry, "names", lambda: ("a", "b", "c"))
     monkeypatch.setattr(registry, "make", lambda name: Impatient())
     begun = time.monotonic()
-    found = solve(two_boxes, timeout_s=0.5)
-    assert time.monotonic() - begun < 1
+    found = solve(two_boxes, timeout_s=3)  # six seconds if each had its own
+    assert time.monotonic() - begun < 5.9
     assert found.status is Status.UNSOLVED
     assert len(found.attempts) == 3
 
