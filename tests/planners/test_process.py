@@ -85,7 +85,7 @@ def marker() -> Iterator[str]:
 def call(marker: str, tmp_path: Path) -> Callable[..., FinishedProcess]:
     """Return a function that runs a hostile script under limits."""
 
-    def call(script: str, *words: object, time_s: float = 3.0, **limits: int) -> FinishedProcess:
+    def call(script: str, *words: object, time_s: float = 30.0, **limits: int) -> FinishedProcess:
         start = PYTHON if script.endswith(".py") else ("sh",)
         argv = [*start, str(HOSTILE / script), *map(str, words), marker]
         return run(argv, cwd=tmp_path, limits=ProcessLimits(time_s, **limits))
@@ -98,7 +98,7 @@ Call = Callable[..., FinishedProcess]
 
 def test_exit_code_and_both_outputs_come_back(tmp_path: Path) -> None:
     finished = run(
-        ["sh", "-c", "pwd; echo bad >&2; exit 7"], cwd=tmp_path, limits=ProcessLimits(30)
+        ["sh", "-c", "pwd; echo bad >&2; exit 7"], cwd=tmp_path, limits=ProcessLimits(300)
     )
     assert (finished.ended, finished.code) == (ProcessEnd.EXITED, 7)
     assert (finished.stdout, finished.stderr) == (f"{tmp_path.resolve()}\n", "bad\n")
@@ -106,73 +106,73 @@ def test_exit_code_and_both_outputs_come_back(tmp_path: Path) -> None:
 
 
 def test_death_by_signal_is_a_negative_code(tmp_path: Path) -> None:
-    finished = run(["sh", "-c", "kill -SEGV $$"], cwd=tmp_path, limits=ProcessLimits(30))
+    finished = run(["sh", "-c", "kill -SEGV $$"], cwd=tmp_path, limits=ProcessLimits(300))
     assert (finished.ended, finished.code) == (ProcessEnd.EXITED, -signal.SIGSEGV)
 
 
 def test_broken_utf8_is_replaced(tmp_path: Path) -> None:
-    finished = run(["printf", r"caf\351 \303\251"], cwd=tmp_path, limits=ProcessLimits(3))
+    finished = run(["printf", r"caf\351 \303\251"], cwd=tmp_path, limits=ProcessLimits(30))
     assert finished.stdout == "caf� é"
 
 
 def test_standard_input_is_empty(tmp_path: Path) -> None:
-    finished = run(["cat"], cwd=tmp_path, limits=ProcessLimits(3))
+    finished = run(["cat"], cwd=tmp_path, limits=ProcessLimits(30))
     assert (finished.ended, finished.code, finished.stdout) == (ProcessEnd.EXITED, 0, "")
 
 
 def test_environment_is_the_given_one(tmp_path: Path) -> None:
     env = {"PATH": os.environ["PATH"], "VALUE": "a b\nc", "LARGE": "x" * 100_000}
-    finished = run(["env", "-0"], cwd=tmp_path, limits=ProcessLimits(3), env=env)
+    finished = run(["env", "-0"], cwd=tmp_path, limits=ProcessLimits(30), env=env)
     assert dict(line.split("=", 1) for line in finished.stdout.split("\0") if line) == env
 
 
 def test_environment_is_ours_by_default(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("HRCPLAN_TEST_VALUE", "here")
-    finished = run(["printenv", "HRCPLAN_TEST_VALUE"], cwd=tmp_path, limits=ProcessLimits(3))
+    finished = run(["printenv", "HRCPLAN_TEST_VALUE"], cwd=tmp_path, limits=ProcessLimits(30))
     assert finished.stdout == "here\n"
 
 
 def test_program_leads_a_session_of_its_own(tmp_path: Path) -> None:
     script = "import os; print(os.getpid() == os.getsid(0) == os.getpgrp(), os.getsid(0))"
-    finished = run([*PYTHON, "-c", script], cwd=tmp_path, limits=ProcessLimits(3))
+    finished = run([*PYTHON, "-c", script], cwd=tmp_path, limits=ProcessLimits(30))
     leads, session = finished.stdout.split()
     assert leads == "True"
     assert int(session) != os.getsid(0)
 
 
 def test_program_has_no_foreign_files_open_and_default_signals(tmp_path: Path) -> None:
-    finished = run(["ls", "/proc/self/fd"], cwd=tmp_path, limits=ProcessLimits(3))
+    finished = run(["ls", "/proc/self/fd"], cwd=tmp_path, limits=ProcessLimits(30))
     assert finished.stdout.split() == ["0", "1", "2", "3"]  # 3 is the folder that ls reads
-    finished = run(["grep", "SigIgn", "/proc/self/status"], cwd=tmp_path, limits=ProcessLimits(3))
+    finished = run(["grep", "SigIgn", "/proc/self/status"], cwd=tmp_path, limits=ProcessLimits(30))
     assert int(finished.stdout.split()[1], 16) == 0
 
 
 @pytest.mark.parametrize("name", ["no-such-planner", "./no-such-planner", "./plain", "/"])
 def test_program_that_cannot_run_is_missing(tmp_path: Path, name: str) -> None:
     (tmp_path / "plain").write_text("not executable")
-    finished = run([name], cwd=tmp_path, limits=ProcessLimits(3))
+    finished = run([name], cwd=tmp_path, limits=ProcessLimits(30))
     assert (finished.ended, finished.code, finished.stdout) == (ProcessEnd.MISSING, None, "")
     assert finished.stderr in {"No such file or directory", "Permission denied"}
 
 
 def test_wrong_arguments_are_refused(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="no program"):
-        run([], cwd=tmp_path, limits=ProcessLimits(3))
+        run([], cwd=tmp_path, limits=ProcessLimits(30))
     with pytest.raises(FileNotFoundError):
-        run(["true"], cwd=tmp_path / "nowhere", limits=ProcessLimits(3))
+        run(["true"], cwd=tmp_path / "nowhere", limits=ProcessLimits(30))
     for limits in ({"time_s": float("nan")}, {"time_s": 1, "output_bytes": -1}):
         with pytest.raises(ValueError, match="not a limit"):
             ProcessLimits(**limits)
 
 
 def test_program_that_hangs_times_out_with_its_plan(call: Call) -> None:
-    finished = call("hang.py", time_s=0.4)
+    finished = call("hang.py", time_s=1.5)
     assert (finished.ended, finished.code, finished.stdout) == (
         ProcessEnd.TIMEOUT,
         None,
         "plan 1\n",
     )
-    assert 0.4 <= finished.wall_s < 1.4
+    assert 1.5 <= finished.wall_s < 30  # it hangs for 60
 
 
 def test_no_time_at_all_is_a_timeout(call: Call) -> None:
@@ -180,20 +180,20 @@ def test_no_time_at_all_is_a_timeout(call: Call) -> None:
 
 
 def test_program_that_ignores_signals_is_killed(call: Call) -> None:
-    finished = call("stubborn.py", time_s=0.4)
+    finished = call("stubborn.py", time_s=1.5)
     assert (finished.ended, finished.stdout) == (ProcessEnd.TIMEOUT, "not listening\n")
-    assert 0.7 <= finished.wall_s < 1.7
+    assert 1.8 <= finished.wall_s < 30
 
 
 def test_last_words_after_the_time_limit_are_kept(call: Call) -> None:
-    finished = call("polite.py", time_s=0.4)
+    finished = call("polite.py", time_s=1.5)
     assert (finished.ended, finished.stderr) == (ProcessEnd.TIMEOUT, "last plan\n")
 
 
 def test_background_child_goes_when_the_program_exits(call: Call) -> None:
     finished = call("abandon.sh")
     assert (finished.ended, finished.code, finished.stdout) == (ProcessEnd.EXITED, 0, "done\n")
-    assert finished.wall_s < 1
+    assert finished.wall_s < 25
 
 
 def test_daemon_goes_when_the_program_exits(call: Call) -> None:
@@ -206,13 +206,13 @@ def test_daemon_goes_when_the_program_exits(call: Call) -> None:
 
 
 def test_daemon_goes_at_the_time_limit(call: Call) -> None:
-    assert call("daemon.py", "hang", time_s=0.4).ended is ProcessEnd.TIMEOUT
+    assert call("daemon.py", "hang", time_s=1.5).ended is ProcessEnd.TIMEOUT
 
 
 def test_process_that_keeps_changing_is_caught(call: Call) -> None:
     finished = call("relay.py")
     assert (finished.ended, finished.code) == (ProcessEnd.EXITED, 0)
-    assert finished.wall_s < 2
+    assert finished.wall_s < 25
 
 
 @pytest.mark.parametrize("stream", [1, 2])
@@ -222,19 +222,19 @@ def test_flood_is_cut(call: Call, stream: int) -> None:
     outputs = [finished.stdout, finished.stderr]
     assert outputs.pop(stream - 1) == "x" * 1_000_000
     assert outputs == [""]
-    assert finished.wall_s < 1
+    assert finished.wall_s < 25
 
 
 @pytest.mark.parametrize(("room", "ended"), [(5, ProcessEnd.EXITED), (4, ProcessEnd.OUTPUT)])
 def test_output_limit_is_exact(tmp_path: Path, room: int, ended: ProcessEnd) -> None:
-    limits = ProcessLimits(3, output_bytes=room)
+    limits = ProcessLimits(30, output_bytes=room)
     finished = run(["sh", "-c", "printf abc; printf de >&2"], cwd=tmp_path, limits=limits)
     assert finished.ended is ended
     assert len(finished.stdout + finished.stderr) == room
 
 
 def test_large_output_is_complete(tmp_path: Path) -> None:
-    finished = run(["seq", "400000"], cwd=tmp_path, limits=ProcessLimits(3))
+    finished = run(["seq", "400000"], cwd=tmp_path, limits=ProcessLimits(30))
     assert finished.stdout == "".join(f"{number}\n" for number in range(1, 400001))
 
 
@@ -242,18 +242,18 @@ def test_large_output_is_complete(tmp_path: Path) -> None:
 def test_memory_counts_in_every_generation(call: Call, generations: int) -> None:
     finished = call("eat.py", 200, generations, memory_bytes=100 << 20)
     assert (finished.ended, finished.code) == (ProcessEnd.MEMORY, None)
-    assert finished.wall_s < 1.5
+    assert finished.wall_s < 25
 
 
 def test_memory_of_several_processes_adds_up(marker: str, tmp_path: Path) -> None:
     eat = f"{' '.join(PYTHON)} {HOSTILE / 'eat.py'} 40 0 {marker}"
-    limits = ProcessLimits(3, memory_bytes=100 << 20)
+    limits = ProcessLimits(30, memory_bytes=100 << 20)
     finished = run(["sh", "-c", f"{eat} & {eat} & {eat} & wait"], cwd=tmp_path, limits=limits)
     assert finished.ended is ProcessEnd.MEMORY
 
 
 def test_memory_below_the_limit_is_left_alone(call: Call) -> None:
-    finished = call("eat.py", 40, 0, time_s=0.5, memory_bytes=100 << 20)
+    finished = call("eat.py", 40, 0, time_s=1.5, memory_bytes=100 << 20)
     assert (finished.ended, finished.stdout) == (ProcessEnd.TIMEOUT, "full\n")
 
 
@@ -279,19 +279,19 @@ def test_guard_that_never_works_is_lost(tmp_path: Path, monkeypatch: pytest.Monk
     false = shutil.which("false")
     monkeypatch.setattr(sys, "executable", false)
     env = {"LARGE": "x" * 1_000_000}
-    finished = run(["true"], cwd=tmp_path, limits=ProcessLimits(3), env=env)
+    finished = run(["true"], cwd=tmp_path, limits=ProcessLimits(30), env=env)
     assert (finished.ended, finished.code) == (ProcessEnd.EXITED, -signal.SIGKILL)
 
 
 def test_guard_is_not_ended_by_the_program(tmp_path: Path) -> None:
     script = "kill -TERM $PPID; kill -INT $PPID; kill -HUP $PPID; exit 5"
-    assert run(["sh", "-c", script], cwd=tmp_path, limits=ProcessLimits(3)).code == 5
+    assert run(["sh", "-c", script], cwd=tmp_path, limits=ProcessLimits(30)).code == 5
 
 
 def test_exit_code_survives_ignored_child_signals(tmp_path: Path) -> None:
     before = signal.signal(signal.SIGCHLD, signal.SIG_IGN)
     try:
-        assert run(["sh", "-c", "exit 7"], cwd=tmp_path, limits=ProcessLimits(3)).code == 7
+        assert run(["sh", "-c", "exit 7"], cwd=tmp_path, limits=ProcessLimits(30)).code == 7
     finally:
         signal.signal(signal.SIGCHLD, before)
 
@@ -300,7 +300,7 @@ def test_crash_leaves_no_core_file(tmp_path: Path) -> None:
     soft, hard = resource.getrlimit(resource.RLIMIT_CORE)
     resource.setrlimit(resource.RLIMIT_CORE, (hard, hard))
     try:
-        finished = run(["sh", "-c", "ulimit -c"], cwd=tmp_path, limits=ProcessLimits(3))
+        finished = run(["sh", "-c", "ulimit -c"], cwd=tmp_path, limits=ProcessLimits(30))
     finally:
         resource.setrlimit(resource.RLIMIT_CORE, (soft, hard))
     assert finished.stdout == "0\n"
@@ -316,10 +316,10 @@ def test_two_at_once_from_threads(call: Call) -> None:
 
 
 def test_many_calls_leave_nothing(marker: str, tmp_path: Path) -> None:
-    run(["true", marker], cwd=tmp_path, limits=ProcessLimits(3))
+    run(["true", marker], cwd=tmp_path, limits=ProcessLimits(30))
     files, before = os.listdir("/proc/self/fd"), children(os.getpid())
     for _ in range(50):
-        assert run(["true", marker], cwd=tmp_path, limits=ProcessLimits(3)).code == 0
+        assert run(["true", marker], cwd=tmp_path, limits=ProcessLimits(30)).code == 0
     assert os.listdir("/proc/self/fd") == files
     assert children(os.getpid()) == before
 
