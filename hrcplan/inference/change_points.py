@@ -95,7 +95,7 @@ class ChangePoints:
         weights[0, 0] = self.likelihoods[0]
         for t in range(1, n_steps):
             weights[t] = weights[t - 1]
-            weights[t, 1:] += _moved(weights[t - 1, :-1])
+            weights[t, 1:] += _after_change(weights[t - 1, :-1])
             weights[t] *= self.likelihoods[t]
             weights[t] /= weights[t].max() or 1.0
         return weights
@@ -111,7 +111,7 @@ class ChangePoints:
         ahead[n] = self.likelihoods[-1]
         for t in range(self.n_steps - 1, 0, -1):
             behind = ahead.copy()
-            behind[:-1] += _moved(ahead[1:])
+            behind[:-1] += _after_change(ahead[1:])
             following[t] = ahead / (float((self._forward[t - 1] * behind).sum()) or 1.0)
             ahead = behind / (behind.max() or 1.0) * self.likelihoods[t - 1]
         return following
@@ -128,11 +128,11 @@ class ChangePoints:
         return places / (places.sum() or 1.0), goals
 
 
-def _moved(weights: Floats) -> Floats:
+def _after_change(weights: Floats) -> Floats:
     """Return weights after a change of goal to one of the others, which are the last axis."""
     others = weights.sum(axis=-1, keepdims=True) - weights
-    moved: Floats = np.maximum(others, 0.0) / max(1, weights.shape[-1] - 1)
-    return moved
+    after: Floats = np.maximum(others, 0.0) / max(1, weights.shape[-1] - 1)
+    return after
 
 
 def _middle_mode(places: Floats) -> int:

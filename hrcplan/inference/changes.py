@@ -27,12 +27,12 @@ class FilterState:
     """The filter after some human steps.
 
     ``weights[m, k, g]`` is the probability of rate m, k changes so far (the last entry: it will not
-    change any more) and goal g. ``unchanged`` is the part of it in which nothing has changed since
+    change any more) and goal g. ``no_change`` is the part of it in which nothing has changed since
     the last declared change. ``likelihood[m, g]`` is that of the last human step; None before any.
     """
 
     weights: Floats
-    unchanged: Floats
+    no_change: Floats
     likelihood: Floats | None = None
     n_declared: int = 0
 
@@ -65,26 +65,29 @@ class ChangeFilter:
 
     def step(self, before: FilterState, likelihood: Floats) -> FilterState:
         """Return the filter after a human step with this likelihood, by rate and goal."""
-        weights, unchanged = before.weights, before.unchanged
+        weights, no_change = before.weights, before.no_change
         if before.likelihood is not None:
-            weights, unchanged = self._changed(weights), self._kept(unchanged)
+            weights, no_change = self._after_hazard(weights), self._without_change(no_change)
         weights = weights * likelihood[:, None, :]
         total = max(float(weights.sum()), _TINY)
         weights /= total
-        unchanged = unchanged * likelihood[:, None, :] / total
-        declared = 1 - float(unchanged.sum()) > DECLARED
+        no_change = no_change * likelihood[:, None, :] / total
+        is_declared = 1 - float(no_change.sum()) > DECLARED
         return FilterState(
-            weights, weights if declared else unchanged, likelihood, before.n_declared + declared
+            weights,
+            weights if is_declared else no_change,
+            likelihood,
+            before.n_declared + is_declared,
         )
 
-    def _kept(self, weights: Floats) -> Floats:
-        kept = weights * (1 - self.hazard)
-        kept[:, -1] = weights[:, -1]
-        return kept
+    def _without_change(self, weights: Floats) -> Floats:
+        weights_after = weights * (1 - self.hazard)
+        weights_after[:, -1] = weights[:, -1]
+        return weights_after
 
-    def _changed(self, weights: Floats) -> Floats:
+    def _after_hazard(self, weights: Floats) -> Floats:
         """Return the weights once the goal has, or has not, changed."""
-        weights_after = self._kept(weights)
+        weights_after = self._without_change(weights)
         if self.n_goals > 1:
             moving = weights[:, :-1] * (self.hazard / (self.n_goals - 1))
             moving = moving.sum(axis=2, keepdims=True) - moving
@@ -94,9 +97,9 @@ class ChangeFilter:
             weights_after[:, -2] += moving[:, -1]
         return weights_after
 
-    def goals(self, filtered: FilterState) -> Floats:
+    def goals(self, state: FilterState) -> Floats:
         """Return the probability of each goal."""
-        probabilities: Floats = filtered.weights.sum(axis=(0, 1))
+        probabilities: Floats = state.weights.sum(axis=(0, 1))
         return probabilities
 
 
@@ -107,7 +110,7 @@ class _HumanStep(Protocol):
     def is_human(self) -> bool: ...
 
     @property
-    def filtered(self) -> FilterState: ...
+    def filter_state(self) -> FilterState: ...
 
 
 def change_points(states: Sequence[_HumanStep]) -> tuple[list[int], ChangePoints]:
@@ -119,12 +122,14 @@ def change_points(states: Sequence[_HumanStep]) -> tuple[list[int], ChangePoints
     Args:
         states: The belief after each observation, in order.
     """
-    seen = {
+    likelihoods = {
         at: likelihood
         for at, state in enumerate(states)
-        if state.is_human and (likelihood := state.filtered.likelihood) is not None
+        if state.is_human and (likelihood := state.filter_state.likelihood) is not None
     }
-    return list(seen), ChangePoints(np.array(list(seen.values()) or [np.ones((1, 1))]))
+    return list(likelihoods), ChangePoints(
+        np.array(list(likelihoods.values()) or [np.ones((1, 1))])
+    )
 
 
 def changes_before(states: Sequence[_HumanStep]) -> tuple[GoalChange, ...]:

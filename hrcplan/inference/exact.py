@@ -72,33 +72,33 @@ class ExactBelief:
 
     def observe(self, state: ExactState, step: int, *, robot: bool = False) -> ExactState:
         """Return the belief after one more step; the robot's own steps are no evidence."""
-        followed = self.tracker.follow(state.progress, step)
-        if followed is None:
+        move = self.tracker.follow(state.progress, step)
+        if move is None:
             return replace(state, ignored=IMPOSSIBLE)
-        moved, seen = followed
+        progress, evidence = move
         if robot:
-            return ExactState(moved, state.scores)
-        if not len(seen.goals):
-            return ExactState(moved, state.scores, UNEXPLAINED)
-        return ExactState(moved, state.scores + self.log_likelihood(seen))
+            return ExactState(progress, state.scores)
+        if not len(evidence.goals):
+            return ExactState(progress, state.scores, UNEXPLAINED)
+        return ExactState(progress, state.scores + self.log_likelihood(evidence))
 
     def observe_wait(self, state: ExactState) -> ExactState:
         """Return the belief after a wait of the agent whose turn it is, where agents take turns."""
-        followed = self.tracker.wait(state.progress)
-        if followed is None:
+        move = self.tracker.wait(state.progress)
+        if move is None:
             return state
-        moved, seen = followed
-        if self.tracker.is_robots_turn(state.progress) or not len(seen.goals):
-            return ExactState(moved, state.scores)
-        return ExactState(moved, state.scores + self.log_likelihood(seen))
+        progress, evidence = move
+        if self.tracker.is_robots_turn(state.progress) or not len(evidence.goals):
+            return ExactState(progress, state.scores)
+        return ExactState(progress, state.scores + self.log_likelihood(evidence))
 
-    def log_likelihood(self, seen: Evidence) -> Floats:
+    def log_likelihood(self, evidence: Evidence) -> Floats:
         """Return the log likelihood of a step under each goal."""
-        if seen.log_odds is None:
-            log_likelihood = self._mistakes.take(seen.n_doable - seen.n_next)
+        if evidence.log_odds is None:
+            log_likelihood = self._mistakes.take(evidence.n_doable - evidence.n_next)
         else:
-            log_likelihood = self._wrong + np.maximum(seen.log_odds, IMPROBABLE)
-        log_likelihood[seen.goals] = self._right + seen.log_shares
+            log_likelihood = self._wrong + np.maximum(evidence.log_odds, IMPROBABLE)
+        log_likelihood[evidence.goals] = self._right + evidence.log_shares
         return log_likelihood
 
     def posterior(self, state: ExactState) -> Floats:

@@ -71,7 +71,7 @@ def _no_action(value: Hashable, what: str) -> UsageError:
 
 
 def check_observations(
-    observed: Sequence[ObservedWords], goals: Goals, path: str | None = None
+    observations: Sequence[ObservedWords], goals: Goals, path: str | None = None
 ) -> None:
     """Check that observations speak of actions at all.
 
@@ -79,11 +79,11 @@ def check_observations(
         InputError: if none of them has the name of an action.
     """
     names = _action_names(goals)
-    named = [words for words in observed if words]
-    if not named or any(words[0] in names for words in named):
+    lines = [words for words in observations if words]
+    if not lines or any(words[0] in names for words in lines):
         return
-    if _is_fact(named[0], goals):
-        what = cut(" ".join(named[0]), 80)
+    if _is_fact(lines[0], goals):
+        what = cut(" ".join(lines[0]), 80)
         message = f"the observations are facts such as ({what}), not actions"
     else:
         message = f"no observation is an action of domain {quote(goals.problem.domain.name)}"
@@ -102,10 +102,10 @@ def _is_fact(words: ObservedWords, goals: Goals) -> bool:
 
 
 @dataclass(frozen=True, slots=True)
-class Resolved:
-    """A step, and whether the robot did it."""
+class ObservedStep:
+    """A step, as its index, and whether the robot did it."""
 
-    step: int
+    index: int
     robot: bool
 
 
@@ -122,19 +122,19 @@ class Resolver:
         self.aliases = goals.aliases or {}
         self.robots = robots(goals.problem)
         self.agents = frozenset(goals.problem.agents)
-        self._named: dict[tuple[str, ...], list[int]] = {}
+        self._steps_by_name: dict[tuple[str, ...], list[int]] = {}
         for step in range(len(table)):
-            self._named.setdefault(table[step].name, []).append(step)
+            self._steps_by_name.setdefault(table[step].name, []).append(step)
 
     @property
     def note(self) -> str | None:
         """Which actions are declared more than once; None if none is."""
         if not self.aliases:
             return None
-        names = ", ".join(f"{name} ({len(given)})" for name, given in self.aliases.items())
+        names = ", ".join(f"{name} ({len(steps)})" for name, steps in self.aliases.items())
         return f"actions are declared more than once, and the applicable one is meant: {names}"
 
-    def find(self, words: tuple[str, ...], world: int) -> Resolved | str:
+    def find(self, words: tuple[str, ...], world: int) -> ObservedStep | str:
         """Return the step and whether the robot did it, or why there is none.
 
         Where words fit several steps, it is the first that can be done in ``world``.
@@ -149,21 +149,21 @@ class Resolver:
         if not steps:
             return self._why_not(words)
         can = (step for step in steps if self.table.successor(world, step) is not None)
-        return Resolved(next(can, steps[0]), by_robot)
+        return ObservedStep(next(can, steps[0]), by_robot)
 
     def _without_agent(self, words: tuple[str, ...]) -> list[int]:
         """Return the steps of this name, those of the human first, where no agent is named."""
         if self.agents.intersection(words):
             return []
-        steps = self._named.get(words, [])
+        steps = self._steps_by_name.get(words, [])
         return sorted(steps, key=lambda step: not self.robots.isdisjoint(self.table[step].words))
 
     def _why_not(self, words: tuple[str, ...]) -> str:
-        known = _action_names(self.goals)
+        names = _action_names(self.goals)
         if _is_fact(words, self.goals):
             return "this is a fact, not an action"
-        if words[0] not in known:
-            hint = nearest(words[0], sorted(known))
+        if words[0] not in names:
+            hint = nearest(words[0], sorted(names))
             return f"there is no action '{words[0]}'" + (f" ({hint})" if hint else "")
         for word in words[1:]:
             if word not in self.problem.all_objects:

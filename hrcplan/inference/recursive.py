@@ -21,7 +21,7 @@ RATIO = 3.0
 class Likelihood(Protocol):
     """How likely a human step is under each goal."""
 
-    def __call__(self, tracker: ProgressTracker, step: int, seen: Evidence) -> Floats:
+    def __call__(self, tracker: ProgressTracker, step: int, evidence: Evidence) -> Floats:
         """Return the likelihood by goal."""
         ...
 
@@ -35,7 +35,7 @@ class Needed:
 
     epsilon: float = EPSILON
 
-    def __call__(self, tracker: ProgressTracker, step: int, seen: Evidence) -> Floats:
+    def __call__(self, tracker: ProgressTracker, step: int, evidence: Evidence) -> Floats:
         """Return the likelihood by goal."""
         needs = tracker.combined.needs
         sizes = needs.sum(axis=1)
@@ -53,7 +53,7 @@ class Attractor:
 
     ratio: float = RATIO
 
-    def __call__(self, tracker: ProgressTracker, step: int, seen: Evidence) -> Floats:
+    def __call__(self, tracker: ProgressTracker, step: int, evidence: Evidence) -> Floats:
         """Return the likelihood by goal."""
         needs = tracker.combined.needs
         weights = np.where(needs, self.ratio, 1.0)
@@ -67,10 +67,10 @@ class Next:
 
     epsilon: float = EPSILON
 
-    def __call__(self, tracker: ProgressTracker, step: int, seen: Evidence) -> Floats:
+    def __call__(self, tracker: ProgressTracker, step: int, evidence: Evidence) -> Floats:
         """Return the likelihood by goal."""
-        likelihood: Floats = self.epsilon / np.maximum(1, seen.n_doable - seen.n_next)
-        likelihood[seen.goals] = (1 - self.epsilon) / seen.n_next[seen.goals]
+        likelihood: Floats = self.epsilon / np.maximum(1, evidence.n_doable - evidence.n_next)
+        likelihood[evidence.goals] = (1 - self.epsilon) / evidence.n_next[evidence.goals]
         return likelihood
 
 
@@ -122,18 +122,18 @@ class RecursiveBelief:
 
     def observe(self, state: RecursiveState, step: int, *, robot: bool = False) -> RecursiveState:
         """Return the belief after one more step; the robot's own steps are no evidence."""
-        followed = self.tracker.follow(state.progress, step)
-        if followed is None:
+        move = self.tracker.follow(state.progress, step)
+        if move is None:
             return replace(state, ignored=IMPOSSIBLE)
-        moved, seen = followed
+        progress, evidence = move
         if robot:
-            return replace(state, progress=moved, ignored=None)
+            return replace(state, progress=progress, ignored=None)
         weights = state.weights
         if state.n_human:
             others = (weights.sum() - weights) / max(1, len(weights) - 1)
             weights = self.stay * weights + (1 - self.stay) * others
-        weights = weights * self.likelihood(self.tracker, step, seen)
-        return RecursiveState(moved, weights / weights.sum(), state.n_human + 1)
+        weights = weights * self.likelihood(self.tracker, step, evidence)
+        return RecursiveState(progress, weights / weights.sum(), state.n_human + 1)
 
     def posterior(self, state: RecursiveState) -> Floats:
         """Return the probability of each goal, in order."""

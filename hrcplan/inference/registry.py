@@ -25,5 +25,5 @@ METHODS: Registry[..., Belief[Any]] = Registry(
 
 def takes_goals(kind: Callable[..., Belief[Any]]) -> bool:
     """Return whether a class of beliefs is made from `Goals`, not from a `Bank`."""
-    declared: Hashable = kind
-    return isinstance(declared, MadeFromGoals) and declared.takes_goals
+    factory: Hashable = kind
+    return isinstance(factory, MadeFromGoals) and factory.takes_goals

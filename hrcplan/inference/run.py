@@ -72,9 +72,9 @@ class Inference:
     def __repr__(self) -> str:
         row = self.posterior[-1]
         best = max(range(len(row)), key=row.__getitem__)
-        seen = f"{plural(len(self.actions), 'action')}, {plural(len(self.changes), 'change')}"
+        size = f"{plural(len(self.actions), 'action')}, {plural(len(self.changes), 'change')}"
         goal = f"{row[best]:.0%} {cut(self.goals[best], 80)}"
-        return f"<Inference by {cut(self.method, 40)}: {seen}, now {goal}>"
+        return f"<Inference by {cut(self.method, 40)}: {size}, now {goal}>"
 
     def _repr_html_(self) -> str:
         """Return the posterior as a picture: the goals that were likeliest over all steps."""
@@ -150,19 +150,19 @@ def infer(
     >>> infer(build_bank("kitchen", only=["pasta-bean", "pasta-tomato"]), ["(get human beans)"])
     <Inference by switching: 1 action, 0 changes, now 98% pasta-bean>
     """
-    loaded, observed_in_folder = _load(source)
-    goals = loaded.goals if isinstance(loaded, Bank) else loaded
+    bank_or_goals, observed_in_folder = _load(source)
+    goals = bank_or_goals.goals if isinstance(bank_or_goals, Bank) else bank_or_goals
     words = observed_in_folder if actions is None else observed_words(actions, goals.problem)
     if words is None:
         hint = "a file with one action a line"
         raise InputError("no observed actions are given", code="no-actions", hint=hint)
     check_observations(words, goals, _path_of(source if actions is None else actions))
-    name = method or (BANK_METHOD if isinstance(loaded, Bank) else GOALS_METHOD)
+    name = method or (BANK_METHOD if isinstance(bank_or_goals, Bank) else GOALS_METHOD)
     kind = METHODS.find(name)
     if takes_goals(kind):
         belief = METHODS.make(name, goals, **options)
         return run(belief, Resolver(steps_of(belief, StepTable(goals.task)), goals), words, name)
-    bank = loaded if isinstance(loaded, Bank) else _built(loaded)
+    bank = bank_or_goals if isinstance(bank_or_goals, Bank) else _bank_of(bank_or_goals)
     belief = METHODS.make(name, bank, **options)
     return run(belief, Resolver(steps_of(belief, bank.table), bank.goals), words, name)
 
@@ -192,27 +192,27 @@ class _HasTable(Protocol):
 
 
 def run(
-    belief: Belief[S], resolver: Resolver, observed: Sequence[ObservedWords], method: str
+    belief: Belief[S], resolver: Resolver, observations: Sequence[ObservedWords], method: str
 ) -> Inference:
     """Return the posterior of a belief after each of several observed actions."""
     states = [belief.start()]
     ignored: list[Ignored] = []
-    for at, words in enumerate(observed):
-        resolved = resolver.find(words, states[-1].world)
+    for at, words in enumerate(observations):
+        step = resolver.find(words, states[-1].world)
         action = f"({' '.join(words)})"
-        if isinstance(resolved, str):
+        if isinstance(step, str):
             states.append(states[-1])
-            ignored.append(Ignored(at, action, resolved))
+            ignored.append(Ignored(at, action, step))
             continue
-        states.append(belief.observe(states[-1], resolved.step, robot=resolved.robot))
+        states.append(belief.observe(states[-1], step.index, robot=step.robot))
         if states[-1].ignored is not None:
             ignored.append(Ignored(at, action, states[-1].ignored))
-    places = [at for at in range(len(observed)) if at not in {i.at for i in ignored}]
+    places = [at for at in range(len(observations)) if at not in {i.at for i in ignored}]
     effective = [states[at + 1] for at in places]
     changes = belief.changes(effective) if isinstance(belief, DetectsChanges) else ()
     return Inference(
         tuple(belief.names),
-        tuple(f"({' '.join(words)})" for words in observed),
+        tuple(f"({' '.join(words)})" for words in observations),
         tuple(tuple(belief.posterior(state).tolist()) for state in states),
         tuple(change.moved(places) for change in changes),
         tuple(ignored),
@@ -249,7 +249,7 @@ def _load(
     return load(path), None
 
 
-def _built(goals: Goals) -> Bank:
+def _bank_of(goals: Goals) -> Bank:
     try:
         return build(goals, timeout_s=BUILD_S)
     except LimitError as error:

@@ -34,7 +34,7 @@ class SwitchingState:
     """
 
     progress: Progress
-    filtered: FilterState
+    filter_state: FilterState
     is_human: bool = False
     ignored: str | None = None
 
@@ -46,7 +46,7 @@ class SwitchingState:
     @property
     def n_declared(self) -> int:
         """How many changes of goal were declared so far."""
-        return self.filtered.n_declared
+        return self.filter_state.n_declared
 
 
 class SwitchingBelief:
@@ -89,39 +89,39 @@ class SwitchingBelief:
 
     def observe(self, state: SwitchingState, step: int, *, robot: bool = False) -> SwitchingState:
         """Return the belief after one more step; the robot's own steps are no evidence."""
-        followed = self.tracker.follow(state.progress, step)
-        if followed is None:
+        move = self.tracker.follow(state.progress, step)
+        if move is None:
             return replace(state, is_human=False, ignored=IMPOSSIBLE)
-        moved, seen = followed
+        progress, evidence = move
         if robot:
-            return SwitchingState(moved, state.filtered)
-        filtered = self.filter.step(state.filtered, self.likelihood(seen))
-        return SwitchingState(moved, filtered, is_human=True)
+            return SwitchingState(progress, state.filter_state)
+        filter_state = self.filter.step(state.filter_state, self.likelihood(evidence))
+        return SwitchingState(progress, filter_state, is_human=True)
 
     def observe_wait(self, state: SwitchingState) -> SwitchingState:
         """Return the belief after a wait of the agent whose turn it is, where agents take turns."""
-        followed = self.tracker.wait(state.progress)
-        if followed is None:
+        move = self.tracker.wait(state.progress)
+        if move is None:
             return state
-        moved, seen = followed
+        progress, evidence = move
         if self.tracker.is_robots_turn(state.progress):
-            return SwitchingState(moved, state.filtered)
-        filtered = self.filter.step(state.filtered, self.likelihood(seen))
-        return SwitchingState(moved, filtered, is_human=True)
+            return SwitchingState(progress, state.filter_state)
+        filter_state = self.filter.step(state.filter_state, self.likelihood(evidence))
+        return SwitchingState(progress, filter_state, is_human=True)
 
-    def likelihood(self, seen: Evidence) -> Floats:
+    def likelihood(self, evidence: Evidence) -> Floats:
         """Return the likelihood of a step, by mistake rate and goal."""
         likelihood: Floats = (
-            self.rates / np.maximum(1, seen.n_doable - seen.n_next)
-            if seen.log_odds is None
-            else self.rates * np.maximum(np.exp(seen.log_odds), IMPROBABLE)
+            self.rates / np.maximum(1, evidence.n_doable - evidence.n_next)
+            if evidence.log_odds is None
+            else self.rates * np.maximum(np.exp(evidence.log_odds), IMPROBABLE)
         )
-        likelihood[:, seen.goals] = (1 - self.rates) / seen.n_next[seen.goals]
+        likelihood[:, evidence.goals] = (1 - self.rates) / evidence.n_next[evidence.goals]
         return likelihood
 
     def posterior(self, state: SwitchingState) -> Floats:
         """Return the probability of each goal, in order."""
-        return weights_to_posterior(self.filter.goals(state.filtered))
+        return weights_to_posterior(self.filter.goals(state.filter_state))
 
     def changes(self, states: Sequence[SwitchingState]) -> tuple[GoalChange, ...]:
         """Return the changes that are probable given all observations.

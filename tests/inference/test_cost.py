@@ -168,8 +168,8 @@ def test_action_names_that_are_declared_twice(instances):
     for step, world in zip(steps, worlds, strict=True):
         found = resolver.find((name,), world)
         assert not isinstance(found, str)
-        assert belief.steps.successor(world, found.step) is not None
-        assert found.step <= step
+        assert belief.steps.successor(world, found.index) is not None
+        assert found.index <= step
 
 
 def test_places_are_values(workshop):

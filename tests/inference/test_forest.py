@@ -105,7 +105,7 @@ def test_many_rows_are_posteriors_and_only_some_are_remembered(forest):
     found = forest.posteriors(rows)
     assert found[0].tolist() == found[1].tolist()
     assert found[2].tolist() == [1 / MEALS] * MEALS
-    assert len(forest._known) == MAX_KNOWN
+    assert len(forest._memo) == MAX_KNOWN
     assert found.sum(axis=1) == pytest.approx(np.ones(len(rows)))
     assert forest.posteriors(rows).tolist() == found.tolist()
     with pytest.raises(UsageError, match="labels"):

@@ -68,12 +68,12 @@ def test_two_boxes_are_shared_until_the_human_is_too_tired(two_boxes: Task) -> N
 def test_replans_share_the_graph_and_agree_with_a_new_planner(two_boxes: Task) -> None:
     planner = ExactPlanner()
     planner.replan(two_boxes)
-    assert len(planner._kept) == 1
-    known = planner._kept[0].graph
+    assert len(planner._memos) == 1
+    known = planner._memos[0].graph
     for values in ({MOTIVATION: 7}, {("capacity", "robot", "wp4"): Fraction(37, 3)}):
         changed = two_boxes.with_values(values)
         assert planner.replan(changed) == ExactPlanner().replan(changed)
-        assert planner._kept[0].graph is known
+        assert planner._memos[0].graph is known
         assert len(known.states) == 2232
 
 
@@ -91,8 +91,8 @@ def test_a_known_state_needs_no_new_graph(two_boxes: Task) -> None:
     moved = two_boxes.problem.facts - {("at", "human", "wp1")} | {("at", "human", "wp4")}
     later = at(two_boxes, moved)
     assert metric(later, proven(later, planner)) == before - 3  # the robot still has its four
-    assert len(planner._kept) == 1
-    assert len(planner._kept[0].graph.states) == 2232
+    assert len(planner._memos) == 1
+    assert len(planner._memos[0].graph.states) == 2232
 
 
 def test_a_state_out_of_reach_is_checked_and_added(two_boxes: Task) -> None:

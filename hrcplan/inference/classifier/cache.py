@@ -26,7 +26,13 @@ from hrcplan.core.array_file import HEADER_FAULTS, Arrays, Format, array, mapped
 from hrcplan.core.files import write_atomically
 from hrcplan.errors import InputError, UsageError
 from hrcplan.inference.classifier.flat_forest import FlatForest
-from hrcplan.inference.classifier.training import HELD_OUT, MIN_LEAF, MIN_SPLIT, Trained, Training
+from hrcplan.inference.classifier.training import (
+    HELD_OUT,
+    MIN_LEAF,
+    MIN_SPLIT,
+    TrainedClassifier,
+    Training,
+)
 
 VERSION = 1  # to be raised whenever the same bank and seed give another forest than before
 _FORMAT = Format(b"HRCPTREE", VERSION, "forest", "trained forest", "it may be deleted")
@@ -35,7 +41,7 @@ _PACKAGES = ("numpy", "scikit-learn")  # whose version decides which samples and
 
 Key = Mapping[str, Any]
 
-_unsaved: dict[Path, Trained] = {}
+_unsaved: dict[Path, TrainedClassifier] = {}
 """Forests that could not be written to a file; this process does not train them twice."""
 
 
@@ -49,7 +55,9 @@ def key_of(bank: Bank, seed: int, n_samples: int, n_trees: int) -> Key:
     }  # fmt: skip
 
 
-def load_or_train(folder: Path, key: Key, make: Callable[[], Trained]) -> Trained:
+def load_or_train(
+    folder: Path, key: Key, make: Callable[[], TrainedClassifier]
+) -> TrainedClassifier:
     """Return the forest of a key from its file; if there is none, train it and write the file.
 
     A file that is damaged, or of another key, is replaced. If the file cannot be written, the
@@ -70,12 +78,12 @@ def load_or_train(folder: Path, key: Key, make: Callable[[], Trained]) -> Traine
             forest, fault = _look(path, key)
             if forest is not None:
                 return forest
-        trained = make()
-        if alone and _saved(path, key, trained):
-            trained = _look(path, key)[0] or trained
+        new = make()
+        if alone and _try_save(path, key, new):
+            new = _look(path, key)[0] or new
         else:
-            _unsaved[path] = trained
-        return replace(trained, is_from_cache=False, fault=fault)
+            _unsaved[path] = new
+        return replace(new, is_from_cache=False, fault=fault)
 
 
 def path_of(folder: Path, key: Key) -> Path:
@@ -84,7 +92,7 @@ def path_of(folder: Path, key: Key) -> Path:
     return folder / f"{hashlib.sha256(text.encode()).hexdigest()[:32]}.forest"
 
 
-def load(path: Path, key: Key) -> Trained:
+def load(path: Path, key: Key) -> TrainedClassifier:
     """Return the forest in a file.
 
     Raises:
@@ -99,13 +107,13 @@ def load(path: Path, key: Key) -> Trained:
             **{name: array(body, header[name], kind) for name, kind in _ARRAYS.items()}
         )
         classes = np.array(header["classes"], dtype=np.int64)
-        return Trained(model, classes, Training(**header["training"]), is_from_cache=True)
+        return TrainedClassifier(model, classes, Training(**header["training"]), is_from_cache=True)
     except HEADER_FAULTS as error:
         message = f"'{path}' has a header that makes no sense: {error!r}"
         raise InputError(message, code="not-a-forest", path=str(path)) from None
 
 
-def _look(path: Path, key: Key) -> tuple[Trained | None, str | None]:
+def _look(path: Path, key: Key) -> tuple[TrainedClassifier | None, str | None]:
     """Return the forest, or the fault of its file; both are None if there is no file."""
     try:
         return load(path, key), None
@@ -117,14 +125,14 @@ def _look(path: Path, key: Key) -> tuple[Trained | None, str | None]:
         return None, error.message
 
 
-def _saved(path: Path, key: Key, trained: Trained) -> bool:
+def _try_save(path: Path, key: Key, forest: TrainedClassifier) -> bool:
     """Return whether a forest could be written to its file."""
-    model = trained.model
+    model = forest.model
     assert isinstance(model, FlatForest), "only forests have a file format"
     data = {"nodes": model.nodes, "leaves": model.leaves, "roots": model.roots}
     arrays = Arrays()
     header = {
-        "key": key, "classes": trained.classes.tolist(), "training": asdict(trained.training),
+        "key": key, "classes": forest.classes.tolist(), "training": asdict(forest.training),
         **{name: arrays.add(data[name], kind) for name, kind in _ARRAYS.items()},
     }  # fmt: skip
     try:
@@ -144,12 +152,12 @@ def _alone(path: Path) -> Iterator[bool]:
         yield False
         return
     try:
-        yield _locked(lock)
+        yield _try_lock(lock)
     finally:
         os.close(lock)
 
 
-def _locked(lock: int) -> bool:
+def _try_lock(lock: int) -> bool:
     try:
         fcntl.flock(lock, fcntl.LOCK_EX)
     except OSError:

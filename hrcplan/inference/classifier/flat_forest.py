@@ -77,9 +77,9 @@ class FlatForest:
         nodes[: len(leaves), 1:] = _NODE * np.arange(len(leaves))[:, None]
         inner = nodes[len(leaves) :]
         inner[:, 0] = np.concatenate([tree.feature for tree in trees])[~is_leaf]
-        left = [tree.children_left + root for tree, root in zip(trees, first, strict=True)]
+        left_child = [tree.children_left + root for tree, root in zip(trees, first, strict=True)]
         right = [tree.children_right + root for tree, root in zip(trees, first, strict=True)]
-        inner[:, 1] = begin[np.concatenate(left)[~is_leaf]]
+        inner[:, 1] = begin[np.concatenate(left_child)[~is_leaf]]
         inner[:, 2] = begin[np.concatenate(right)[~is_leaf]]
         return cls(nodes.ravel(), leaves, begin[first].astype(np.int32))
 
@@ -94,9 +94,9 @@ class FlatForest:
         return np.concatenate([np.empty((0, self.leaves.shape[1])), *parts])
 
     def _some(self, rows: Rows) -> Floats:
-        reached = self.leaves.take(self._walk(rows), axis=0).astype(np.float64)
+        leaf_means = self.leaves.take(self._walk(rows), axis=0).astype(np.float64)
         ones = np.ones((1, len(self.roots)))
-        mean: Floats = np.matmul(ones, reached)[:, 0] / len(self.roots)
+        mean: Floats = np.matmul(ones, leaf_means)[:, 0] / len(self.roots)
         return mean
 
     def _walk(self, rows: Rows) -> SmallIds:

@@ -23,7 +23,7 @@ from hrcplan.inference.classifier.training import (
     N_SAMPLES,
     N_TREES,
     Classifier,
-    Trained,
+    TrainedClassifier,
     Training,
     forest,
     train,
@@ -66,16 +66,16 @@ class ForestBelief:
         self._column = np.array(bank.table.labels, dtype=np.int64)
         self.n_labels = bank.table.n_labels
 
-        def make() -> Trained:
+        def make() -> TrainedClassifier:
             model = forest(seed, n_trees, n_jobs) if classifier is None else classifier
             return train(bank, seed, n_samples, model)
 
         folder = cache_folder() if cache is True else cache or None
         if folder is None or classifier is not None:
-            self._trained = make()
+            self._training = make()
         else:
-            self._trained = load_or_train(folder, key_of(bank, seed, n_samples, n_trees), make)
-        self._known: dict[bytes, Floats] = {}
+            self._training = load_or_train(folder, key_of(bank, seed, n_samples, n_trees), make)
+        self._memo: dict[bytes, Floats] = {}
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -85,12 +85,12 @@ class ForestBelief:
     @property
     def training(self) -> Training:
         """Sample sizes, duration, and accuracy of the training."""
-        return self._trained.training
+        return self._training.training
 
     @property
     def note(self) -> str:
         """The training in words."""
-        t, origin = self.training, self._trained
+        t, origin = self.training, self._training
         text = (
             f"trained on {t.n_train} beginnings of plans in {t.train_s:.0f} s"
             f"{', and kept since' if origin.is_from_cache else ''}; "
@@ -135,17 +135,17 @@ class ForestBelief:
         """
         if rows.shape[1:] != (self.n_labels,):
             raise UsageError(f"a row has {self.n_labels} labels, not {rows.shape[1:]}")
-        known, keys = self._known, [row.tobytes() for row in rows]
-        new = {key: i for i, key in enumerate(keys) if key not in known}
+        memo, keys = self._memo, [row.tobytes() for row in rows]
+        new = {key: i for i, key in enumerate(keys) if key not in memo}
         if new:
-            known.update(zip(new, self._posteriors(rows[list(new.values())]), strict=True))
-        posteriors = np.array([known[key] for key in keys]).reshape(-1, len(self.names))
-        for key in list(islice(known, max(0, len(known) - MAX_KNOWN))):
-            del known[key]
+            memo.update(zip(new, self._posteriors(rows[list(new.values())]), strict=True))
+        posteriors = np.array([memo[key] for key in keys]).reshape(-1, len(self.names))
+        for key in list(islice(memo, max(0, len(memo) - MAX_KNOWN))):
+            del memo[key]
         return posteriors
 
     def _posteriors(self, rows: Rows) -> Floats:
         weights = np.zeros((len(rows), len(self.names)))
-        weights[:, self._trained.classes] = self._trained.model.predict_proba(rows)
+        weights[:, self._training.classes] = self._training.model.predict_proba(rows)
         weights[~rows.any(axis=1)] = 1
         return weights_to_posteriors(weights)

@@ -58,7 +58,7 @@ class Training:
 
 
 @dataclass(frozen=True, slots=True)
-class Trained:
+class TrainedClassifier:
     """A trained classifier.
 
     ``classes[c]`` is the goal of class ``c``. ``fault`` says why the file of the cache could not be
@@ -89,8 +89,8 @@ def prefixes(bank: Bank, n: int, rng: np.random.Generator) -> tuple[Rows, Ids]:
         plans = bank.sampler(goal).draw(each, rng)
         lengths = (plans >= 0).sum(axis=1)
         cut = rng.integers(1, lengths + 1)
-        kept = np.arange(plans.shape[1]) < cut[:, None]
-        where, place = np.nonzero(kept)
+        is_in_prefix = np.arange(plans.shape[1]) < cut[:, None]
+        where, place = np.nonzero(is_in_prefix)
         rows[i * each + where, column[plans[where, place]]] = 1
     goals = np.repeat(np.array(reachable), each)
     order = rng.permutation(len(rows))
@@ -108,7 +108,7 @@ def forest(seed: int, n_trees: int, n_jobs: int) -> Classifier:
     return classifier
 
 
-def train(bank: Bank, seed: int, n_samples: int, classifier: Classifier) -> Trained:
+def train(bank: Bank, seed: int, n_samples: int, classifier: Classifier) -> TrainedClassifier:
     """Return a classifier, trained on a bank and tested on held-out samples; forests are flattened.
 
     Raises:
@@ -128,6 +128,6 @@ def train(bank: Bank, seed: int, n_samples: int, classifier: Classifier) -> Trai
     all_goals = np.arange(len(bank.names))
     classes = np.asarray(classifier.classes_ if isinstance(classifier, HasClasses) else all_goals)
     right = classes[model.predict_proba(rows[:n_test]).argmax(axis=1)] == goals[:n_test]
-    return Trained(
+    return TrainedClassifier(
         model, classes, Training(len(rows) - n_test, n_test, train_s, float(right.mean()))
     )

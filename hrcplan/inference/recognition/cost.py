@@ -46,7 +46,7 @@ class CostState:
 
     world: int
     places: tuple[GoalDistance, ...]
-    filtered: FilterState
+    filter_state: FilterState
     n_observed: int = 0
     is_human: bool = False
     ignored: str | None = None
@@ -98,10 +98,10 @@ class CostBelief:
 
     def observe(self, state: CostState, step: int, *, robot: bool = False) -> CostState:
         """Return the belief after one more action; the robot's own are no evidence."""
-        done = self._done(state.world, step)
-        if done is None:
+        operators = self._operators_of(state.world, step)
+        if operators is None:
             return replace(state, is_human=False, ignored=IMPOSSIBLE)
-        *bridge, last = done
+        *bridge, last = operators
         before = state.world
         for op in bridge:
             before = self.ops[op].apply(before)
@@ -110,20 +110,20 @@ class CostBelief:
         siblings = self._siblings(before, n_observed) if not robot else []
         costs = self.distances.estimates([after, *siblings])
         order = np.argsort(-self.posterior(state), kind="stable").tolist()
-        places = self.distances.next(state.places, after, done, costs[0], order, n_observed)
+        places = self.distances.next(state.places, after, operators, costs[0], order, n_observed)
         note = state.note or self._note(places)
         n_bridged = state.n_bridged + len(bridge)
-        moved = CostState(
-            after, places, state.filtered, n_observed, not robot, n_bridged=n_bridged, note=note
+        next_state = CostState(
+            after, places, state.filter_state, n_observed, not robot, n_bridged=n_bridged, note=note
         )
         if robot:
-            return moved
-        paid = sum(self.ops[op].cost for op in done)
-        log_likelihood = self._log_likelihood(state.places, places, paid, costs[1:])
+            return next_state
+        price = sum(self.ops[op].cost for op in operators)
+        log_likelihood = self._log_likelihood(state.places, places, price, costs[1:])
         likelihood = np.exp(log_likelihood - log_likelihood.max())[None, :]
-        return replace(moved, filtered=self.filter.step(state.filtered, likelihood))
+        return replace(next_state, filter_state=self.filter.step(state.filter_state, likelihood))
 
-    def _done(self, world: int, step: int) -> list[int] | None:
+    def _operators_of(self, world: int, step: int) -> list[int] | None:
         """Return the ops that a step stands for: itself, after unobserved ones where needed."""
         ops = self._ops_of[step]
         for op in ops:
@@ -151,7 +151,7 @@ class CostBelief:
         return states[::stride]
 
     def _log_likelihood(
-        self, before: Sequence[GoalDistance], after: Sequence[GoalDistance], paid: float,
+        self, before: Sequence[GoalDistance], after: Sequence[GoalDistance], price: float,
         siblings: Sequence[Sequence[float | None]],
     ) -> Floats:  # fmt: skip
         beta = BETA / self.unit
@@ -160,17 +160,17 @@ class CostBelief:
             if old.distance is None or new.distance is None:
                 detour = MAX_DETOUR
             else:
-                detour = min(MAX_DETOUR, beta * (paid + new.distance - old.distance))
-            reached = [cost for row in siblings if (cost := row[goal]) is not None]
-            least = min(reached, default=0.0)
-            choices = sum(math.exp(beta * (least - cost)) for cost in reached) or 1.0
+                detour = min(MAX_DETOUR, beta * (price + new.distance - old.distance))
+            costs = [cost for row in siblings if (cost := row[goal]) is not None]
+            least = min(costs, default=0.0)
+            choices = sum(math.exp(beta * (least - cost)) for cost in costs) or 1.0
             log_likelihood[goal] = -detour - CHOICE * math.log(choices)
         return log_likelihood
 
     def posterior(self, state: CostState) -> Floats:
         """Return the probability of each goal, in order."""
         with np.errstate(divide="ignore"):
-            scores = np.log(self.filter.goals(state.filtered))
+            scores = np.log(self.filter.goals(state.filter_state))
         first = self._first or state.places
         progress = [_progress(a, b) for a, b in zip(first, state.places, strict=True)]
         return normalized(scores + PROGRESS * np.array(progress))

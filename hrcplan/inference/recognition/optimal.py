@@ -80,13 +80,13 @@ class Searcher:
         rule = op.simple_rule
         assert rule is not None
         mask, value, touched_facts, adds = rule
-        kept = sum(1 << p for p in self._place)
-        touched = touched_facts & kept
+        own_facts = sum(1 << p for p in self._place)
+        own_touches = touched_facts & own_facts
         effects = []
-        for p in positions(touched):
+        for p in positions(own_touches):
             before = _value(value, p) if mask >> p & 1 else -1
             effects.append(f"0 {self._place[p]} {before} {_value(adds, p)}")
-        return ["begin_operator", f"o{number}", *self._facts(mask & ~touched, value),
+        return ["begin_operator", f"o{number}", *self._facts(mask & ~own_touches, value),
                 str(len(effects)), *effects, str(op.cost), "end_operator"]  # fmt: skip
 
     def text(self, state: int) -> str:

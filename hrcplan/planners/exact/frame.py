@@ -137,7 +137,7 @@ def _outside(task: Task, action: GroundAction) -> str | None:
     """Return why an action is outside the class, None if it is inside."""
     adds = union(c.adds for c in action.at_start)
     late = union(c.deletes for c in action.at_end)
-    held = union(mask for mask, _ in action.over)
+    invariant = union(mask for mask, _ in action.over)
     if action.duration is None:
         return "has a duration that the planner may choose"
     if action.duration <= 0:
@@ -148,8 +148,8 @@ def _outside(task: Task, action: GroundAction) -> str | None:
         return "has a conditional effect"
     if adds:
         return f"adds {_first(task, adds)} at its start"
-    if late & held:
-        return f"deletes {_first(task, late & held)} at its end, which it needs until then"
+    if late & invariant:
+        return f"deletes {_first(task, late & invariant)} at its end, which it needs until then"
     return None
 
 

@@ -23,7 +23,7 @@ class Accesses(NamedTuple):
     whole: Access
 
 
-class Placed(NamedTuple):
+class Slot(NamedTuple):
     """An action of the plan: its ticks without gaps, its seconds with gaps, what it touches."""
 
     action: int
@@ -50,22 +50,22 @@ class Gaps:
     """Lays plans of one task out in time; what actions touch is remembered."""
 
     def __init__(self) -> None:
-        self._known: dict[int, Accesses] = {}
+        self._accesses: dict[int, Accesses] = {}
 
     def plan(self, task: Task, path: str, frame: StaticMasks) -> Plan:
         """Return the plan of a path, every action as early as the gaps allow."""
-        placed: list[Placed] = []
+        timeline: list[Slot] = []
         for action, tick in starts(path, frame):
             touches = self._touches(task, action)
-            start = _earliest(touches, tick, placed)
+            start = _earliest(touches, tick, timeline)
             end = start + printable(task.actions[action].duration or 0)
             last = tick + frame.ticks[action]
-            placed.append(Placed(action, tick, last, start, end, touches))
-        placed.sort(key=lambda p: (p.start_s, p.action))
-        return Plan(tuple(_planned(task, p) for p in placed))
+            timeline.append(Slot(action, tick, last, start, end, touches))
+        timeline.sort(key=lambda p: (p.start_s, p.action))
+        return Plan(tuple(_timed_action(task, p) for p in timeline))
 
     def _touches(self, task: Task, index: int) -> Accesses:
-        if index not in self._known:
+        if index not in self._accesses:
             action = task.actions[index]
             schema = task.problem.domain.action(action.name)
             binding = bind(schema, action.args, task.problem)
@@ -74,14 +74,14 @@ class Gaps:
                 access(task.problem, schema, binding, when) for when in ("start", "all", "end")
             )
             parts = zip(start, over, end, strict=True)
-            self._known[index] = Accesses(start, end, Access(*(a | b | c for a, b, c in parts)))
-        return self._known[index]
+            self._accesses[index] = Accesses(start, end, Access(*(a | b | c for a, b, c in parts)))
+        return self._accesses[index]
 
 
-def _earliest(touches: Accesses, tick: int, placed: list[Placed]) -> Number:
-    """Return the earliest start, in seconds, after whatever of ``placed`` it depends on."""
+def _earliest(touches: Accesses, tick: int, timeline: list[Slot]) -> Number:
+    """Return the earliest start, in seconds, after whatever of ``timeline`` it depends on."""
     start: Number = 0
-    for other in placed:
+    for other in timeline:
         if clash(other.touches.whole, touches.whole) is None:
             continue
         if other.end_tick <= tick:
@@ -89,7 +89,7 @@ def _earliest(touches: Accesses, tick: int, placed: list[Placed]) -> Number:
         else:
             since, event = other.start_s, other.touches.start
         start = max(start, since + (EPSILON_S if clash(event, touches.start) else 0))
-    for other in sorted(placed, key=lambda p: p.end_s):
+    for other in sorted(timeline, key=lambda p: p.end_s):
         # Starting after an end instead of just before it is always possible (see frame.py).
         near = -EPSILON_S < other.end_s - start < EPSILON_S
         if near and clash(other.touches.end, touches.start):
@@ -108,7 +108,7 @@ def printable(seconds: Number) -> Number:
     return exact(Fraction(ceil(seconds * 10**9), 10**9))
 
 
-def _planned(task: Task, placed: Placed) -> PlannedAction:
-    action = task.actions[placed.action]
-    duration = placed.end_s - placed.start_s
-    return PlannedAction(action.name, action.args, placed.start_s, duration)
+def _timed_action(task: Task, slot: Slot) -> PlannedAction:
+    action = task.actions[slot.action]
+    duration = slot.end_s - slot.start_s
+    return PlannedAction(action.name, action.args, slot.start_s, duration)

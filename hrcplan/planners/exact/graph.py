@@ -134,5 +134,5 @@ class Graph:
 
 def may_change_nothing(action: GroundAction) -> bool:
     """Return whether there may be a state in which an action can run and leaves it as it is."""
-    touched = action.adds | action.deletes
-    return any(value & touched == action.adds & mask for mask, value in action.tests)
+    change = action.adds | action.deletes
+    return any(value & change == action.adds & mask for mask, value in action.tests)

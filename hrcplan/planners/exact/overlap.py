@@ -22,17 +22,17 @@ def check_overlap(task: Task, pairs: ReachablePairs, frame: StaticMasks) -> None
     _check_late(task, pairs, frame)
     for late, agent in enumerate(frame.agents):
         running = pairs.running_at_start(late)
-        touched = frame.deletes[late] | frame.shuns[late]
-        hiding = union(adders[p] for p in positions(touched)) & running
-        hidden = union(shunners[p] for p in positions(frame.adds[late])) & running
+        change = frame.deletes[late] | frame.shuns[late]
+        hiding = union(adders[p] for p in positions(change)) & running
+        blocked_by_end = union(shunners[p] for p in positions(frame.adds[late])) & running
         for pairs_of_actions, why in (
             (lanes[agent] & running, f"both need {agent} throughout"),
             (hiding, "{fact} depends on which of them ends first"),
-            (hidden, "{fact} depends on which of them ends first"),
+            (blocked_by_end, "{fact} depends on which of them ends first"),
         ):
             if pairs_of_actions:
                 early = next(positions(pairs_of_actions))
-                mine = frame.adds[early] & touched or frame.adds[late] & frame.over_shuns[early]
+                mine = frame.adds[early] & change or frame.adds[late] & frame.over_shuns[early]
                 fact = next((fact_text(task.facts[p]) for p in positions(mine)), "")
                 raise UnsupportedError(
                     f"{task.actions[late]} can start while {task.actions[early]} runs, but "
@@ -42,7 +42,7 @@ def check_overlap(task: Task, pairs: ReachablePairs, frame: StaticMasks) -> None
 
 def _check_late(task: Task, pairs: ReachablePairs, frame: StaticMasks) -> None:
     """Raise unless no action reads until then what is deleted at an end."""
-    users = holders([_mentioned(frame, a) for a in range(len(frame.ticks))], frame.n_facts)
+    users = holders([_facts_of(frame, a) for a in range(len(frame.ticks))], frame.n_facts)
     for action, late in enumerate(frame.late):
         for fact in positions(late):
             readers = users[fact] & pairs.running_beside(action)
@@ -54,7 +54,7 @@ def _check_late(task: Task, pairs: ReachablePairs, frame: StaticMasks) -> None:
                 )  # fmt: skip
 
 
-def _mentioned(frame: StaticMasks, action: int) -> int:
+def _facts_of(frame: StaticMasks, action: int) -> int:
     tests = union(mask for mask, _ in (*frame.tests[action], *frame.over[action]))
     return tests | frame.deletes[action] | frame.adds[action]
 
@@ -67,20 +67,20 @@ def lane_members(frame: StaticMasks) -> dict[str, int]:
     return members
 
 
-def held(task: Task, pairs: ReachablePairs, frame: StaticMasks) -> tuple[tuple[str, ...], ...]:
+def lanes_of(task: Task, pairs: ReachablePairs, frame: StaticMasks) -> tuple[tuple[str, ...], ...]:
     """Return which agents each action keeps busy: its own, and those it shares with no other.
 
     Two actions that keep the same agent busy never overlap, so that the durations of all actions
     that keep an agent busy add up to the makespan at most.
     """
     agents = set(frame.agents)
-    named = {agent: union(1 << a.index for a in task.actions if agent in a.args)
+    users = {agent: union(1 << a.index for a in task.actions if agent in a.args)
              for agent in agents}  # fmt: skip
     return tuple(
         tuple(
             agent for agent in dict.fromkeys(action.args)
             if agent == action.agent
-            or (agent in agents and not pairs.running_beside(action.index) & named[agent])
+            or (agent in agents and not pairs.running_beside(action.index) & users[agent])
         )
         for action in task.actions
     )  # fmt: skip

@@ -12,9 +12,9 @@ from hrcplan.planners.contract import Answer, Capabilities, Request, Status
 from hrcplan.planners.exact.frame import StaticMasks, frame
 from hrcplan.planners.exact.gaps import Gaps
 from hrcplan.planners.exact.graph import FAR, Graph
-from hrcplan.planners.exact.overlap import check_overlap, held
+from hrcplan.planners.exact.overlap import check_overlap, lanes_of
 from hrcplan.planners.exact.search import WAIT, Search
-from hrcplan.planners.exact.weights import Metric, metric, weights
+from hrcplan.planners.exact.weights import Metric, Weights, metric, weights
 from hrcplan.plans import Plan
 from hrcplan.search.reachable_pairs import ReachablePairs
 from hrcplan.task import Task
@@ -24,35 +24,35 @@ GREED = 3
 MAX_KEPT_STATES = 100_000  # of other structures than the one that is asked for
 
 
-class _Kept:
+class _Memo:
     """All that replans of one grounding share: masks, pairs, the graph, what actions touch."""
 
     def __init__(self, task: Task) -> None:
         self.structure = task.structure
         self.frame: StaticMasks = frame(task)
         self.pairs = ReachablePairs(self.frame)
-        self.held: tuple[tuple[str, ...], ...] = ()
+        self.lanes: tuple[tuple[str, ...], ...] = ()
         self.graph = Graph()
         self.gaps = Gaps()
         self._goal: tuple[Test, ...] = ()
         self._goals: list[int] = []
-        self._n_seen = 0
+        self._n_checked = 0
 
     def admit(self, task: Task) -> None:
         """Check what can follow the initial state of ``task``, unless that is known already."""
         if task.initial not in self.graph.index:
             self.pairs.admit(task.initial)
             check_overlap(task, self.pairs, self.frame)
-            self.held = held(task, self.pairs, self.frame)
+            self.lanes = lanes_of(task, self.pairs, self.frame)
 
     def goals(self, task: Task) -> list[int]:
         """Return the states of the graph, as indices, in which the goal of ``task`` holds."""
         if self._goal != task.goal:
-            self._goal, self._goals, self._n_seen = task.goal, [], 0
+            self._goal, self._goals, self._n_checked = task.goal, [], 0
         states = self.graph.states
-        new = range(self._n_seen, len(states))
+        new = range(self._n_checked, len(states))
         self._goals += [i for i in new if meets(states[i], task.goal)]
-        self._n_seen = len(states)
+        self._n_checked = len(states)
         return self._goals
 
 
@@ -82,7 +82,7 @@ class ExactPlanner:
             limits=True,
             own=True,
         )
-        self._kept: list[_Kept] = []
+        self._memos: list[_Memo] = []
 
     def missing(self) -> str | None:
         """Return None: it is part of this package."""
@@ -112,54 +112,58 @@ class ExactPlanner:
         """
         until = time.monotonic() + 60 if deadline is None else deadline
         try:
-            wanted = metric(task.problem)
-            return _answer(task, self._find(task), wanted, until, any_plan)
+            objective = metric(task.problem)
+            return _answer(task, self._find(task), objective, until, any_plan)
         except UnsupportedError as error:
             raise UnsupportedError(f"exact declines: {error.message}", hint=error.hint) from None
         except LimitError as error:
             return Answer(Status.UNSOLVED, note=error.message)
 
-    def _find(self, task: Task) -> _Kept:
+    def _find(self, task: Task) -> _Memo:
         """Return the memory of the structure of a task, as the most recent one."""
-        memo = next((kept for kept in self._kept if kept.structure is task.structure), None)
-        self._kept = [kept for kept in self._kept if kept is not memo]
-        while sum(len(kept.graph.states) for kept in self._kept) > MAX_KEPT_STATES:
-            del self._kept[0]  # frees the graph of another task first
-        self._kept.append(memo or _Kept(task))
-        return self._kept[-1]
+        memo = next((each for each in self._memos if each.structure is task.structure), None)
+        self._memos = [each for each in self._memos if each is not memo]
+        while sum(len(each.graph.states) for each in self._memos) > MAX_KEPT_STATES:
+            del self._memos[0]  # frees the graph of another task first
+        self._memos.append(memo or _Memo(task))
+        return self._memos[-1]
 
 
-def _answer(task: Task, kept: _Kept, wanted: Metric, deadline: float, any_plan: bool) -> Answer:
-    kept.admit(task)
-    costs = weights(task, wanted, kept.frame, kept.held)
-    graph = kept.graph
+def _answer(task: Task, memo: _Memo, objective: Metric, deadline: float, any_plan: bool) -> Answer:
+    memo.admit(task)
+    costs = weights(task, objective, memo.frame, memo.lanes)
+    graph = memo.graph
     graph.grow(task, deadline)
-    goals = kept.goals(task)
+    goals = memo.goals(task)
     ahead = graph.distances(costs.work, goals, deadline)
     if ahead[graph.index[task.initial]] == FAR:
         return Answer(Status.UNSOLVABLE)
     search = Search(
-        kept.frame, graph, costs, ahead, frozenset(goals), deadline,
+        memo.frame, graph, costs, ahead, frozenset(goals), deadline,
         GREED if any_plan else 1,
     )  # fmt: skip
     try:
         path = search.run(task.initial)
     except LimitError as error:
-        reached = None if any_plan else exact(Fraction(search.bound, costs.scale) + wanted.constant)
-        return Answer(Status.UNSOLVED, note=error.message, bound=reached)
+        bound = None if any_plan else _bound(search, costs, objective)
+        return Answer(Status.UNSOLVED, note=error.message, bound=bound)
     assert path is not None  # the sequential plan is a schedule too
-    plan = kept.gaps.plan(task, path, kept.frame)
+    plan = memo.gaps.plan(task, path, memo.frame)
     price = sum(task.costs[ord(letter)] for letter in path if letter != WAIT)
-    value = _objective(task.problem, wanted, plan, price)
+    value = _objective(task.problem, objective, plan, price)
     if any_plan:
         return Answer(Status.SOLVED, plan, value)
-    bound = exact(Fraction(search.bound, costs.scale) + wanted.constant)
-    return Answer(Status.OPTIMAL, plan, value, bound=bound)
+    return Answer(Status.OPTIMAL, plan, value, bound=_bound(search, costs, objective))
 
 
-def _objective(problem: Problem, wanted: Metric, plan: Plan, price: Number) -> Number | None:
+def _bound(search: Search, costs: Weights, objective: Metric) -> Number:
+    """Return what no plan is better than, as far as the search has got."""
+    return exact(Fraction(search.bound, costs.scale) + objective.constant)
+
+
+def _objective(problem: Problem, objective: Metric, plan: Plan, price: Number) -> Number | None:
     """Return the metric of the plan as printed; None where it has none but a cost."""
     if problem.metric is None and TOTAL_COST in problem.domain.functions:
         return None
-    value = wanted.cost * price + wanted.time * (plan.makespan_s or 0) + wanted.constant
+    value = objective.cost * price + objective.time * (plan.makespan_s or 0) + objective.constant
     return int(value) if value == int(value) else value

@@ -68,8 +68,8 @@ class Search:
             self._push("", 0, initial, (), state, 0)
         while self._open:
             node = heappop(self._open)
-            value, path, spent, facts, running, state, _ = node
-            if self._best[facts, running] != (spent, path):
+            value, path, price, facts, running, state, _ = node
+            if self._best[facts, running] != (price, path):
                 continue
             self.bound = max(self.bound, value)
             if state in self.goals:
@@ -87,23 +87,23 @@ class Search:
             raise LimitError(f"no proof in time, after {self.n_expanded:,} nodes")
 
     def _push(
-        self, path: str, spent: int, facts: int, running: RunningActions, state: int, late: int
+        self, path: str, price: int, facts: int, running: RunningActions, state: int, late: int
     ) -> None:
         """Put a node on the heap unless it was reached as well before."""
-        known = self._best.get((facts, running))
-        if known is not None and known <= (spent, path):
+        best = self._best.get((facts, running))
+        if best is not None and best <= (price, path):
             return
-        self._best[facts, running] = (spent, path)
+        self._best[facts, running] = (price, path)
         bound = self.ahead[state]
         if running:
             share = self.weights.share
-            bound += sum([left * share[action] for left, action in running])
+            bound += sum([rest * share[action] for rest, action in running])
             bound = max(bound, self.weights.tick * running[-1][0])
-        node = (spent + self.greed * bound, path, spent, facts, running, state, late)
+        node = (price + self.greed * bound, path, price, facts, running, state, late)
         heappush(self._open, node)
 
     def _expand(self, node: _Node) -> None:
-        _, path, spent, facts, running, state, late = node
+        _, path, price, facts, running, state, late = node
         frame, ahead, cost = self.frame, self.ahead, self.weights.cost
         guards = [frame.over[action] for _, action in running if frame.over[action]]
         last = ord(path[-1]) if path and path[-1] != WAIT else -1
@@ -115,15 +115,15 @@ class Search:
                     break
             else:
                 continue
-            left = facts & ~frame.deletes[action]
-            if guards and not all(meets(left, over) for over in guards):
+            facts_during = facts & ~frame.deletes[action]
+            if guards and not all(meets(facts_during, over) for over in guards):
                 continue
             possible |= 1 << action
             if late >> action & 1 or (action < last and not after_last >> action & 1):
                 continue
             if ahead[target] < FAR:
                 self._push(
-                    path + chr(action), spent + cost[action], left,
+                    path + chr(action), price + cost[action], facts_during,
                     tuple(sorted((*running, (frame.ticks[action], action)))),
                     target, late & ~frame.dependent[action],
                 )  # fmt: skip
@@ -132,11 +132,11 @@ class Search:
 
     def _wait(self, node: _Node, possible: int) -> None:
         """Let time pass until the next running actions end."""
-        _, path, spent, facts, running, state, _ = node
-        passed = running[0][0]
-        for left, action in running:
-            if left == passed:
+        _, path, price, facts, running, state, _ = node
+        first = running[0][0]
+        for ticks, action in running:
+            if ticks == first:
                 facts |= self.frame.adds[action]
-        rest = tuple([(left - passed, action) for left, action in running if left > passed])
-        spent += passed * self.weights.tick
-        self._push(path + WAIT, spent, facts, rest, state, possible)
+        rest = tuple([(ticks - first, action) for ticks, action in running if ticks > first])
+        price += first * self.weights.tick
+        self._push(path + WAIT, price, facts, rest, state, possible)

@@ -33,7 +33,7 @@ def metric(problem: Problem) -> Metric:
     """
     if problem.metric is None:
         return Metric(0, 1, 0)
-    sums = linear(_known(problem.metric, problem), {})
+    sums = linear(_with_constants(problem.metric, problem), {})
     if problem.maximize or sums is None:
         raise UnsupportedError("the metric is not a sum of cost and time to minimize", hint=HINT)
     cost, time = sums.get((TOTAL_COST,), 0), sums.get((TOTAL_TIME,), 0)
@@ -43,7 +43,7 @@ def metric(problem: Problem) -> Metric:
     return Metric(cost, time, sums.get((), 0) + cost * before)
 
 
-def _known(expression: Expr, problem: Problem) -> Expr:
+def _with_constants(expression: Expr, problem: Problem) -> Expr:
     """Return a metric with the value of every function put in that no action changes."""
     match expression:
         case Constant():
@@ -57,7 +57,7 @@ def _known(expression: Expr, problem: Problem) -> Expr:
                 raise UnsupportedError(message, hint=HINT)
             return Constant(value)
         case Arithmetic(op, parts):
-            return Arithmetic(op, tuple(_known(part, problem) for part in parts))
+            return Arithmetic(op, tuple(_with_constants(part, problem) for part in parts))
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,7 +78,7 @@ class Weights:
 
 
 def weights(
-    task: Task, wanted: Metric, frame: StaticMasks, held: Sequence[Sequence[str]]
+    task: Task, objective: Metric, frame: StaticMasks, lanes: Sequence[Sequence[str]]
 ) -> Weights:
     """Return the weights of a task's actions under its present costs.
 
@@ -88,13 +88,13 @@ def weights(
     for action, price in zip(task.actions, task.costs, strict=True):
         if price < 0:
             raise UnsupportedError(f"{action} costs {number_text(price)}", hint=HINT)
-    prices = [wanted.cost * price for price in task.costs]
-    tick = wanted.time * frame.tick_s
+    prices = [objective.cost * price for price in task.costs]
+    tick = objective.time * frame.tick_s
     scale = _GRAIN * lcm(tick.denominator, *{price.denominator for price in prices})
     costs = tuple(int(price * scale) for price in prices)
     whole = int(tick * scale)
     parts = shares(whole, _rates(frame, costs))
-    share = tuple(sum(parts[agent] for agent in agents) for agents in held)
+    share = tuple(sum(parts[agent] for agent in agents) for agents in lanes)
     work = tuple(c + s * t for c, s, t in zip(costs, share, frame.ticks, strict=True))
     return Weights(costs, whole, share, work, scale)
 
