@@ -75,8 +75,8 @@ class Measure:
         True
         """
         least = 0.0 if margin is None else -margin
-        oriented = difference if self.more_is_better else difference.negative
-        return BoundTest(oriented, least=least, is_strict=margin is None)
+        gain = difference if self.more_is_better else difference.negative
+        return BoundTest(gain, least=least, is_strict=margin is None)
 
     def verdict(self, difference: Interval) -> str:
         """Return whether a difference is wholly ``better`` or ``worse`` than 0, or nothing.
@@ -101,10 +101,10 @@ def number(value: float, digits: int = 2) -> str:
     return text.lstrip("-") if float(text) == 0 else text.replace("-", "\u2212")
 
 
-def signed(value: float) -> str:
+def with_sign(value: float) -> str:
     """Return a difference with its sign.
 
-    >>> signed(0.25), signed(-0.25)
+    >>> with_sign(0.25), with_sign(-0.25)
     ('+0.25', '\u22120.25')
     """
     return f"+{number(value)}" if float(f"{value:.2f}") > 0 else number(value)
@@ -127,7 +127,7 @@ def interval_text(interval: Interval) -> str:
     >>> interval_text(Interval(1.0, 0.5, 1.5, 9))
     '+1.00 (0.50 to 1.50)'
     """
-    return f"{signed(interval.mean)} ({ends(interval)})"
+    return f"{with_sign(interval.mean)} ({ends(interval)})"
 
 
 def mean_text(e: MeanEstimate) -> str:
@@ -147,7 +147,7 @@ def difference_text(e: MeanEstimate) -> str:
     >>> difference_text(MeanEstimate(1.5, 0.25, 9))
     '+1.50 ± 0.25'
     """
-    return signed(e.mean) + (f" ± {number(e.se)}" if e.is_known else "")
+    return with_sign(e.mean) + (f" ± {number(e.se)}" if e.is_known else "")
 
 
 def mean_html(e: MeanEstimate) -> str:

@@ -35,8 +35,10 @@ def report_study(folder: str | Path, study_name: str | None = None) -> dict[str,
     with Store.to_read(folder) as store:
         about = store.about()
         study = _study(about, folder, study_name)
-        chosen = {key: study.present_name(key, value) for key, value in about["options"].items()}
-        options = {**study.options, **chosen}  # earlier versions had fewer
+        given_options = {
+            key: study.present_name(key, value) for key, value in about["options"].items()
+        }
+        options = {**study.options, **given_options}  # earlier versions had fewer
         rows = {t.name: study.present_rows(t, store.rows(t)) for t in study.tables}
     with _rows_of(folder):
         document, findings = _document(study, about, options, rows)

@@ -55,34 +55,34 @@ def run_study(
     if any(n is not None and n < 1 for n in (runs, jobs, limit)):
         raise UsageError("runs, jobs and limit are at least 1")
     study = find(name)
-    chosen = study.with_defaults(options or {})
-    wanted = list(episodes(study, chosen, runs or study.runs(chosen), limit))
-    digest = hashlib.sha256(study.inputs(chosen).encode()).hexdigest()
-    about = {"study": name, "version": __version__, "seed": seed, "options": chosen,
+    choice = study.with_defaults(options or {})
+    all_episodes = list(episodes(study, choice, runs or study.runs(choice), limit))
+    digest = hashlib.sha256(study.inputs(choice).encode()).hexdigest()
+    about = {"study": name, "version": __version__, "seed": seed, "options": choice,
              "inputs_sha256": digest}  # fmt: skip
     with Store.to_write(Path(folder), about, study.tables) as store:
-        left = store.missing(study.tables, wanted)
-        done = len(wanted) - len(left)
+        missing = store.missing(study.tables, all_episodes)
+        n_done = len(all_episodes) - len(missing)
         if progress is not None:
-            progress(done, len(wanted))
-        if left:
-            study.prepare(chosen, jobs, say)
-        for results in _results(name, chosen, seed, left, jobs):
+            progress(n_done, len(all_episodes))
+        if missing:
+            study.prepare(choice, jobs, say)
+        for results in _results(name, choice, seed, missing, jobs):
             for table, rows in groupby(results, lambda pair: pair[0].table):
                 store.add(study.table(table), list(rows))
-            done += len(results)
+            n_done += len(results)
             if progress is not None:
-                progress(done, len(wanted))
+                progress(n_done, len(all_episodes))
         if not store.is_compact:
             store.compact()
-    return len(left)
+    return len(missing)
 
 
 def _results(
-    name: str, options: StudyOptions, seed: int, left: list[Episode], jobs: int
+    name: str, options: StudyOptions, seed: int, missing: list[Episode], jobs: int
 ) -> Iterator[list[tuple[Episode, StudyRow]]]:
     """Yield rows in the order of the episodes, not in that of their ends."""
-    chunks = _chunks(left)
+    chunks = _chunks(missing)
     if jobs == 1 or len(chunks) < 2:
         yield from (_rows(name, options, seed, chunk) for chunk in chunks)
         return
@@ -94,12 +94,12 @@ def _results(
         yield from workers(delayed(_rows)(name, options, seed, chunk) for chunk in chunks)
 
 
-def _chunks(left: list[Episode]) -> list[list[Episode]]:
+def _chunks(missing: list[Episode]) -> list[list[Episode]]:
     """Return episodes in chunks that grow, so that progress shows after the first episode."""
     chunks, at = [], 0
-    while at < len(left):
+    while at < len(missing):
         size = min(_CHUNK, max(1, at))
-        chunks.append(left[at : at + size])
+        chunks.append(missing[at : at + size])
         at += size
     return chunks
 

@@ -53,12 +53,12 @@ class Store:
             folder.mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise UsageError(f"cannot make {folder}: {error.strerror}", path=str(folder)) from None
-        lock = _locked(folder)
-        with _told(folder):
+        lock = _lock(folder)
+        with _explain_errors(folder):
             store = cls(folder, sqlite3.connect(folder / FILE))
         store._lock = lock
         try:
-            with _told(folder):
+            with _explain_errors(folder):
                 store._prepare(about, tables)
         except BaseException:
             store.close()
@@ -77,7 +77,7 @@ class Store:
         if not path.is_file():
             hint = "hrcplan study run NAME -o DIR makes one"
             raise InputError(f"no {FILE} in {folder}", code="no-file", path=str(path), hint=hint)
-        with _told(folder):
+        with _explain_errors(folder):
             store = cls(folder, sqlite3.connect(path))
             if (folder / CLOCK).is_file():
                 store._open_clock()
@@ -93,7 +93,7 @@ class Store:
     ) -> None:  # fmt: skip
         """Close the file and let other writers in; an error of SQLite becomes one of hrcplan."""
         self.close()
-        with _told(self.folder):
+        with _explain_errors(self.folder):
             if isinstance(error, sqlite3.Error):
                 raise error
 
@@ -111,8 +111,8 @@ class Store:
             tables = list(tables)
             for table in tables:
                 connection.execute(_create(table))
-            recorded = self.about()
-            if not recorded:
+            before = self.about()
+            if not before:
                 pairs = [(key, json.dumps(value)) for key, value in about.items()]
                 connection.executemany(f"insert into {_ABOUT} values (?, ?)", pairs)
         if any(table.clocked for table in tables):
@@ -120,8 +120,8 @@ class Store:
             for table in (table for table in tables if table.clocked):
                 self._connection.execute(_create(table, "clock."))
         for key, value in about.items():
-            if recorded and recorded.get(key) != value:
-                message = f"{self.folder} holds rows of {key} {recorded.get(key)}, not {value}"
+            if before and before.get(key) != value:
+                message = f"{self.folder} holds rows of {key} {before.get(key)}, not {value}"
                 raise UsageError(message, code="other-rows", hint="take a new folder")
 
     def _open_clock(self) -> None:
@@ -142,26 +142,26 @@ class Store:
         try:
             about = {key: json.loads(value) for key, value in pairs}
         except (ValueError, TypeError, RecursionError) as error:
-            raise self._damaged(f"what they depend on is no JSON: {error}") from None
+            raise self._damage(f"what they depend on is no JSON: {error}") from None
         if fault := _about_fault(about):
-            raise self._damaged(fault)
+            raise self._damage(fault)
         return about
 
-    def _damaged(self, reason: str) -> InputError:
-        shown = harmless(str(self.folder / FILE))
-        message = f"the rows in {shown} are damaged: {cut(harmless(reason), MAX_REASON)}"
-        return InputError(message, code="bad-rows", path=shown)
+    def _damage(self, reason: str) -> InputError:
+        path = harmless(str(self.folder / FILE))
+        message = f"the rows in {path} are damaged: {cut(harmless(reason), MAX_REASON)}"
+        return InputError(message, code="bad-rows", path=path)
 
-    def missing(self, tables: Iterable[StudyTable], wanted: Iterable[Episode]) -> list[Episode]:
+    def missing(self, tables: Iterable[StudyTable], episodes: Iterable[Episode]) -> list[Episode]:
         """Return the episodes that have no row yet, in their order."""
-        known = {
+        present = {
             Episode(table.name, tuple(cell), run)
             for table in tables
             for *cell, run in self._connection.execute(
                 f"select {_names((*table.keys, 'run'))} from {table.name}"
             )
         }
-        return [episode for episode in wanted if episode not in known]
+        return [episode for episode in episodes if episode not in present]
 
     def add(self, table: StudyTable, rows: Sequence[tuple[Episode, StudyRow]]) -> None:
         """Add rows in one transaction; those that are there already stay."""
@@ -178,17 +178,17 @@ class Store:
         more = ""
         if table.clocked and self._has_clock:
             more = f" left join clock.{table.name} using ({_names((*table.keys, 'run'))})"
-        known = self._connection.execute("select name from main.sqlite_master").fetchall()
-        if (table.name,) not in known:
+        tables = self._connection.execute("select name from main.sqlite_master").fetchall()
+        if (table.name,) not in tables:
             return []  # written before the study had this table
         cursor = self._connection.execute(f"select * from main.{table.name}{more}")
         names = [column[0] for column in cursor.description]
         if missing := {*table.keys, "run", *table.columns} - {*names, *table.grown}:
-            raise self._damaged(f"{table.name} has no column {min(missing)}")
+            raise self._damage(f"{table.name} has no column {min(missing)}")
         records = [dict(zip(names, row, strict=True)) for row in cursor]
         for row in records:
             if wrong := next((n for n, value in row.items() if not _is_value(value)), None):
-                raise self._damaged(f"{table.name} holds {wrong} = {row[wrong]!r}")
+                raise self._damage(f"{table.name} holds {wrong} = {row[wrong]!r}")
             row |= {name: of(row) for name, of in table.grown.items() if name not in names}
         return records
 
@@ -240,7 +240,7 @@ def _is_value(value: JsonValue) -> bool:
 
 
 @contextmanager
-def _told(folder: Path) -> Iterator[None]:
+def _explain_errors(folder: Path) -> Iterator[None]:
     """Say of errors of SQLite what the caller can do about them."""
     try:
         yield
@@ -264,23 +264,23 @@ def _insert(
 def _create(table: StudyTable, file: str = "") -> str:
     """Return the statement that makes a table; without rowid, so it is sorted by its key."""
     keys = (*table.keys, "run")
-    named = table.clocked if file else table.columns
-    columns = ", ".join(_quoted(name) for name in (*keys, *named))
+    fields = table.clocked if file else table.columns
+    columns = ", ".join(_quote(name) for name in (*keys, *fields))
     return (
         f"create table if not exists {file}{table.name} "
         f"({columns}, primary key ({_names(keys)})) without rowid"
     )
 
 
-def _quoted(name: str) -> str:
+def _quote(name: str) -> str:
     return f'"{name}"'  # "case" is a word of SQL
 
 
 def _names(names: Iterable[str]) -> str:
-    return ", ".join(map(_quoted, names))
+    return ", ".join(map(_quote, names))
 
 
-def _locked(folder: Path) -> int:
+def _lock(folder: Path) -> int:
     """Return a handle that keeps other writers out of a folder until it is closed."""
     handle = os.open(folder, os.O_RDONLY)
     try:

@@ -142,7 +142,7 @@ class Study:
         """Return a table by its name."""
         return next(table for table in self.tables if table.name == name)
 
-    def with_defaults(self, given: Mapping[str, str | None]) -> dict[str, str]:
+    def with_defaults(self, options: Mapping[str, str | None]) -> dict[str, str]:
         """Return all options, the given ones over the study's own.
 
         A name of an earlier version is replaced, with a DeprecationWarning.
@@ -150,30 +150,30 @@ class Study:
         Raises:
             UsageError: if the study has no such option.
         """
-        chosen: dict[str, str] = {}
-        for key, value in given.items():
+        choice: dict[str, str] = {}
+        for key, value in options.items():
             if value is not None:
-                chosen[key] = self.present_name(key, value)
-                if chosen[key] != value:
-                    warn_old_name(f"option {key}", value, chosen[key])
-        for key in chosen:
+                choice[key] = self.present_name(key, value)
+                if choice[key] != value:
+                    warn_old_name(f"option {key}", value, choice[key])
+        for key in choice:
             if key not in self.options:
-                known = ", ".join(self.options) or "none"
-                raise UsageError(f"{self.name} has no option '{key}'", hint=f"options: {known}")
-        return {**self.options, **chosen}
+                names = ", ".join(self.options) or "none"
+                raise UsageError(f"{self.name} has no option '{key}'", hint=f"options: {names}")
+        return {**self.options, **choice}
 
 
-def present_name(text: str, renamed: Mapping[str, str]) -> str:
+def present_name(text: str, new_names: Mapping[str, str]) -> str:
     """Return a name, or names with commas between, by the names of this version.
 
     Args:
         text: The names.
-        renamed: Names of earlier versions with the present ones.
+        new_names: Names of earlier versions with the present ones.
 
     >>> present_name("old, in order", {"old": "new"}), present_name("x,old", {"old": "new"})
     ('new, in order', 'x,new')
     """
-    for old, new in renamed.items():
+    for old, new in new_names.items():
         text = re.sub(rf"(^|,\s*){re.escape(old)}(?=,|$)", rf"\g<1>{new}", text)
     return text
 

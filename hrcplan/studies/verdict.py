@@ -70,10 +70,10 @@ def judge(tests: Iterable[BoundTest]) -> tuple[bool | None, str]:
     n = max(test.n_telling for test in tests if test.holds is None)
     if n > MOST_RUNS:
         return None, " Too few runs to tell; how many would cannot be said."
-    return None, f" Too few runs to tell; about {_rounded(n):,} would (an estimate)."
+    return None, f" Too few runs to tell; about {_round(n):,} would (an estimate)."
 
 
-def _rounded(n: float) -> int:
+def _round(n: float) -> int:
     """Return a number of runs, rounded up to two digits."""
     unit = int("1" + "0" * (len(str(math.ceil(n))) - 2))
     return math.ceil(n / unit) * unit

@@ -19,7 +19,7 @@ from hrcplan.studies.changed_mind.findings import all_means, endings, findings
 from hrcplan.studies.changed_mind.findings import judged as all_claims
 from hrcplan.studies.changed_mind.measures import MEASURES
 from hrcplan.studies.estimate import Interval
-from hrcplan.studies.measure import ends, number, signed
+from hrcplan.studies.measure import ends, number, with_sign
 from hrcplan.studies.store import Store
 from hrcplan.studies.study import Claim, Episode, StudyRow, find
 
@@ -310,7 +310,7 @@ def test_verdicts_know_which_way_is_better() -> None:
 
 def test_numbers_in_words() -> None:
     assert (number(-0.0), number(-2.5)) == ("0.00", "\u22122.50")
-    assert (signed(0.0), signed(0.004), signed(-0.004)) == ("0.00",) * 3
+    assert (with_sign(0.0), with_sign(0.004), with_sign(-0.004)) == ("0.00",) * 3
     assert ends(Interval(0, -float("inf"), float("inf"), 1)) == "unknown"
 
 

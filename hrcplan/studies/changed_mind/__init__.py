@@ -18,7 +18,7 @@ STUDY = Study(
     title="Changed mind",
     tables=tuple(
         StudyTable(name, ("human", "method"), episodes.COLUMNS, partial(scenario.cells, name),
-              episodes.simulated, at_most=table.get("at_most"), clocked=episodes.CLOCKED,
+              episodes.simulate, at_most=table.get("at_most"), clocked=episodes.CLOCKED,
               grown=episodes.GROWN)
         for name, table in scenario.data()["tables"].items()
     ),

@@ -94,28 +94,28 @@ AHEAD = (
 
 def claims(options: StudyOptions, cells: Cells) -> list[Claim]:
     """Return the paper's claims; those about printed numbers on the study's own task only."""
-    judged = [*(ahead(one, cells) for one in AHEAD), bounds(cells)]
+    results = [*(ahead(one, cells) for one in AHEAD), bounds(cells)]
     if not scenario.is_own_task(options):
-        return [replace(claim, group=OTHER_TASK) for claim in judged if claim is not None]
-    printed = scenario.data()["printed"]
-    judged += [midpoint(printed, cells), minimal(printed, cells), length(printed, cells)]
-    return [claim for claim in judged if claim is not None]
+        return [replace(claim, group=OTHER_TASK) for claim in results if claim is not None]
+    figures = scenario.data()["printed"]
+    results += [midpoint(figures, cells), minimal(figures, cells), length(figures, cells)]
+    return [claim for claim in results if claim is not None]
 
 
-def ahead(wanted: Superiority, cells: Cells) -> Claim | None:
+def ahead(hypothesis: Superiority, cells: Cells) -> Claim | None:
     """Return that a method is better than each of the others, by paired differences."""
     words, n, tests = [], [], []
-    for human in wanted.humans:
-        for ours in wanted.ours:
-            gaps = differences(cells, human, ours, wanted.others, wanted.measure)
+    for human in hypothesis.humans:
+        for ours in hypothesis.ours:
+            gaps = differences(cells, human, ours, hypothesis.others, hypothesis.measure)
             if gaps is None:
                 return None
-            tests += [MEASURES[wanted.measure].beats(one) for one in gaps.values()]
+            tests += [MEASURES[hypothesis.measure].beats(one) for one in gaps.values()]
             n += [one.n for one in gaps.values()]
-            words.append(f"{human}, {ours}: {_measured(cells, human, ours, wanted, gaps)}")
+            words.append(f"{human}, {ours}: {_means_text(cells, human, ours, hypothesis, gaps)}")
     holds, telling = judge(tests)
     evidence = f"{'; '.join(words)}. {JUDGED}; {_runs(n)}.{telling}"
-    return Claim(wanted.claim, holds, f"{evidence} {wanted.note}".strip(), GROUP)
+    return Claim(hypothesis.claim, holds, f"{evidence} {hypothesis.note}".strip(), GROUP)
 
 
 def differences(
@@ -127,18 +127,23 @@ def differences(
     return complete if len(complete) == len(intervals) else None
 
 
-def _measured(
-    cells: Cells, human: str, ours: str, wanted: Superiority, gaps: Mapping[str, Interval]
+def _means_text(
+    cells: Cells, human: str, ours: str, hypothesis: Superiority, gaps: Mapping[str, Interval]
 ) -> str:
     """Return a mean, its differences to others, and those that are reported with the claim."""
-    mean = cells.mean(human, ours, wanted.measure)
-    text = f"{number(mean.mean if mean else 0)} {MEASURES[wanted.measure].unit}, {against(gaps)}"
-    if RECURSIVE not in wanted.others:
+    mean = cells.mean(human, ours, hypothesis.measure)
+    text = (
+        f"{number(mean.mean if mean else 0)} {MEASURES[hypothesis.measure].unit}, {against(gaps)}"
+    )
+    if RECURSIVE not in hypothesis.others:
         return text
-    beside = [(wanted.measure, (BEST,)), *((name, (*wanted.others, BEST)) for name in wanted.also)]
+    beside = [
+        (hypothesis.measure, (BEST,)),
+        *((name, (*hypothesis.others, BEST)) for name in hypothesis.also),
+    ]
     for measure, others in beside:
         if more := differences(cells, human, ours, others, measure):
-            unit = "" if measure == wanted.measure else f" in {MEASURES[measure].unit}"
+            unit = "" if measure == hypothesis.measure else f" in {MEASURES[measure].unit}"
             text += f" [reported with the claim{unit}: {against(more)}]"
     return text
 
@@ -185,9 +190,9 @@ def bounds(cells: Cells) -> Claim | None:
     return Claim(claim, holds, f"{words}. {JUDGED}; {_runs(n)}.{telling}", GROUP)
 
 
-def midpoint(printed: Mapping[str, Any], cells: Cells) -> Claim | None:
+def midpoint(figures: Mapping[str, Any], cells: Cells) -> Claim | None:
     """Return that with a fixed goal the last wrong guess is about the middle of the episode."""
-    low, high = printed["midpoint_pct"]
+    low, high = figures["midpoint_pct"]
     means = {name: cells.mean(FIXED, name, "last_incorrect_pct") for name in (RHP, RECURSIVE)}
     complete = {name: e for name, e in means.items() if e is not None}
     if len(complete) < len(means):
@@ -205,13 +210,13 @@ def midpoint(printed: Mapping[str, Any], cells: Cells) -> Claim | None:
     return Claim(claim, holds, evidence + telling, GROUP)
 
 
-def minimal(printed: Mapping[str, Any], cells: Cells) -> Claim | None:
+def minimal(figures: Mapping[str, Any], cells: Cells) -> Claim | None:
     """Return that the method's extra steps are few, for every human."""
     means = {human: cells.mean(human, RHP, "extra_steps") for human in HUMANS}
     complete = {human: e for human, e in means.items() if e is not None}
     if len(complete) < len(means):
         return None
-    most = printed["minimal_steps"]
+    most = figures["minimal_steps"]
     words = ", ".join(f"{human} {mean_text(e)}" for human, e in complete.items())
     evidence = (
         f"{words}. “Minimal” is read as less than {most:g} step. Extra steps count the human's own "
@@ -224,12 +229,12 @@ def minimal(printed: Mapping[str, Any], cells: Cells) -> Claim | None:
     return Claim(claim, holds, evidence + telling, GROUP)
 
 
-def length(printed: Mapping[str, Any], cells: Cells) -> Claim | None:
+def length(figures: Mapping[str, Any], cells: Cells) -> Claim | None:
     """Return that combinations of two goals are as long as in the paper."""
     duration = cells.mean(OPTIMAL, ORACLE, "total_steps")
     if duration is None:
         return None
-    mean, within = printed["combined_length"], printed["combined_within"]
+    mean, within = figures["combined_length"], figures["combined_within"]
     evidence = (
         f"{mean_text(duration)} timesteps with a robot that knows the goal "
         f"and a human without mistakes; read as within {within:g} of the printed mean. The goals "

@@ -43,7 +43,7 @@ COLUMNS = (*DRAWN, *_OLD, *GROWN)
 ORACLE = "oracle"
 
 
-def simulated(options: StudyOptions, cell: Cell, seed: Seed) -> StudyRow:
+def simulate(options: StudyOptions, cell: Cell, seed: Seed) -> StudyRow:
     """Return the row of one episode: what was drawn, and its measures."""
     name, method = map(str, cell)
     task = scenario.task_of(options, name)
@@ -84,7 +84,5 @@ def _play(options: StudyOptions, name: str, method: str, course: Course) -> Epis
 def _oracles(options: tuple[tuple[str, str], ...], name: str, course: Course) -> tuple[int, int]:
     """Return what an oracle's episode costs with a faultless human, and with this one."""
     faultless = replace(course, mistake_rate=0.0, wait_rate=0.0)
-    lengths = {
-        wanted: _play(dict(options), name, ORACLE, wanted).cost for wanted in (faultless, course)
-    }
+    lengths = {each: _play(dict(options), name, ORACLE, each).cost for each in (faultless, course)}
     return lengths[faultless], lengths[course]

@@ -57,16 +57,16 @@ def findings(options: StudyOptions, rows: StudyRows) -> Findings:
         guesses_and_steps(main, scenario.is_own_task(options)),
         all_means(main), differences(main), decisions(main),
         other_choosers(cells["choosers"]), more_changes(beyond),
-        banks(cells["variants"]), exchanged(cells["variants"]), readings(READINGS),
+        banks(cells["variants"]), exchanges(cells["variants"]), readings(READINGS),
     ]  # fmt: skip
-    stated = judged(options, main, beyond)
-    return Findings(LEAD, stated, [section for section in sections if section is not None])
+    results = claims_of(options, main, beyond)
+    return Findings(LEAD, results, [section for section in sections if section is not None])
 
 
-def judged(options: StudyOptions, main: Cells, beyond: Cells) -> list[Claim]:
+def claims_of(options: StudyOptions, main: Cells, beyond: Cells) -> list[Claim]:
     """Return the paper's claims, and on the study's own task the aims for hrcplan."""
-    stated = claims.claims(options, main)
-    return [*stated, *(reach.claims(main, beyond) if scenario.is_own_task(options) else ())]
+    results = claims.claims(options, main)
+    return [*results, *(reach.claims(main, beyond) if scenario.is_own_task(options) else ())]
 
 
 def how_many(cells: Cells) -> str:
@@ -139,15 +139,15 @@ def all_means(cells: Cells) -> Section | None:
 def endings(cells: Cells) -> str:
     """Return whether all goals were reached, and if not how the other episodes are counted."""
     n_all = sum(map(len, cells.rows.values()))
-    missed = {
+    by_cell = {
         f"{human} {method}": failures
         for (human, method), rows in cells.rows.items()
         if (failures := [row for row in rows if row["ending"] != REACHED])
     }
-    if not missed:
+    if not by_cell:
         return f"In all {n_all:,} episodes the last goal was reached."
-    words = ", ".join(f"{escape(cell)} {len(failures)}" for cell, failures in missed.items())
-    failed = [row for failures in missed.values() for row in failures]
+    words = ", ".join(f"{escape(cell)} {len(failures)}" for cell, failures in by_cell.items())
+    failed = [row for failures in by_cell.values() for row in failures]
     text = f"In {len(failed)} of {n_all:,} episodes the last goal was not reached: {words}. "
     if any(row["unreachable_pct"] is None for row in failed):
         return f"{text}These rows are of an earlier version: such an episode counts as short."
@@ -193,7 +193,7 @@ def decisions(cells: Cells) -> Section | None:
         means = [cells.mean(human, method, "decision_ms") for human in cells.humans]
         if any(e is not None for e in means):
             words = [tables.NOTHING if e is None else number(e.mean) for e in means]
-            lines.append([tables.named(cells, method), *words])
+            lines.append([tables.display_name(cells, method), *words])
     if not lines:
         return None
     low, high = scenario.data()["printed"]["decision_s"]
@@ -288,14 +288,14 @@ def _false_ones(cells: Cells, methods: Sequence[str]) -> str:
     return ""
 
 
-def exchanged(cells: Cells) -> Section | None:
+def exchanges(cells: Cells) -> Section | None:
     """Return rhp with one part or number exchanged, and hrcplan too."""
     present = [method for method in cells.methods if method not in BANKS[1:]]
     if not present:
         return None
     dots = zip(("full", "hollow"), cells.humans, strict=False)
-    filled = ", ".join(f"{dot} {escape(human)}" for dot, human in dots)
-    caption = f"Means over pairs of goals, 95 % intervals; dots: {filled}. {how_many(cells)}"
+    legend = ", ".join(f"{dot} {escape(human)}" for dot, human in dots)
+    caption = f"Means over pairs of goals, 95 % intervals; dots: {legend}. {how_many(cells)}"
     svg = figures.variants(cells, ("correct_pct", "false_changes", "wasted_robot_steps"))
     parts = [
         "<p><em>our belief</em>: the robot chooses steps as <em>rhp</em> does, but guesses by the "

@@ -19,13 +19,13 @@ GROUP = "Aims of hrcplan"
 def claims(main: Cells, beyond: Cells) -> list[Claim]:
     """Return what is wanted, without what lacks rows."""
     data = scenario.data()["reach"]
-    results = [wanted(one, data["method"], main) for one in data["wanted"]]
+    results = [superiority(one, data["method"], main) for one in data["wanted"]]
     results += [as_good(human, data, main) for human in main.humans]
     results.append(waste(data, beyond))
     return [claim for claim in results if claim is not None]
 
 
-def wanted(one: Mapping[str, Any], method: str, cells: Cells) -> Claim | None:
+def superiority(one: Mapping[str, Any], method: str, cells: Cells) -> Claim | None:
     """Return that a mean is low or high enough, by itself or compared with another method's."""
     human, measure = one["human"], one["measure"]
     ours = cells.mean(human, method, measure)
@@ -36,7 +36,7 @@ def wanted(one: Mapping[str, Any], method: str, cells: Cells) -> Claim | None:
     if "most" in one:
         test = BoundTest(ours.interval, most=one["most"])
         evidence = f"{mean_text(ours)}; n = {cells.n_runs(human, method):,}."
-        return _judged(f"{start} at most {one['most']:g}", test, evidence)
+        return _claim_of(f"{start} at most {one['most']:g}", test, evidence)
     theirs = cells.mean(human, one["beside"], measure)
     gap = cells.difference(human, method, one["beside"], measure)
     if theirs is None or gap is None:
@@ -47,10 +47,10 @@ def wanted(one: Mapping[str, Any], method: str, cells: Cells) -> Claim | None:
         f"{mean_text(ours)} against {mean_text(theirs)} ({_share(ours, theirs)}); paired "
         f"difference {interval_text(gap)}, n = {gap.n:,}."
     )
-    return _judged(f"{start} {goal}", test, evidence)
+    return _claim_of(f"{start} {goal}", test, evidence)
 
 
-def _judged(claim: str, test: BoundTest, evidence: str) -> Claim:
+def _claim_of(claim: str, test: BoundTest, evidence: str) -> Claim:
     """Return a claim judged by the interval; where that does not tell, what the mean says."""
     holds, telling = judge([test])
     if holds is None:
@@ -125,20 +125,20 @@ def waste(data: Mapping[str, Any], beyond: Cells) -> Claim | None:
     """Return that little is wasted per change, however often goals change and humans wait."""
     means = {human: beyond.mean(human, data["method"], "wasted_robot_steps")
              for human in beyond.humans}  # fmt: skip
-    measured = {human: e for human, e in means.items() if e is not None}
-    if not measured:
+    estimates = {human: e for human, e in means.items() if e is not None}
+    if not estimates:
         return None
     most, per_change = (
         data["waste_per_change"],
-        {h: e.mean / n_changes(h) for h, e in measured.items()},
+        {h: e.mean / n_changes(h) for h, e in estimates.items()},
     )
-    n = [e.n for e in measured.values()]
+    n = [e.n for e in estimates.values()]
     words = "; ".join(f"{human}: {number(mean)}" for human, mean in per_change.items())
     many = f"{min(n):,}" if min(n) == max(n) else f"{min(n):,} to {max(n):,}"
     claim = f"More changes than one: at most {most:g} wasted robot step per change of goal"
     evidence = f"{words}. Means over {many} pairs of goals each."
     holds, telling = judge(
-        BoundTest(e.interval, most=most * n_changes(human)) for human, e in measured.items()
+        BoundTest(e.interval, most=most * n_changes(human)) for human, e in estimates.items()
     )
     return Claim(claim, holds, evidence + telling, GROUP)
 

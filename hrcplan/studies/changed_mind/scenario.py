@@ -46,7 +46,7 @@ data, defaults, is_own_task = SCENARIO.data, SCENARIO.defaults, SCENARIO.is_own_
 
 def cells(table: str, options: StudyOptions) -> list[Cell]:
     """Return human and method of every cell of a table, human by human."""
-    methods = chosen(options["methods"], data()["tables"][table]["methods"])
+    methods = selection(options["methods"], data()["tables"][table]["methods"])
     return [(human, method) for human in humans(table, options) for method in methods]
 
 
@@ -55,26 +55,26 @@ def humans(table: str, options: StudyOptions) -> list[str]:
     names = data()["tables"][table]["humans"]
     if not is_own_task(options):
         names = [name for name in names if "goals" not in data()["humans"][name]]
-    return chosen(options["humans"], names) if table == MAIN else names
+    return selection(options["humans"], names) if table == MAIN else names
 
 
-def chosen(wanted: str, own: list[str]) -> list[str]:
+def selection(text: str, own: list[str]) -> list[str]:
     """Return the parts that are compared: those named, or the study's own and the user's.
 
-    >>> chosen("rhp,mine:Robot", ["rhp", "cdp"]), chosen("mine:Robot", ["rhp", "cdp"])
+    >>> selection("rhp,mine:Robot", ["rhp", "cdp"]), selection("mine:Robot", ["rhp", "cdp"])
     (['rhp', 'mine:Robot'], ['rhp', 'cdp', 'mine:Robot'])
-    >>> chosen("oracle", ["rhp", "cdp"])
+    >>> selection("oracle", ["rhp", "cdp"])
     ['oracle']
     """
-    named = parted(wanted)
-    is_all = not any(name in data()[key] for key in ADDED for name in named)
-    return [n for n in own if is_all or n in named] + [n for n in named if n not in own]
+    names = split_names(text)
+    is_all = not any(name in data()[key] for key in ADDED for name in names)
+    return [n for n in own if is_all or n in names] + [n for n in names if n not in own]
 
 
-def parted(text: str) -> list[str]:
+def split_names(text: str) -> list[str]:
     """Return the names in a text with commas between; those of the study may have some themselves.
 
-    >>> parted("rhp, in order,mine:Robot"), parted("rhp,oracle")
+    >>> split_names("rhp, in order,mine:Robot"), split_names("rhp,oracle")
     (['rhp, in order', 'mine:Robot'], ['rhp', 'oracle'])
     """
     names: list[str] = []
@@ -95,7 +95,7 @@ def check(options: StudyOptions) -> None:
     """
     for key, parts in (("methods", ASSISTANTS), ("humans", HUMANS)):
         own = data()[key]
-        for name in (name for name in parted(options[key]) if name not in own):
+        for name in (name for name in split_names(options[key]) if name not in own):
             if ":" not in name and name not in parts.names():
                 hint = nearest(name, own) or f"{'; '.join(own)}; or module:Class"
                 message, code = f"there is no {parts.kind} '{name}'", f"unknown-{parts.kind}"
@@ -203,8 +203,8 @@ def _learns(method: str) -> bool:
 @lru_cache(maxsize=4)
 def world(name: str, domain: str, goals: str, *multiples: str) -> TurnWorld:
     """Return the world of the episodes; each episode resets it."""
-    shared: TurnWorld = WORLDS.find(name)(bank_of(domain, goals, *multiples))
-    return shared
+    made_world: TurnWorld = WORLDS.find(name)(bank_of(domain, goals, *multiples))
+    return made_world
 
 
 def inputs(options: StudyOptions) -> str:
@@ -243,17 +243,17 @@ def course(name: str, bank: Bank, seed: Seed) -> Course:
     n = len(bank.names)
     pairs = _pairs(seed.study, seed.run // (n * (n - 1)), n)
     first, second = pairs[seed.run % len(pairs)]
-    wanted, turns = [first], []
+    goals, turns = [first], []
     for number in range(table["changes"]):
-        length = bank.graphs[wanted[-1]].n_steps
+        length = bank.graphs[goals[-1]].n_steps
         if number == 0:
-            wanted.append(second)
+            goals.append(second)
             turns.append(chance.randint(1, max(1, (length - 1) // 2)))
         else:
-            wanted.append(chance.choice([g for g in range(n) if g != wanted[-1]]))
+            goals.append(chance.choice([g for g in range(n) if g != goals[-1]]))
             turns.append(turns[-1] + chance.randint(1, max(1, length // SPREAD)))
     rates = table.get("mistake_rate", 0.0), table.get("wait_rate", 0.0)
-    return Course(tuple(wanted), tuple(turns), *rates, seed=str(seed))
+    return Course(tuple(goals), tuple(turns), *rates, seed=str(seed))
 
 
 @lru_cache(maxsize=8)

@@ -104,16 +104,16 @@ def episodes(script: Mapping[str, Any], methods: Sequence[str] = ()) -> list[Nar
     """
     task = str(script["domain"]), str(script.get("goals", ""))
     bank = scenario.bank_of(*task)
-    wanted = tuple(_goal(bank, goal) for goal in script["wanted"])
-    course = Course(wanted, tuple(script["change_turns"]), seed=str(script.get("seed", "")))
+    goals = tuple(_goal(bank, goal) for goal in script["wanted"])
+    course = Course(goals, tuple(script["change_turns"]), seed=str(script.get("seed", "")))
     steps = [_step(bank, text) for text in script["human"]]
     names = methods or script["methods"]
-    chosen = [present_name(name, scenario.RENAMED) for name in names]
-    for name in chosen if not methods else ():
+    present_names = [present_name(name, scenario.RENAMED) for name in names]
+    for name in present_names if not methods else ():
         if name not in scenario.data()["methods"]:
             ASSISTANTS.find_listed(name)  # a script must not choose which code runs
-    robots = {method: scenario.robot(method, *task) for method in chosen}
-    return [_played(name, robot, bank, course, steps) for name, robot in robots.items()]
+    robots = {method: scenario.robot(method, *task) for method in present_names}
+    return [_play(name, robot, bank, course, steps) for name, robot in robots.items()]
 
 
 def _goal(bank: Bank, name: str) -> int:
@@ -130,7 +130,7 @@ def _step(bank: Bank, text: str) -> int:
     return step
 
 
-def _played(
+def _play(
     name: str, robot: Assistant[S], bank: Bank, course: Course, steps: Sequence[int]
 ) -> NarratedEpisode:
     turns: list[NarratedTurn] = []
@@ -141,14 +141,14 @@ def _played(
         reasons = None
         if not turn.is_human and isinstance(robot, Explains):
             reasons = robot.explain(state)
-        turns.append(_narrated(turn, robot, bank, after, reasons))
+        turns.append(_narrate(turn, robot, bank, after, reasons))
         state = after
 
     record = play(bank, Scripted(bank, course, steps), robot, course, watch=watch)
     return NarratedEpisode(name, tuple(turns), record.ending)
 
 
-def _narrated(
+def _narrate(
     turn: EpisodeTurn, robot: Assistant[S], bank: Bank, state: S, reasons: Explanation | None
 ) -> NarratedTurn:
     posterior = robot.posterior(state)
@@ -165,13 +165,13 @@ def _narrated(
     )
 
 
-def as_json(script: Mapping[str, Any], played: Sequence[NarratedEpisode]) -> dict[str, Any]:
+def as_json(script: Mapping[str, Any], narratives: Sequence[NarratedEpisode]) -> dict[str, Any]:
     """Return the document of ``study play``."""
     return {
         "title": script.get("title", ""),
         "wanted": list(script["wanted"]),
         "episodes": [
-            {"method": e.method, "ending": e.ending, "turns": list(_turns(e))} for e in played
+            {"method": e.method, "ending": e.ending, "turns": list(_turns(e))} for e in narratives
         ],
     }
 

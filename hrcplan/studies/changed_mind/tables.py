@@ -9,7 +9,7 @@ from hrcplan.studies.changed_mind.cells import Cells
 from hrcplan.studies.changed_mind.episodes import ORACLE
 from hrcplan.studies.changed_mind.measures import MEASURES
 from hrcplan.studies.estimate import Interval, MeanEstimate
-from hrcplan.studies.measure import ends, interval_text, mean_html, number, signed
+from hrcplan.studies.measure import ends, interval_text, mean_html, number, with_sign
 from hrcplan.studies.page import escape, key, table
 
 NOTHING = "\u2013"
@@ -19,13 +19,16 @@ _MARKS = {"better": "in", "worse": "out", "": ""}
 def means(cells: Cells, human: str, measures: Sequence[str]) -> str:
     """Return a line per method: mean, standard error and 95 % interval of each measure."""
     lines = [
-        [named(cells, method), *(_mean(cells.mean(human, method, name), name) for name in measures)]
+        [
+            display_name(cells, method),
+            *(_mean(cells.mean(human, method, name), name) for name in measures),
+        ]
         for method in cells.methods_of(human)
     ]
     return table(["", *(MEASURES[name].head for name in measures)], lines)
 
 
-def named(cells: Cells, method: str) -> str:
+def display_name(cells: Cells, method: str) -> str:
     """Return the name of a method, behind its color where each has one."""
     if not figures.have_colors(cells.methods):
         return escape(method)
@@ -46,14 +49,14 @@ def ratios(cells: Cells, measure: str, parts: Mapping[str, float]) -> str:
         means = [cells.mean(human, method, measure) for method in cells.methods]
         words = [NOTHING if e is None else number(e.mean / parts[human]) for e in means]
         lines.append([escape(human), *words])
-    return table(["", *(named(cells, method) for method in cells.methods)], lines, "narrow")
+    return table(["", *(display_name(cells, method) for method in cells.methods)], lines, "narrow")
 
 
 def gaps(cells: Cells, human: str, measures: Sequence[str], beside: str) -> str:
     """Return a line per other method: its paired differences to one method."""
     lines = [
         [
-            named(cells, method),
+            display_name(cells, method),
             *(_gap(name, cells.difference(human, method, beside, name)) for name in measures),
         ]
         for method in cells.methods_of(human)
@@ -68,7 +71,7 @@ def _gap(measure: str, gap: Interval | None, name: str = "") -> str:
     verdict = MEASURES[measure].verdict(gap)
     mark = f' class="{_MARKS[verdict]}"' if verdict else ""
     whom = f"<small>{escape(name)}</small>" if name else ""
-    return f"<span{mark}>{signed(gap.mean)}</span><small>{ends(gap)}</small>{whom}"
+    return f"<span{mark}>{with_sign(gap.mean)}</span><small>{ends(gap)}</small>{whom}"
 
 
 def best(
@@ -93,8 +96,8 @@ def _best(cells: Cells, human: str, measure: str, baselines: Iterable[str]) -> s
     """Return the baseline with the best mean, the first of equals; no name without any."""
     sign = -1 if MEASURES[measure].more_is_better else 1
     means = {name: cells.mean(human, name, measure) for name in baselines}
-    signed = {name: sign * e.mean for name, e in means.items() if e is not None}
-    return min(signed, key=lambda name: signed[name]) if signed else ""
+    scores = {name: sign * e.mean for name, e in means.items() if e is not None}
+    return min(scores, key=lambda name: scores[name]) if scores else ""
 
 
 def both(
@@ -106,7 +109,7 @@ def both(
     """
     lines = []
     for method in methods:
-        line = [named(cells, method)]
+        line = [display_name(cells, method)]
         for name in measures:
             e = cells.mean(human, method, name)
             is_alone = method in (beside, ORACLE)

@@ -25,14 +25,14 @@ H2 = "H2: with the model the human contributes more, and fails less"
 
 def claims(options: StudyOptions, rows: StudyRows) -> list[Claim]:
     """Return all claims, each judged by the rows alone."""
-    stated = [hypothesis_1(rows), hypothesis_2(rows)]
-    stated += [
+    results = [hypothesis_1(rows), hypothesis_2(rows)]
+    results += [
         switch(options, profile, rows["allocation"])
         for profile in scenario.data()["allocation"]["profiles"]
     ]
     if scenario.is_own_task(options):
-        return [*stated, *(reach(aim, rows) for aim in aims(options))]
-    return [replace(claim, group=OTHER_TASK) for claim in stated]
+        return [*results, *(reach(aim, rows) for aim in aims(options))]
+    return [replace(claim, group=OTHER_TASK) for claim in results]
 
 
 def of_cell(rows: Iterable[StudyRow], case: str, method: str) -> list[StudyRow]:
@@ -104,11 +104,11 @@ def switch(options: StudyOptions, profile: str, rows: Iterable[StudyRow]) -> Cla
     """
     points = [row for row in rows if row["profile"] == profile]
     changes = sorted({int(row["action"] or 0) for row in points})
-    judged = changes[:1] if profile == BASELINE else changes
+    actions = changes[:1] if profile == BASELINE else changes
     thresholds = {at: last_with_human(points, at) for at in changes}
     when = "known before the first action" if profile == BASELINE else "at any time"
     text = f"Above {MOST} all actions go to the robot ({profile} profile, change {when})"
-    holds = all(_switches(thresholds[at], points, at) for at in judged) if judged else None
+    holds = all(_switches(thresholds[at], points, at) for at in actions) if actions else None
     words = [f"{_until(thresholds[at], points)} (before action {at + 1})" for at in changes]
     evidence = f"The human gets actions {', '.join(words)}." if words else "no rows"
     return Claim(text, holds, evidence, PAPER if profile == BASELINE else AIMS)
@@ -122,8 +122,8 @@ def last_with_human(points: Iterable[StudyRow], at: int) -> int | None:
 
 def _switches(last: int | None, points: Iterable[StudyRow], at: int) -> bool:
     """Whether the human has actions at some value, none above 10, and such values were tried."""
-    tried = any(row["action"] == at and int(row["value"] or 0) > MOST for row in points)
-    return tried and last is not None and last <= MOST
+    has_tried = any(row["action"] == at and int(row["value"] or 0) > MOST for row in points)
+    return has_tried and last is not None and last <= MOST
 
 
 def _until(last: int | None, points: Iterable[StudyRow]) -> str:
@@ -147,7 +147,7 @@ def reach(aim: Mapping[str, Any], rows: StudyRows) -> Claim:
     means = estimates(own, list(bands))
     tests = [BoundTest(means[m].interval, lo, hi) for m, (lo, hi) in bands.items()]
     goals = [f"{MEASURES[m].name} {_band(m, lo, hi)}" for m, (lo, hi) in bands.items()]
-    words = [f"{MEASURES[m].name} {_shown(m, e)}" for m, e in means.items()]
+    words = [f"{MEASURES[m].name} {_text(m, e)}" for m, e in means.items()]
     if (bound := aim.get("above")) is not None:
         excess, variant = _above(bound, own, rows)
         name = MEASURES[bound["measure"]].name
@@ -177,11 +177,11 @@ def _band(measure: str, low: float, high: float) -> str:
     return f"at least {amount(f'{low:g}')}" if high == 100 else amount(f"{low:g} to {high:g}")
 
 
-def _shown(measure: str, e: MeanEstimate) -> str:
+def _text(measure: str, e: MeanEstimate) -> str:
     amount = MEASURES[measure].amount(number(e.mean))
     return f"{amount} ± {number(e.se)}" if e.is_known else amount
 
 
-def is_far(ours: MeanEstimate, printed: float, runs: int) -> bool:
+def is_far(ours: MeanEstimate, figure: float, runs: int) -> bool:
     """Whether a printed mean over ``runs`` simulations is unlikely, given the mean here."""
-    return abs(ours.mean - printed) > t_quantile(runs - 1) * ours.se_of(runs)
+    return abs(ours.mean - figure) > t_quantile(runs - 1) * ours.se_of(runs)

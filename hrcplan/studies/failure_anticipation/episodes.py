@@ -27,7 +27,7 @@ SHARES = ("n_human", "n_robot", "cost")
 TOLD = ("ending", "replans", "bars", "plans")
 
 
-def simulated(kind: str, options: StudyOptions, cell: Cell, seed: str) -> StudyRow:
+def simulate(kind: str, options: StudyOptions, cell: Cell, seed: str) -> StudyRow:
     """Return the row of one simulated run: its counts, its measures, and what chance drew."""
     case, name = map(str, cell)
     spec = scenario.spec(scenario.methods(kind, options)[name], case, options, seed)
@@ -58,13 +58,13 @@ def row_of(spec: Spec) -> StudyRow:
     return {**outcome.to_json(), **outcome.measures(), **chance_columns}
 
 
-def allocated(options: StudyOptions, cell: Cell, seed: str) -> StudyRow:
+def allocation(options: StudyOptions, cell: Cell, seed: str) -> StudyRow:
     """Return who does what in the plan after a change: a point of Figure 5."""
     profile, at, value = str(cell[0]), int(cell[1]), int(cell[2])
     engine = engine_for(replace(_plain(options), profile=profile))
     monitor = engine.monitor
     key = scenario.element("allocation", options, human_elements(engine))
-    before = drained(engine, starts_of_human(engine)[at])
+    before = state_at(engine, starts_of_human(engine)[at])
     planner_values = monitor.profile.planner_values(monitor.model.agents, {key: value}, Memory())
     facts = monitor.model.actions.changing(before)
     answer = engine.planner.answer(ev.AskPlan(0.0, facts, before.values, planner_values))
@@ -76,13 +76,13 @@ def allocated(options: StudyOptions, cell: Cell, seed: str) -> StudyRow:
 
 def allocation_cells(options: StudyOptions) -> list[Cell]:
     """Return profile, number of the human's action before which the change comes, and value."""
-    wanted = scenario.data()["allocation"]
+    settings = scenario.data()["allocation"]
     n_actions = len(starts_of_human(engine_for(_plain(options))))
     return [
         (profile, at, value)
-        for profile in wanted["profiles"]
+        for profile in settings["profiles"]
         for at in range(n_actions)
-        for value in range(wanted["most"] + 1)
+        for value in range(settings["most"] + 1)
     ]
 
 
@@ -93,15 +93,15 @@ def example_cells(options: StudyOptions) -> list[Cell]:
     return [(variant["name"],) for variant in scenario.data()["example"]["variants"]]
 
 
-def shown(options: StudyOptions, cell: Cell, seed: str) -> StudyRow:
+def example(options: StudyOptions, cell: Cell, seed: str) -> StudyRow:
     """Return one variant of the illustrative example: every action carried out, every plan."""
-    wanted = scenario.data()["example"]
-    chosen = next(v for v in wanted["variants"] if v["name"] == cell[0])
-    changes = {key: value for key, value in chosen.items() if key != "name"}
+    settings = scenario.data()["example"]
+    variant = next(v for v in settings["variants"] if v["name"] == cell[0])
+    changes = {key: value for key, value in variant.items() if key != "name"}
     engine = engine_for(replace(_plain(options), **changes))
     starts = starts_of_human(engine)
     key = scenario.element("example", options, human_elements(engine))
-    change = StateChange(starts[min(wanted["action"], len(starts)) - 1], {key: wanted["value"]})
+    change = StateChange(starts[min(settings["action"], len(starts)) - 1], {key: settings["value"]})
     film = Film(engine)
     run = engine.run(Nature(seed, (change,)), watch=film)
     return {
@@ -164,7 +164,7 @@ def _starts(engine: Engine) -> Iterator[float]:
             yield float(action.start_s or 0)
 
 
-def drained(engine: Engine, t: float) -> LiftedState:
+def state_at(engine: Engine, t: float) -> LiftedState:
     """Return the state of the first plan when what had begun before ``t`` has ended."""
     acting = engine.monitor.model.actions
     state = acting.initial()

@@ -31,7 +31,7 @@ _WIDTH = 11.5  # inches: as wide as the page
 def measures(
     by_cell: Mapping[Cell, Sequence[StudyRow]],
     names: Sequence[str],
-    printed: Mapping[str, Mapping[str, float]],
+    figures: Mapping[str, Mapping[str, float]],
 ) -> str:
     """Return a dot per cell and measure with 95 % intervals; diamonds are printed figures."""
     cells = [cell for cell, rows in by_cell.items() if rows]
@@ -46,8 +46,8 @@ def measures(
             axes.plot(MEASURES[measure].span(e), [y, y],
                       color=color, linewidth=2.2, alpha=0.45, solid_capstyle="round")  # fmt: skip
             axes.plot([e.mean], [y], "o", color=color, markersize=6)
-            if method == BASELINE and measure in printed.get(case, {}):
-                axes.plot([printed[case][measure]], [y], "D", markersize=5, zorder=1,
+            if method == BASELINE and measure in figures.get(case, {}):
+                axes.plot([figures[case][measure]], [y], "D", markersize=5, zorder=1,
                           markerfacecolor="white", markeredgecolor=plots.INK)  # fmt: skip
         axes.set_title(MEASURES[measure].title)
         axes.margins(x=0.12)
@@ -72,12 +72,12 @@ def reasons(by_cell: Mapping[Cell, Sequence[StudyRow]]) -> str:
     cells = [cell for cell, rows in by_cell.items() if rows]
     figure, grid = plots.figure(1, 1, _WIDTH, 1.1 + 0.25 * len(cells))
     axes, places = grid[0][0], _places(cells)
-    left = [0.0] * len(cells)
+    offsets = [0.0] * len(cells)
     for name, label, color in _REASONS:
         means = [estimate(float(r[name] or 0) for r in by_cell[cell]).mean for cell in cells]
-        axes.barh(places, means, left=left, height=0.66, color=color, label=label)
-        left = [a + b for a, b in zip(left, means, strict=True)]
-    for total, y in zip(left, places, strict=True):
+        axes.barh(places, means, left=offsets, height=0.66, color=color, label=label)
+        offsets = [a + b for a, b in zip(offsets, means, strict=True)]
+    for total, y in zip(offsets, places, strict=True):
         axes.text(total + 0.04, y, f"{total:.2f}", va="center", color=plots.SOFT)
     axes.set_yticks(places, labels=[f"{case}  {method}" for case, method in cells])
     axes.set_ylim(max(places, default=0) + 0.6, -0.6)

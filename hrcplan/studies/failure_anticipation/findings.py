@@ -49,28 +49,28 @@ def findings(options: StudyOptions, rows: StudyRows) -> Findings:
 
 def printed_table(by_cell: Mapping[Cell, Sequence[StudyRow]]) -> Section | None:
     """Return Table I of the paper: our means, and below them the printed figures."""
-    printed, names = scenario.data()["printed"], scenario.data()["printed"]["columns"]
+    reference, names = scenario.data()["printed"], scenario.data()["printed"]["columns"]
     lines = []
     for (case, method), rows in by_cell.items():
         if method == BASELINE and rows:
             means = estimates(rows, names)
-            figures_ = dict(zip(names, printed[case], strict=True))
-            cells = [_beside(means[n], figures_[n], printed["runs"]) for n in names]
+            printed_row = dict(zip(names, reference[case], strict=True))
+            cells = [_beside(means[n], printed_row[n], reference["runs"]) for n in names]
             lines.append([f"Case {case}<small>n = {len(rows)}</small>", *cells])
     if not lines:
         return None
     note = (
         '<p class="note">Each cell: our mean ± its standard error, and below it the printed mean '
-        f"of {printed['runs']} simulations; green where the two differ by no more than chance "
-        f"explains ({printed['runs']} runs like these, 95 %), orange where by more.</p>"
+        f"of {reference['runs']} simulations; green where the two differ by no more than chance "
+        f"explains ({reference['runs']} runs like these, 95 %), orange where by more.</p>"
     )
     html = table(["", *(MEASURES[n].head for n in names)], lines) + note
     return Section("Table I and the printed one", html)
 
 
-def _beside(ours: MeanEstimate, printed: float, runs: int) -> str:
-    mark = "out" if is_far(ours, printed, runs) else "in"
-    return f'{mean_html(ours)}<small class="{mark}">printed {number(printed)}</small>'
+def _beside(ours: MeanEstimate, figure: float, runs: int) -> str:
+    mark = "out" if is_far(ours, figure, runs) else "in"
+    return f'{mean_html(ours)}<small class="{mark}">printed {number(figure)}</small>'
 
 
 def all_methods(by_cell: Mapping[Cell, Sequence[StudyRow]], own_task: bool) -> Section:

@@ -44,45 +44,45 @@ def inputs(options: StudyOptions) -> str:
 
 def methods(kind: str, options: StudyOptions) -> dict[str, Method]:
     """Return the ``methods`` or ``variants``; on another task, those that do not name this one."""
-    chosen = {}
+    by_name = {}
     for name, table in data()[kind].items():
         changes = {key: value for key, value in table.items() if key != "cases"}
         if not is_own_task(options):
             if changes.keys() & options.keys():
                 continue
             changes.pop("can_fail", None)  # names of this task's actions
-        chosen[name] = Method(name, tuple(table["cases"]), changes)
-    return chosen
+        by_name[name] = Method(name, tuple(table["cases"]), changes)
+    return by_name
 
 
 def sweep_cells(options: StudyOptions) -> list[Cell]:
     """Return parameter and value of every cell of the sweeps; none without their method."""
-    wanted = data()["sweep"]
-    if wanted["method"] not in methods("methods", options):
+    settings = data()["sweep"]
+    if settings["method"] not in methods("methods", options):
         return []
     return [
         (name, value)
-        for name, parameter in wanted["parameters"].items()
+        for name, parameter in settings["parameters"].items()
         for value in parameter["values"]
     ]
 
 
 def swept(options: StudyOptions, cell: Cell, seed: str) -> Spec:
     """Return the simulated run of one cell of the sweeps."""
-    wanted = data()["sweep"]
-    method = methods("methods", options)[wanted["method"]]
-    plain = spec(method, wanted["case"], options, seed)
-    parameter, value = wanted["parameters"][cell[0]], cell[1]
+    settings = data()["sweep"]
+    method = methods("methods", options)[settings["method"]]
+    plain = spec(method, settings["case"], options, seed)
+    parameter, value = settings["parameters"][cell[0]], cell[1]
     if "field" in parameter:
-        return changed(plain, {parameter["field"]: value})
-    return changed(plain, {"values": (((parameter["function"],), value),)})
+        return with_changes(plain, {parameter["field"]: value})
+    return with_changes(plain, {"values": (((parameter["function"],), value),)})
 
 
 def cells(kind: str, options: StudyOptions) -> list[Cell]:
     """Return case and method of every cell: case by case, in the order of the file."""
-    chosen = methods(kind, options).values()
-    cases = sorted({case for method in chosen for case in method.cases})
-    return [(case, method.name) for case in cases for method in chosen if case in method.cases]
+    selection = methods(kind, options).values()
+    cases = sorted({case for method in selection for case in method.cases})
+    return [(case, method.name) for case in cases for method in selection if case in method.cases]
 
 
 def spec(method: Method, case: str, options: StudyOptions, seed: str) -> Spec:
@@ -91,10 +91,10 @@ def spec(method: Method, case: str, options: StudyOptions, seed: str) -> Spec:
         domain=options["domain"], problem=options["problem"], case=int(case[0]),
         model=case[1] == WITH_MODEL, seed=seed,
     )  # fmt: skip
-    return changed(plain, method.changes)
+    return with_changes(plain, method.changes)
 
 
-def changed(plain: Spec, changes: Mapping[str, Any]) -> Spec:
+def with_changes(plain: Spec, changes: Mapping[str, Any]) -> Spec:
     """Return a run with some of its fields changed; its profiles are files in this folder."""
     fields: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in changes.items()}
     if str(fields.get("profile", "")).endswith(".toml"):
