@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 from hrcplan.bank.goals import Goals
 from hrcplan.errors import UsageError
-from hrcplan.pddl.generate import objects_in, renamed, with_copy
+from hrcplan.pddl.generate import objects_in, rename, with_copy
 from hrcplan.pddl.model import Formula, Problem
 from hrcplan.search.lm_cut import landmarks
 from hrcplan.search.relevance import relevant
@@ -98,7 +98,7 @@ def _candidates(goals: Goals, world: Problem, rng: random.Random) -> Iterator[Fo
             free = [o for o in by_type[types[name]] if o not in inside and o not in swaps.values()]
             if free:
                 swaps[name] = rng.choice(free)
-        yield renamed(goal, swaps)
+        yield rename(goal, swaps)
 
 
 def _shape(table: StepTable, goal: Formula) -> _Shape | None:

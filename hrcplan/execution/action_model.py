@@ -198,5 +198,5 @@ def _compares(problem: Problem) -> bool:
     formulas = [problem.goal]
     for action in problem.domain.actions:
         formulas += [condition.formula for condition in action.conditions]
-        formulas += [effect.given for effect in action.effects]
+        formulas += [effect.condition for effect in action.effects]
     return any(True for formula in formulas for _ in formula_functions(formula))

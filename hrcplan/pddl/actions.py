@@ -38,22 +38,22 @@ def read_actions(
 
     Of two with one name the first.
     """
-    seen: dict[str, Action] = {}
+    actions: dict[str, Action] = {}
     for node in root[2:]:
         if not isinstance(node, GroupNode) or node.head not in heads:
             continue
         action = _action(node, scope)
         if action is None:
             continue
-        if action.name in seen:
+        if action.name in actions:
             message = f"{node.head[1:]} {quote(action.name)} is declared twice"
-            if seen[action.name] == action:
+            if actions[action.name] == action:
                 scope.source.warn(node[1].at, "duplicate-action", message)
             else:
                 hint = "the two differ: give one of them another name"
                 scope.source.error(node[1].at, "duplicate-action", message, hint)
         else:
-            seen[action.name] = action
+            actions[action.name] = action
             yield node, action
 
 
@@ -71,10 +71,10 @@ def _action(node: GroupNode, scope: Scope) -> Action | None:
         for param in read_params(parts[part], scope)
     )
     inner = scope.binding(params)
-    timed = inner.knowing(DURATION) if durative else inner
+    scope_at_end = inner.knowing(DURATION) if durative else inner
     moment = None if durative else "start"
     if node.head == PROCESS:
-        timed, moment = inner.knowing(CONTINUOUS), "all"
+        scope_at_end, moment = inner.knowing(CONTINUOUS), "all"
     if node.head in PLUS:
         source.use(":time", node.at)
     if durative:
@@ -92,7 +92,7 @@ def _action(node: GroupNode, scope: Scope) -> Action | None:
         name=str(node[1]),
         params=params,
         conditions=() if condition is None else tuple(read_conditions(condition, inner, durative)),
-        effects=() if effect is None else tuple(read_effects(effect, timed, moment)),
+        effects=() if effect is None else tuple(read_effects(effect, scope_at_end, moment)),
         durative=durative,
         durations=tuple(_durations(parts.get(":duration"), inner, node)) if durative else (),
         preferences=preferences,
@@ -100,7 +100,7 @@ def _action(node: GroupNode, scope: Scope) -> Action | None:
 
 
 def _parts(node: GroupNode, source: SourceText, durative: bool) -> dict[str, ParseNode]:
-    known = _DURATIVE if durative else _CLASSICAL
+    part_names = _DURATIVE if durative else _CLASSICAL
     parts: dict[str, ParseNode] = {}
     rest = deque(node[2:])
     last = ""
@@ -111,10 +111,12 @@ def _parts(node: GroupNode, source: SourceText, durative: bool) -> dict[str, Par
             while rest and isinstance(rest[0], GroupNode):
                 rest.popleft()
             continue
-        if isinstance(key, GroupNode) or not (key[0] == ":" or nearest_name(key, known, _CLOSE)):
+        if isinstance(key, GroupNode) or not (
+            key[0] == ":" or nearest_name(key, part_names, _CLOSE)
+        ):
             source.error(key.at, "stray-word", "a keyword such as :effect is expected here")
             continue
-        name = _known_part(key, known, source)
+        name = _part_name(key, part_names, source)
         if key in _TYPED_PARTS:
             parts.setdefault(str(key), _typed_part(key, rest))
             continue
@@ -148,21 +150,21 @@ def _report_second(node: GroupNode, part: str, source: SourceText) -> None:
     source.error(node.at, "stray-word", f"{part} takes one group, and a second one follows", hint)
 
 
-def _known_part(key: WordNode, known: tuple[str, ...], source: SourceText) -> str | None:
+def _part_name(key: WordNode, part_names: tuple[str, ...], source: SourceText) -> str | None:
     """Return the part that a keyword names; a misspelt one is reported, yet understood."""
-    if key in known:
+    if key in part_names:
         return str(key)
     message = f"an action has no part {quote(key)}"
     if key in PARTS:
-        right = ":action" if known is _DURATIVE else ":durative-action"
+        right = ":action" if part_names is _DURATIVE else ":durative-action"
         source.error(key.at, "unknown-section", message, f"that belongs into a {right}")
         return None
     if key in _OTHER_PARTS:
         name, hint = _OTHER_PARTS[key]
         source.error(key.at, "unsupported", f"{key} ({name}) is not supported", hint)
         return None
-    source.error(key.at, "unknown-section", message, nearest(key, known))
-    return nearest_name(key, known, _CLOSE)
+    source.error(key.at, "unknown-section", message, nearest(key, part_names))
+    return nearest_name(key, part_names, _CLOSE)
 
 
 def _durations(
@@ -175,7 +177,7 @@ def _durations(
         return
     for part in constraints:
         assert part is not None
-        inner = part[2] if _is_timed(part) and isinstance(part, GroupNode) else part
+        inner = part[2] if _has_time(part) and isinstance(part, GroupNode) else part
         if not _is_constraint(inner) or not isinstance(inner, GroupNode):
             message, hint = "a duration is compared by =, <= or >=", _duration_cure(inner)
             scope.source.error(part.at, "bad-duration", message, hint)
@@ -199,7 +201,7 @@ def _duration_cure(node: ParseNode) -> str:
     return "write (= ?duration …), (<= ?duration …) or (>= ?duration …)"
 
 
-def _is_timed(node: ParseNode) -> bool:
+def _has_time(node: ParseNode) -> bool:
     return isinstance(node, GroupNode) and len(node) == 3 and node.head == "at"
 
 

@@ -26,7 +26,7 @@ def read_notes(
     """Return the notes of a domain file; one that makes no sense is a warning and left out."""
     names = {"success": actions, "range": functions}
     notes: dict[tuple[str, str], Note] = {}
-    for at, note in _parsed(source, names):
+    for at, note in _notes_of(source, names):
         if (note.kind, note.name) in notes:
             source.warn(at, "duplicate-note", f"a second '{note.kind}' of {quote(note.name)}")
         else:
@@ -40,7 +40,9 @@ def refuse_notes(source: SourceText) -> None:
         source.warn(at, "bad-note", f"{quote(text)} has no effect here", "move it to the domain")
 
 
-def _parsed(source: SourceText, names: Mapping[str, Collection[str]]) -> Iterator[tuple[int, Note]]:
+def _notes_of(
+    source: SourceText, names: Mapping[str, Collection[str]]
+) -> Iterator[tuple[int, Note]]:
     for at, text in notes(source):
         kind, *words = text.lower().split() or [""]
         numbers = tuple(n for n in map(to_number, words[1:]) if n is not None)

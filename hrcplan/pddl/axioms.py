@@ -28,16 +28,16 @@ DERIVED = ":derived"
 
 def read_axioms(root: GroupNode, scope: Scope) -> Iterator[Axiom]:
     """Yield the axioms of a domain; every fault is noted."""
-    placed: list[tuple[int, Axiom]] = []
+    axioms_by_place: list[tuple[int, Axiom]] = []
     for node in root[2:]:
         if isinstance(node, GroupNode) and node.head == DERIVED:
             scope.source.use(":derived-predicates", node.at)
             axiom = _axiom(node, scope)
             if axiom is not None:
-                placed.append((node.at, axiom))
-    axioms = [axiom for _, axiom in placed]
+                axioms_by_place.append((node.at, axiom))
+    axioms = [axiom for _, axiom in axioms_by_place]
     level = levels(axioms)
-    for at, axiom in placed:
+    for at, axiom in axioms_by_place:
         if axiom.name not in level:
             message = f"{quote(axiom.name)} is derived from its own negation"
             scope.source.error(at, "not-stratified", message)
@@ -60,14 +60,14 @@ def _axiom(node: GroupNode, scope: Scope) -> Axiom | None:
         message = f"{quote(name)} is declared as {signature}"
         source.error(head.at, "wrong-arity", message)
         return None
-    return Axiom(str(name), _typed(params, signature), body)
+    return Axiom(str(name), _with_types(params, signature), body)
 
 
-def _typed(params: Sequence[Param], signature: Signature) -> tuple[Param, ...]:
+def _with_types(params: Sequence[Param], signature: Signature) -> tuple[Param, ...]:
     """Return parameters, those without a type with the one that the declaration gives."""
     return tuple(
-        replace(param, types=declared.types) if param.types == (OBJECT,) else param
-        for param, declared in zip(params, signature.params, strict=True)
+        replace(param, types=predicate_param.types) if param.types == (OBJECT,) else param
+        for param, predicate_param in zip(params, signature.params, strict=True)
     )
 
 
@@ -95,33 +95,33 @@ def _components(needs: Mapping[str, Mapping[str, bool]]) -> Iterator[frozenset[s
     for name, others in needs.items():
         for other in others:
             needed_by[other].append(name)
-    last_first = _finished(list(needed_by), needed_by)[::-1]  # Kosaraju and Sharir
-    seen: set[str] = set()
+    last_first = _postorder(list(needed_by), needed_by)[::-1]  # Kosaraju and Sharir
+    visited: set[str] = set()
     for name in last_first:
-        if name not in seen:
-            component = _finished([name], needs, seen)
+        if name not in visited:
+            component = _postorder([name], needs, visited)
             yield frozenset(component)
 
 
-def _finished(
-    roots: Sequence[str], edges: Mapping[str, Collection[str]], seen: set[str] | None = None
+def _postorder(
+    roots: Sequence[str], edges: Mapping[str, Collection[str]], visited: set[str] | None = None
 ) -> list[str]:
-    """Return what is reachable from ``roots`` and not ``seen``, in the order it is left."""
-    seen = set() if seen is None else seen
+    """Return what is reachable from ``roots`` and not ``visited``, in the order it is left."""
+    visited = set() if visited is None else visited
     order: list[str] = []
     for root in roots:
-        if root in seen:
+        if root in visited:
             continue
-        seen.add(root)
+        visited.add(root)
         stack = [(root, iter(edges[root]))]
         while stack:
             name, rest = stack[-1]
-            following = next((other for other in rest if other not in seen), None)
+            following = next((other for other in rest if other not in visited), None)
             if following is None:
                 order.append(name)
                 stack.pop()
             else:
-                seen.add(following)
+                visited.add(following)
                 stack.append((following, iter(edges[following])))
     return order
 

@@ -184,31 +184,31 @@ class _Domains:
     """Domains by name: those among the files given, then those found elsewhere."""
 
     def __init__(self, files: Sequence[_File]) -> None:
-        self.given: dict[str, _File] = {}
+        self.by_name: dict[str, _File] = {}
         for file in files:
             if file.domain is not None:
-                self.given.setdefault(file.domain.name, file)
-        self._opened: dict[Path, _File] = {}
+                self.by_name.setdefault(file.domain.name, file)
+        self._by_path: dict[Path, _File] = {}
         self._places: dict[tuple[str, Path], Path | None] = {}
 
     def find(self, name: str, problem: Path) -> _File | None:
         """Return the domain file of this name for a problem file, or None."""
-        if name in self.given:
-            return self.given[name]
+        if name in self.by_name:
+            return self.by_name[name]
         place = (name, problem.parent)
         if place not in self._places:
             self._places[place] = library.domain_file_for(name, problem)
         path = self._places[place]
         if path is None:
             return None
-        if path not in self._opened:
-            self._opened[path] = _open(path)
-        return self._opened[path]
+        if path not in self._by_path:
+            self._by_path[path] = _open(path)
+        return self._by_path[path]
 
     @property
     def only(self) -> _File | None:
         """The one domain among the files given, if there is just one."""
-        return next(iter(self.given.values())) if len(self.given) == 1 else None
+        return next(iter(self.by_name.values())) if len(self.by_name) == 1 else None
 
 
 def _check_problem(file: _File, domains: _Domains) -> None:
@@ -218,13 +218,13 @@ def _check_problem(file: _File, domains: _Domains) -> None:
     domain = domain or domains.only  # a wrong name is reported, and the rest is still checked
     if domain is not None and domain.domain is not None:
         file.problem = read_problem(file.root, file.source, domain.domain)
-        if domain.source.has_errors and domain not in domains.given.values():
+        if domain.source.has_errors and domain not in domains.by_name.values():
             _report_faulty(file, file.root.at if name is None else name.at, domain)
     elif name is None:
         file.source.error(file.root.at, "no-domain", "the problem does not say its (:domain NAME)")
     else:
         message = f"no domain {quote(name)} given, in the problem's folder, or shipped"
-        hint = nearest(name, [*domains.given, *library.domain_names()])
+        hint = nearest(name, [*domains.by_name, *library.domain_names()])
         file.source.error(name.at, "domain-mismatch", message, hint)
 
 

@@ -68,15 +68,15 @@ def _spread(match: re.Match[str]) -> str:
 
 
 def _at_once(action: Action) -> Action:
-    if any(effect.params or effect.given != TRUE for effect in action.effects):
+    if any(effect.params or effect.condition != TRUE for effect in action.effects):
         raise UnsupportedError(f"an effect of '{action.name}' is conditional")
     _check_one_instant(action)
     literals = And(tuple(part for c in action.conditions for part in _literals(c.formula, action)))
-    added = {effect.target for effect in action.effects if effect.kind == "add"}
+    add_targets = {effect.target for effect in action.effects if effect.kind == "add"}
     effects = tuple(
         replace(effect, when="start")
         for effect in sorted(action.effects, key=_is_late)
-        if effect.kind == "add" or effect.target not in added
+        if effect.kind == "add" or effect.target not in add_targets
     )
     return replace(
         action, conditions=(Condition("start", literals),), effects=effects,
@@ -87,18 +87,18 @@ def _at_once(action: Action) -> Action:
 def _check_one_instant(action: Action) -> None:
     """Refuse an action whose end sees, or takes back, what its start did."""
     early = [effect for effect in action.effects if not _is_late(effect)]
-    touched = {effect.target.name for effect in early}
-    added = {effect.target.name for effect in early if effect.kind == "add"}
+    start_names = {effect.target.name for effect in early}
+    add_names = {effect.target.name for effect in early if effect.kind == "add"}
     late = [c.formula for c in action.conditions if c.when != "start"]
-    seen = {
+    end_names = {
         part.name
         for formula in late
         for part in map(_positive, _literals(formula, action))
         if isinstance(part, Atom)
     }
     undone = {e.target.name for e in action.effects if _is_late(e) and e.kind == "delete"}
-    if touched & seen or added & undone:
-        name = min(touched & seen or added & undone)
+    if start_names & end_names or add_names & undone:
+        name = min(start_names & end_names or add_names & undone)
         raise UnsupportedError(f"the end of '{action.name}' depends on '{name}' at its start")
 
 

@@ -26,7 +26,7 @@ def constructs(problem: Problem) -> Iterator[str]:
         yield PREFERENCES
     if domain.constraints or problem.constraints:
         yield TRAJECTORIES
-    if any(e.given_start != TRUE for action in domain.actions for e in action.effects):
+    if any(e.start_condition != TRUE for action in domain.actions for e in action.effects):
         yield START_CONDITIONS
     if domain.is_continuous:
         yield CONTINUOUS

@@ -30,8 +30,8 @@ _INTERACTIONS = frozenset(["decrease", "assign"])
 
 def robots(problem: Problem) -> frozenset[str]:
     """Return the agents that take commands: the controllable ones, else the one called robot."""
-    marked = frozenset(a for a in problem.agents if (CONTROLLABLE, a) in problem.facts)
-    return marked or frozenset({ROBOT}.intersection(problem.agents))
+    controllable = frozenset(a for a in problem.agents if (CONTROLLABLE, a) in problem.facts)
+    return controllable or frozenset({ROBOT}.intersection(problem.agents))
 
 
 def people(problem: Problem) -> frozenset[str]:

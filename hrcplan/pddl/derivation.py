@@ -78,12 +78,12 @@ class Derivation:
         if self._last is not None and self._last[0] is state:
             return self._last[1]
         index = FactIndex(fact for fact in state.facts if fact[0] in self._read)
-        derived: set[Fact] = set()
+        facts: set[Fact] = set()
         for rules in self._strata:
-            derived |= self._saturate(rules, index, state)
-        closed = LiftedState(frozenset(state.facts | derived), state.values)
-        self._last = state, closed
-        return closed
+            facts |= self._saturate(rules, index, state)
+        closure = LiftedState(frozenset(state.facts | facts), state.values)
+        self._last = state, closure
+        return closure
 
     def _saturate(self, rules: Sequence[_Rule], index: FactIndex, state: LiftedState) -> set[Fact]:
         """Return what the rules of one stratum add, and put it into the index."""
@@ -93,11 +93,11 @@ class Derivation:
                 users[atom.name].append((rule, position))
         new_facts: set[Fact] = set()
         facts = set(state.facts) | index.facts
-        seen = LiftedState(facts, state.values)
+        partial = LiftedState(facts, state.values)
         first = list(rules)
         while first:
             before = len(new_facts)
-            waiting = [fact for rule in first for fact in self._heads(rule, index, seen)]
+            waiting = [fact for rule in first for fact in self._heads(rule, index, partial)]
             while waiting:
                 fact = waiting.pop()
                 if fact in facts:
@@ -106,7 +106,7 @@ class Derivation:
                 facts.add(fact)
                 index.add(fact)
                 for rule, position in users[fact[0]]:
-                    waiting += self._heads(rule, index, seen, (position, fact))
+                    waiting += self._heads(rule, index, partial, (position, fact))
             first = [rule for rule in rules if rule.waits] if len(new_facts) > before else []
         return new_facts
 
@@ -173,13 +173,13 @@ def _alternatives(
         case Quantified(False, params, body):
             names = {param.name: f"{param.name}-{next(numbers)}_" for param in params}
             inner = tuple(replace(param, name=names[param.name]) for param in params)
-            alternative = _alternatives(substituted(body, names), numbers)
+            alternative = _alternatives(substitute(body, names), numbers)
             return [((*inner, *more), part) for more, part in alternative]
         case _:
             return [((), formula)]
 
 
-def substituted(formula: Formula, terms: Mapping[str, str]) -> Formula:
+def substitute(formula: Formula, terms: Mapping[str, str]) -> Formula:
     """Return a formula with other terms for its free variables; they must not be bound in it."""
 
     def term(name: str) -> str:
@@ -193,15 +193,15 @@ def substituted(formula: Formula, terms: Mapping[str, str]) -> Formula:
         case Compare(op, left_side, right_side):
             return Compare(op, _expression(left_side, terms), _expression(right_side, terms))
         case Not(body):
-            return Not(substituted(body, terms))
+            return Not(substitute(body, terms))
         case And(parts):
-            return And(tuple(substituted(part, terms) for part in parts))
+            return And(tuple(substitute(part, terms) for part in parts))
         case Or(parts):
-            return Or(tuple(substituted(part, terms) for part in parts))
+            return Or(tuple(substitute(part, terms) for part in parts))
         case Quantified(universal, params, body):
             bound = {p.name for p in params}
             free = {old: new for old, new in terms.items() if old not in bound}
-            return Quantified(universal, params, substituted(body, free))
+            return Quantified(universal, params, substitute(body, free))
 
 
 def _expression(expression: Expr, terms: Mapping[str, str]) -> Expr:

@@ -48,7 +48,7 @@ def symbolic(domain: Domain) -> Domain:
         for condition in action.conditions:
             _check_symbolic(condition.formula, f"'{action.name}'")
         for effect in action.effects:
-            _check_symbolic(effect.given, f"'{action.name}'")
+            _check_symbolic(effect.condition, f"'{action.name}'")
         if any(True for _, expr in action.durations for _ in functions_in(expr)):
             raise UnsupportedError(f"the duration of '{action.name}' needs numbers")
     flags = tuple(flag for flag in domain.requirements if flag not in _NUMERIC)
@@ -86,7 +86,7 @@ def _binary_action(action: Action) -> Action:
             replace(
                 effect,
                 value=None if effect.value is None else _binary(effect.value),
-                given=_binary_formula(effect.given),
+                condition=_binary_formula(effect.condition),
             )
             for effect in action.effects
         ),

@@ -45,8 +45,8 @@ def read_domain(root: GroupNode, source: SourceText) -> Domain:
         path=source.path,
     )
     axioms = tuple(read_axioms(root, Scope(source, base, constants, {})))
-    derived = frozenset(axiom.name for axiom in axioms)
-    scope = Scope(source, base, constants, {}, derived=derived)
+    derived_names = frozenset(axiom.name for axiom in axioms)
+    scope = Scope(source, base, constants, {}, derived=derived_names)
     actions = list(read_actions(root, scope))
     plus = list(read_actions(root, scope, PLUS))
     names = [action.name for _, action in actions]
@@ -66,29 +66,29 @@ def read_domain(root: GroupNode, source: SourceText) -> Domain:
 
 
 def sections_of(
-    root: GroupNode, source: SourceText, known: Sequence[str]
+    root: GroupNode, source: SourceText, section_names: Sequence[str]
 ) -> Iterator[tuple[str, GroupNode]]:
     """Yield the sections of a file by name, reporting unknown, unsupported and repeated ones.
 
     A misspelt section is reported and then read as the one that was meant.
     """
-    seen: set[str] = set()
+    names: set[str] = set()
     for node in root[2:]:
-        name = _section_name(node, source, known)
+        name = _section_name(node, source, section_names)
         if name is None or isinstance(node, WordNode):
             continue
-        if name in seen and name not in _REPEATED:
+        if name in names and name not in _REPEATED:
             source.error(node.at, "repeated-section", f"a second {name} section")
         else:
-            seen.add(name)
+            names.add(name)
             yield name, node
 
 
-def _section_name(node: ParseNode, source: SourceText, known: Sequence[str]) -> str | None:
+def _section_name(node: ParseNode, source: SourceText, section_names: Sequence[str]) -> str | None:
     name = node.head if isinstance(node, GroupNode) else ""
     if isinstance(node, WordNode) or not name:
         source.error(node.at, "stray-word", "a section such as (:init …) is expected here")
-    elif name in known:
+    elif name in section_names:
         return name
     elif name in _UNSUPPORTED:
         source.error(node.at, "unsupported", f"{_UNSUPPORTED[name]} are not supported",
@@ -97,18 +97,18 @@ def _section_name(node: ParseNode, source: SourceText, known: Sequence[str]) -> 
         source.warn(node.at, "ignored-section", "hrcplan takes no notice of :length")
     else:
         message = f"there is no section {quote(name)} here"
-        source.error(node.at, "unknown-section", message, nearest(name, known))
-        meant = nearest_name(name, known, SECTION_SIMILARITY)
-        if meant is not None:
-            node[0] = _renamed(node[0], meant)
-        return meant
+        source.error(node.at, "unknown-section", message, nearest(name, section_names))
+        right = nearest_name(name, section_names, SECTION_SIMILARITY)
+        if right is not None:
+            node[0] = _rename(node[0], right)
+        return right
     return None
 
 
-def _renamed(word: ParseNode, name: str) -> WordNode:
-    renamed = WordNode(name)
-    renamed.at = word.at
-    return renamed
+def _rename(word: ParseNode, name: str) -> WordNode:
+    copy = WordNode(name)
+    copy.at = word.at
+    return copy
 
 
 def declared_name(root: GroupNode, kind: str, source: SourceText) -> str:
@@ -122,7 +122,10 @@ def declared_name(root: GroupNode, kind: str, source: SourceText) -> str:
 
 
 def read_objects(
-    section: GroupNode | None, source: SourceText, types: Collection[str], known: Mapping[str, str]
+    section: GroupNode | None,
+    source: SourceText,
+    types: Collection[str],
+    constants: Mapping[str, str],
 ) -> dict[str, str]:
     """Return the objects of an ``:objects`` or ``:constants`` section with their types."""
     objects: dict[str, str] = {}
@@ -130,7 +133,7 @@ def read_objects(
         if len(kinds) > 1:
             hint = "declare a type below all of these, and give the object that type"
             source.error(name.at, "unsupported", "an object needs one type, not (either …)", hint)
-        before = objects.get(str(name), known.get(str(name)))
+        before = objects.get(str(name), constants.get(str(name)))
         if before not in (None, kinds[0]):
             message = f"object {quote(name)} is declared twice, as {before} and as {kinds[0]}"
             hint = "declare a type below both, and give the object that type"
@@ -178,7 +181,7 @@ def _report_cycles(
     types: dict[str, tuple[str, ...]], entries: Sequence[Entry], source: SourceText
 ) -> None:
     """Report the types that are left when those with only settled types above are taken away."""
-    settled: set[str] = set()
+    acyclic: set[str] = set()
     below: dict[str, list[str]] = {}
     for name, parents in types.items():
         for parent in parents:
@@ -187,26 +190,26 @@ def _report_cycles(
     ready = [name for name, n_open in open_parents.items() if not n_open]
     while ready:
         name = ready.pop()
-        settled.add(name)
+        acyclic.add(name)
         for child in below.get(name, ()):
             open_parents[child] -= 1
             if not open_parents[child]:
                 ready.append(child)
     for name, _ in entries:
-        if name in types and name not in settled and _is_own_ancestor(name, types):
+        if name in types and name not in acyclic and _is_own_ancestor(name, types):
             message = f"type {quote(name)} is below itself"
             source.error(name.at, "cyclic-types", message, f"write '{name} - object' apart")
 
 
 def _is_own_ancestor(name: str, types: dict[str, tuple[str, ...]]) -> bool:
-    seen: set[str] = set()
+    ancestors: set[str] = set()
     waiting = list(types[name])
     while waiting:
         above = waiting.pop()
         if above == name:
             return True
-        if above not in seen:
-            seen.add(above)
+        if above not in ancestors:
+            ancestors.add(above)
             waiting.extend(types.get(above, ()))
     return False
 

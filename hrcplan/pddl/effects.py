@@ -34,9 +34,9 @@ def read_effects(node: ParseNode, scope: Scope, when: str | None) -> Iterator[Ef
         message = "an effect such as (p ?x) is expected here"
         scope.source.error(node.at, "not-an-effect", message, loose_cure(node, "effects"))
         return
-    timed = time_of(node) if when is None else None
-    if timed is not None and timed[0] != "all":
-        yield from read_effects(timed[1], scope, timed[0])
+    pair = time_of(node) if when is None else None
+    if pair is not None and pair[0] != "all":
+        yield from read_effects(pair[1], scope, pair[0])
         return
     match node.head:
         case "":
@@ -84,9 +84,9 @@ def _conditional(node: GroupNode, scope: Scope, when: str | None) -> Iterator[Ef
     if when is None:
         yield from _timed_conditional(node, scope)
         return
-    given = read_formula(node[1], scope)
+    condition = read_formula(node[1], scope)
     for effect in read_effects(node[2], scope, when):
-        yield replace(effect, given=_both(given, effect.given))
+        yield replace(effect, condition=_both(condition, effect.condition))
 
 
 def _timed_conditional(node: GroupNode, scope: Scope) -> Iterator[Effect]:
@@ -102,10 +102,12 @@ def _timed_conditional(node: GroupNode, scope: Scope) -> Iterator[Effect]:
             message = "an effect at the start cannot depend on the end"
             scope.source.error(node.at, "not-an-effect", message, "write (at end …) for the effect")
         elif effect.when == "start":
-            yield replace(effect, given=_both(_plain(starts), effect.given))
+            yield replace(effect, condition=_both(_plain(starts), effect.condition))
         else:
-            before = _both(_plain(starts), effect.given_start)
-            yield replace(effect, given=_both(_plain(ends), effect.given), given_start=before)
+            before = _both(_plain(starts), effect.start_condition)
+            yield replace(
+                effect, condition=_both(_plain(ends), effect.condition), start_condition=before
+            )
 
 
 def _plain(formula: And) -> Formula:

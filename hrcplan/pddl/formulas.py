@@ -73,7 +73,7 @@ def read_formula(node: ParseNode, scope: Scope) -> Formula:
         case "imply":
             return _implication(node, scope)
         case "forall" | "exists":
-            return _quantified(node, scope)
+            return _quantifier(node, scope)
         case head if head in COMPARISONS:
             return _comparison(node, scope)
     return read_atom(node, scope) or TRUE
@@ -85,7 +85,7 @@ def read_atom(node: GroupNode, scope: Scope) -> Atom | None:
         return None
     if is_foreign(node, scope):
         return None
-    if _is_timed(node):
+    if _has_time(node):
         message = "only a durative action says 'at start', 'over all' or 'at end', and only once"
         scope.source.error(node.at, "unexpected-time", message)
         return None
@@ -131,7 +131,7 @@ def _is_infix(node: GroupNode, scope: Scope) -> bool:
     return True
 
 
-def _is_timed(node: GroupNode) -> bool:
+def _has_time(node: GroupNode) -> bool:
     """Whether a group says when a condition holds; ``(at start bob)`` is a predicate."""
     return time_of(node) is not None and isinstance(node[2], GroupNode)
 
@@ -156,8 +156,8 @@ def read_conditions(node: ParseNode, scope: Scope, durative: bool) -> Iterator[C
         params, inside = scope.quantifying(read_params(node[1], scope), node.at)
         for inner in read_conditions(node[2], inside, durative):
             yield Condition(inner.when, Quantified(True, params, inner.formula))
-    elif (timed := time_of(node)) is not None:
-        yield Condition(timed[0], read_formula(timed[1], scope))
+    elif (pair := time_of(node)) is not None:
+        yield Condition(pair[0], read_formula(pair[1], scope))
     elif not (isinstance(node, GroupNode) and (not node or is_unsupported(node, scope))):
         message = "a durative condition needs (at start …), (over all …) or (at end …)"
         scope.source.error(node.at, "no-time", message)
@@ -182,21 +182,21 @@ def read_expression(node: ParseNode, scope: Scope) -> Expr:
     if node.head in scope.numbers and len(node) == 1:
         return Function(str(node.head))
     if node.head == VIOLATED and scope.preferences is not None:
-        return _violated(node, scope, scope.preferences)
+        return _violation_count(node, scope, scope.preferences)
     if node.head:
         return read_function(node, scope) or Constant(0)
     scope.source.error(node.at, "not-a-number", "a numeric expression is expected here")
     return Constant(0)
 
 
-def _violated(node: GroupNode, scope: Scope, known: Set[str]) -> Expr:
+def _violation_count(node: GroupNode, scope: Scope, preferences: Set[str]) -> Expr:
     name = node[1] if len(node) == 2 else node
     if not isinstance(name, WordNode):
         scope.source.error(node.at, "bad-preference", "(is-violated NAME) is expected here")
         return Constant(0)
-    if name not in known:
+    if name not in preferences:
         message = f"there is no preference {quote(name)}"
-        scope.source.unknown(name.at, "unknown-preference", message, str(name), known)
+        scope.source.unknown(name.at, "unknown-preference", message, str(name), preferences)
         return Constant(0)
     return Function(VIOLATED, (str(name),))
 
@@ -282,7 +282,7 @@ def _implication(node: GroupNode, scope: Scope) -> Formula:
     return Or((Not(read_formula(node[1], scope)), read_formula(node[2], scope)))
 
 
-def _quantified(node: GroupNode, scope: Scope) -> Formula:
+def _quantifier(node: GroupNode, scope: Scope) -> Formula:
     if not has_parts(node, 2, scope):
         return TRUE
     universal = node.head == "forall"

@@ -37,8 +37,8 @@ def with_copy(problem: Problem, old: str, new: str) -> Problem:
     Facts and values that mention both another copy and ``old`` are copied too.
     """
     names = {old: new}
-    facts = {_renamed(fact, names) for fact in problem.facts if old in fact[1:]}
-    values = {_renamed(k, names): v for k, v in problem.values.items() if old in k[1:]}
+    facts = {_rename_fact(fact, names) for fact in problem.facts if old in fact[1:]}
+    values = {_rename_fact(k, names): v for k, v in problem.values.items() if old in k[1:]}
     return replace(
         problem,
         objects={**problem.objects, new: problem.all_objects[old]},
@@ -47,11 +47,11 @@ def with_copy(problem: Problem, old: str, new: str) -> Problem:
     )
 
 
-def _renamed(fact: Fact, names: Mapping[str, str]) -> Fact:
+def _rename_fact(fact: Fact, names: Mapping[str, str]) -> Fact:
     return (fact[0], *(names.get(word, word) for word in fact[1:]))
 
 
-def renamed(formula: Formula, names: Mapping[str, str]) -> Formula:
+def rename(formula: Formula, names: Mapping[str, str]) -> Formula:
     """Return a formula with other objects in its atoms and equations; numbers stay as they are."""
     match formula:
         case Atom(name, args):
@@ -59,13 +59,13 @@ def renamed(formula: Formula, names: Mapping[str, str]) -> Formula:
         case Equal(left, right):
             return Equal(names.get(left, left), names.get(right, right))
         case Not(body):
-            return Not(renamed(body, names))
+            return Not(rename(body, names))
         case And(parts):
-            return And(tuple(renamed(part, names) for part in parts))
+            return And(tuple(rename(part, names) for part in parts))
         case Or(parts):
-            return Or(tuple(renamed(part, names) for part in parts))
+            return Or(tuple(rename(part, names) for part in parts))
         case Quantified(universal, params, body):
-            return Quantified(universal, params, renamed(body, names))
+            return Quantified(universal, params, rename(body, names))
         case _:
             return formula
 

@@ -82,10 +82,10 @@ def check_values(
 def _report_gaps(name: str, unset: Mapping[FluentKey, str], at: int, source: SourceText) -> None:
     """Warn once about all values of one function that some action can need."""
     (key, user), n_more = next(iter(unset.items())), len(unset) - 1
-    shown = f"({' '.join(key)})"
+    example = f"({' '.join(key)})"
     more = f" and {n_more} more values of {quote(name)} are" if n_more else " is"
-    message = f"{quote(shown)}{more} not set: {user} cannot run where it needs one"
-    source.warn(at, "unset-function", message, f"add (= {shown} NUMBER) unless that is meant")
+    message = f"{quote(example)}{more} not set: {user} cannot run where it needs one"
+    source.warn(at, "unset-function", message, f"add (= {example} NUMBER) unless that is meant")
 
 
 def _check_goal_and_metric(problem: Problem, later: Set[str], at: int, source: SourceText) -> None:
@@ -108,7 +108,7 @@ class _Need:
 
     function: Function
     params: tuple[Param, ...] = ()
-    given: Formula = TRUE
+    condition: Formula = TRUE
 
 
 class _Checker:
@@ -117,13 +117,13 @@ class _Checker:
     def __init__(self, problem: Problem) -> None:
         self.problem = problem
         effects = [effect for action in problem.domain.actions for effect in action.effects]
-        self.changed = {e.target.name for e in effects if e.value is None}
+        self.changing = {e.target.name for e in effects if e.value is None}
         # What an action assigns may be unset until then.
         self.later = {e.target.name for e in effects if e.kind == "assign"} | _SPECIAL
 
     @cached_property
     def static(self) -> FactIndex:
-        return FactIndex(fact for fact in self.problem.facts if fact[0] not in self.changed)
+        return FactIndex(fact for fact in self.problem.facts if fact[0] not in self.changing)
 
     @cached_property
     def state(self) -> LiftedState:
@@ -147,8 +147,8 @@ class _Checker:
 
     def _negative(self, action: Action, duration: Expr) -> Iterator[tuple[FluentKey, str]]:
         functions = list(functions_in(duration))
-        wanted = {arg for function in functions for arg in function.args}
-        for binding in self._bindings(action, wanted):
+        names = {arg for function in functions for arg in function.args}
+        for binding in self._bindings(action, names):
             try:
                 value = evaluate(duration, self.problem.values, binding)
             except Undefined:
@@ -181,23 +181,23 @@ class _Checker:
     def _keys(self, action: Action, needs: list[_Need]) -> Iterator[FluentKey]:
         if not needs:
             return
-        wanted = {arg for need in needs for arg in need.function.args}
-        wanted |= {name for need in needs for name in _variables(need.given)}
+        names = {arg for need in needs for arg in need.function.args}
+        names |= {name for need in needs for name in _variables(need.condition)}
         readings = (
             (need, inner)
-            for binding in self._bindings(action, wanted)
+            for binding in self._bindings(action, names)
             for need in needs
             for inner in instances(need.params, binding, self.problem)
         )
         for need, inner in islice(readings, MAX_BINDINGS):
-            if not self._is_false(need.given, inner):
+            if not self._is_false(need.condition, inner):
                 yield ground_key(need.function, inner)
 
     def _bindings(self, action: Action, wanted: set[str]) -> Iterator[Binding]:
         """Yield bindings of the wanted parameters (and those tied to them) that can occur."""
         if not all(self.problem.objects_of(param.types) for param in action.params):
             return
-        atoms = [atom for atom in needed_atoms(action) if atom.name not in self.changed]
+        atoms = [atom for atom in needed_atoms(action) if atom.name not in self.changing]
         others = [
             part
             for condition in action.conditions
@@ -206,8 +206,8 @@ class _Checker:
         ]
         names = wanted.union(*(_variables(part) for part in (*atoms, *others)))
         tied = replace(action, params=tuple(p for p in action.params if p.name in names))
-        supported = Join(tied, atoms, self.problem).bindings(self.static)
-        for binding in islice(supported, MAX_BINDINGS):
+        bindings = Join(tied, atoms, self.problem).bindings(self.static)
+        for binding in islice(bindings, MAX_BINDINGS):
             if not any(self._is_false(part, binding) for part in others):
                 yield binding
 
@@ -225,9 +225,9 @@ class _Checker:
         return all(key in self.problem.values for key in keys)
 
     def _is_static(self, formula: Formula) -> bool:
-        atoms_fixed = self.changed.isdisjoint(a.name for a in _atoms(formula))
-        changed = self.problem.domain.changed_functions
-        return atoms_fixed and changed.isdisjoint(f.name for f in formula_functions(formula))
+        has_static_atoms = self.changing.isdisjoint(a.name for a in _atoms(formula))
+        changing = self.problem.domain.changed_functions
+        return has_static_atoms and changing.isdisjoint(f.name for f in formula_functions(formula))
 
 
 def _unbound(action: Action, binding: Binding) -> tuple[Param, ...]:
@@ -245,7 +245,7 @@ def _needs(action: Action) -> Iterator[_Need]:
             read = list(functions_in(effect.value))
             if effect.kind != "assign":
                 read.append(effect.target)
-            yield from (_Need(function, effect.params, effect.given) for function in read)
+            yield from (_Need(function, effect.params, effect.condition) for function in read)
     for _, duration in action.durations:
         yield from map(_Need, functions_in(duration))
 

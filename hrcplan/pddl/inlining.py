@@ -13,7 +13,7 @@ from itertools import count
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.axioms import levels, uses
 from hrcplan.pddl.constructs import AXIOMS, constructs
-from hrcplan.pddl.derivation import Derivation, substituted
+from hrcplan.pddl.derivation import Derivation, substitute
 from hrcplan.pddl.joins import lifted_names
 from hrcplan.pddl.model import (
     Action,
@@ -76,16 +76,16 @@ def without_axioms(problem: Problem) -> Problem:
 def _constant(problem: Problem) -> Set[str]:
     """Return the derived predicates that depend on nothing that an action can change."""
     domain = problem.domain
-    changed = {e.target.name for action in domain.actions for e in action.effects}
+    changing = {e.target.name for action in domain.actions for e in action.effects}
     while True:
         more = {
             axiom.name
             for axiom in domain.axioms
-            if axiom.name not in changed and not changed.isdisjoint(lifted_names(axiom.body))
+            if axiom.name not in changing and not changing.isdisjoint(lifted_names(axiom.body))
         }
         if not more:
-            return domain.derived - changed
-        changed |= more
+            return domain.derived - changing
+        changing |= more
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,7 +118,7 @@ class _Inliner:
             conditions=tuple(
                 replace(c, formula=self.formula(c.formula)) for c in action.conditions
             ),
-            effects=tuple(replace(e, given=self.formula(e.given)) for e in action.effects),
+            effects=tuple(replace(e, condition=self.formula(e.condition)) for e in action.effects),
         )
 
     def formula(self, formula: Formula) -> Formula:
@@ -140,28 +140,28 @@ class _Inliner:
 
     def _body(self, axiom: Axiom, args: Sequence[str]) -> Formula:
         """Return what an axiom says of some terms; its variables get names of their own."""
-        body = self._renamed(axiom.body)
-        declared = self.problem.domain.predicates[axiom.name].params
-        if [p.types for p in declared] == [p.types for p in axiom.params]:
+        body = self._rename(axiom.body)
+        params = self.problem.domain.predicates[axiom.name].params
+        if [p.types for p in params] == [p.types for p in axiom.params]:
             names = {param.name: arg for param, arg in zip(axiom.params, args, strict=True)}
-            return substituted(body, names)
+            return substitute(body, names)
         fresh = tuple(replace(p, name=self._name(p.name)) for p in axiom.params)
         names = {old.name: new.name for old, new in zip(axiom.params, fresh, strict=True)}
         same = (Equal(new.name, arg) for new, arg in zip(fresh, args, strict=True))
-        return Quantified(False, fresh, And((*same, substituted(body, names))))
+        return Quantified(False, fresh, And((*same, substitute(body, names))))
 
-    def _renamed(self, formula: Formula) -> Formula:
+    def _rename(self, formula: Formula) -> Formula:
         match formula:
             case Quantified(universal, params, body):
                 fresh = tuple(replace(p, name=self._name(p.name)) for p in params)
                 names = {old.name: new.name for old, new in zip(params, fresh, strict=True)}
-                return Quantified(universal, fresh, substituted(self._renamed(body), names))
+                return Quantified(universal, fresh, substitute(self._rename(body), names))
             case Not(body):
-                return Not(self._renamed(body))
+                return Not(self._rename(body))
             case And(parts):
-                return And(tuple(map(self._renamed, parts)))
+                return And(tuple(map(self._rename, parts)))
             case Or(parts):
-                return Or(tuple(map(self._renamed, parts)))
+                return Or(tuple(map(self._rename, parts)))
             case _:
                 return formula
 

@@ -51,8 +51,8 @@ def read(domain: Readable | Domain, problem: Readable | None = None) -> Problem:
         return _read_one(first)
     second = _readable(problem, "problem")
     if isinstance(first, SourceText):
-        loaded = replace(domain_in(first), path="")
-        return _problem_of(loaded, loaded.name, second)
+        domain_copy = replace(domain_in(first), path="")
+        return _problem_of(domain_copy, domain_copy.name, second)
     return _problem_of(load_domain(library.find_domain(first)), first, second)
 
 

@@ -29,8 +29,8 @@ def clash(a: Access, b: Access) -> Fact | None:
     """
     for one, other in ((a, b), (b, a)):
         facts = (one.reads | one.adds) & other.deletes | one.reads & other.adds
-        written = other.sums | other.assigns
-        functions = one.function_reads & written | one.assigns & written
+        writes = other.sums | other.assigns
+        functions = one.function_reads & writes | one.assigns & writes
         if facts or functions:
             return min(facts | functions)
     return None
@@ -54,16 +54,16 @@ def access(problem: Problem, action: Action, binding: Binding, when: str) -> Acc
         )
         for effect in action.effects:
             for inner in instances(effect.params, binding, problem):
-                look(effect.given_start, inner)
-    written: dict[str, set[Fact]] = {role: set() for role in ("add", "delete", "sum", "assign")}
+                look(effect.start_condition, inner)
+    writes: dict[str, set[Fact]] = {role: set() for role in ("add", "delete", "sum", "assign")}
     for effect in action.effects:
         if effect.when != when:
             continue
         for inner in instances(effect.params, binding, problem):
-            look(effect.given, inner)
+            look(effect.condition, inner)
             functions.update(ground_key(f, inner) for f in functions_in(effect.value))
-            written[_ROLE.get(effect.kind, "assign")].add(ground_key(effect.target, inner))
+            writes[_ROLE.get(effect.kind, "assign")].add(ground_key(effect.target, inner))
     return Access(
-        frozenset(atoms), frozenset(written["add"]), frozenset(written["delete"]),
-        frozenset(functions), frozenset(written["sum"]), frozenset(written["assign"]),
+        frozenset(atoms), frozenset(writes["add"]), frozenset(writes["delete"]),
+        frozenset(functions), frozenset(writes["sum"]), frozenset(writes["assign"]),
     )  # fmt: skip

@@ -60,7 +60,7 @@ class Join:
         self.action = action
         self.atoms = tuple(atoms)
         self._objects = {p.name: problem.objects_of(p.types) for p in action.params}
-        self._allowed = {name: frozenset(objects) for name, objects in self._objects.items()}
+        self._domains = {name: frozenset(objects) for name, objects in self._objects.items()}
 
     def bindings(
         self, index: FactIndex, first: tuple[int, Fact] | None = None
@@ -85,10 +85,10 @@ class Join:
             yield from self._free(binding)
             return
         options = [index.candidates(atom, binding) for atom in atoms]
-        chosen = min(range(len(atoms)), key=lambda i: len(options[i]))
-        rest = atoms[:chosen] + atoms[chosen + 1 :]
-        for fact in options[chosen]:
-            wider = self._match(atoms[chosen], fact, binding)
+        best = min(range(len(atoms)), key=lambda i: len(options[i]))
+        rest = atoms[:best] + atoms[best + 1 :]
+        for fact in options[best]:
+            wider = self._match(atoms[best], fact, binding)
             if wider is not None:
                 yield from self._extend(wider, rest, index)
 
@@ -105,14 +105,14 @@ class Join:
         wider = binding
         for position, term in enumerate(atom.args, start=1):
             value = fact[position]
-            known = wider.get(term) if term[0] == "?" else term
-            if known is None:
-                if value not in self._allowed[term]:
+            bound_value = wider.get(term) if term[0] == "?" else term
+            if bound_value is None:
+                if value not in self._domains[term]:
                     return None
                 if wider is binding:
                     wider = dict(binding)
                 wider[term] = value
-            elif known != value:
+            elif bound_value != value:
                 return None
         return wider
 

@@ -77,18 +77,18 @@ def find_problem(domain: str, name: str) -> Path:
     """
     if os.path.isfile(name) or _is_path(name):
         return Path(name)
-    shipped = Path(domain).stem
-    path = root() / "problems" / shipped / f"{name}.pddl"
+    domain_name = Path(domain).stem
+    path = root() / "problems" / domain_name / f"{name}.pddl"
     file = f"{name}.pddl"
-    places = [Path("problems", shipped, file), Path("problems", file), Path(file)]
+    places = [Path("problems", domain_name, file), Path("problems", file), Path(file)]
     own = _own(places, path, _problem_of(domain))
     if own is not None:
         return own
     if os.path.isfile(path):
         return path
-    known = problem_names(shipped)
-    hint = nearest(name, known) or (f"shipped: {', '.join(known)}" if known else None)
-    message = f"there is no problem '{name}' of domain '{shipped}'"
+    names = problem_names(domain_name)
+    hint = nearest(name, names) or (f"shipped: {', '.join(names)}" if names else None)
+    message = f"there is no problem '{name}' of domain '{domain_name}'"
     raise InputError(message, code="no-file", path=name, hint=hint)
 
 
@@ -99,8 +99,8 @@ def find_goals(name: str) -> Path:
     """
     if os.path.exists(name):
         return Path(name)
-    shipped = root() / "problems" / name
-    return own_goals(name) or (shipped if os.path.isdir(shipped) else Path(name))
+    package_path = root() / "problems" / name
+    return own_goals(name) or (package_path if os.path.isdir(package_path) else Path(name))
 
 
 def own_goals(name: str) -> Path | None:
@@ -108,11 +108,11 @@ def own_goals(name: str) -> Path | None:
 
     A warning says that it is not the shipped one of the same name.
     """
-    own, shipped = Path("problems", name), root() / "problems" / name
+    own, package_path = Path("problems", name), root() / "problems" / name
     if not os.path.isdir(own) or next(own.glob("*.pddl"), None) is None:
         return None
-    if os.path.isdir(shipped):
-        if os.path.samefile(own, shipped):
+    if os.path.isdir(package_path):
+        if os.path.samefile(own, package_path):
             return None
         message = f"'{name}' is the folder ./{own} here, not the shipped one of that name"
         warnings.warn(message, OwnFileWarning, stacklevel=4)
@@ -126,18 +126,20 @@ def domain_file_for(name: str, problem: Path | None) -> Path | None:
     """
     folder = () if problem is None else sorted(problem.parent.glob("*.pddl"))
     beside = [path for path in folder if path != problem]
-    shipped = root() / "domains" / f"{name}.pddl"
-    return next((p for p in (*beside, shipped) if os.path.isfile(p) and _defines(p, name)), None)
+    package_path = root() / "domains" / f"{name}.pddl"
+    return next(
+        (p for p in (*beside, package_path) if os.path.isfile(p) and _defines(p, name)), None
+    )
 
 
-def _own(places: Sequence[Path], shipped: Path, heading: re.Pattern[str]) -> Path | None:
+def _own(places: Sequence[Path], package_path: Path, heading: re.Pattern[str]) -> Path | None:
     """Return the first of the user's files that begins as it should.
 
     A warning says that it is not the shipped one of the same name.
     """
     path = next((p for p in places if os.path.isfile(p) and heading.match(_heading(p))), None)
-    if path is not None and os.path.isfile(shipped):
-        if os.path.samefile(path, shipped):
+    if path is not None and os.path.isfile(package_path):
+        if os.path.samefile(path, package_path):
             return None
         message = f"'{path.stem}' is ./{path} here, not the shipped file of that name"
         warnings.warn(message, OwnFileWarning, stacklevel=4)

@@ -185,9 +185,9 @@ class Effect:
 
     ``when`` is ``start`` or ``end``, or ``all`` for a number that changes while time passes.
 
-    ``params`` are the variables of an enclosing ``forall``; ``given`` is the condition of an
+    ``params`` are the variables of an enclosing ``forall``; ``condition`` is that of an
     enclosing ``when`` (``TRUE`` if there is none), read when the effect happens, and
-    ``given_start`` one that an effect at the end reads at the start of its action.
+    ``start_condition`` one that an effect at the end reads at the start of its action.
     """
 
     when: str
@@ -195,8 +195,8 @@ class Effect:
     target: Atom | Function
     value: Expr | None = None
     params: tuple[Param, ...] = ()
-    given: Formula = TRUE
-    given_start: Formula = TRUE
+    condition: Formula = TRUE
+    start_condition: Formula = TRUE
 
     def __str__(self) -> str:
         match self.kind:
@@ -206,8 +206,8 @@ class Effect:
                 text = f"(not {self.target})"
             case _:
                 text = f"({self.kind} {self.target} {self.value})"
-        if self.given != TRUE:
-            text = f"(when {self.given} {text})"
+        if self.condition != TRUE:
+            text = f"(when {self.condition} {text})"
         return f"(forall {_group(*self.params)} {text})" if self.params else text
 
 
@@ -284,8 +284,8 @@ class Action:
     @property
     def fixed_duration(self) -> Expr | None:
         """The duration, if the action sets exactly one with ``=``; else None."""
-        fixed = [expression for op, expression in self.durations if op == "="]
-        return fixed[0] if len(fixed) == 1 else None
+        values = [expression for op, expression in self.durations if op == "="]
+        return values[0] if len(values) == 1 else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -336,13 +336,13 @@ class Domain:
     def _above(self, name: str) -> frozenset[str]:
         ancestors = self._ancestors.get(name)
         if ancestors is None:
-            seen = {name, OBJECT}
+            above = {name, OBJECT}
             waiting = [name]
             while waiting:
-                new = set(self.types.get(waiting.pop(), ())) - seen
-                seen |= new
+                new = set(self.types.get(waiting.pop(), ())) - above
+                above |= new
                 waiting.extend(new)
-            ancestors = self._ancestors[name] = frozenset(seen)
+            ancestors = self._ancestors[name] = frozenset(above)
         return ancestors
 
     def is_a(self, name: str, types: tuple[str, ...]) -> bool:

@@ -93,18 +93,18 @@ class _Open:
 
 def mend(tokens: Sequence[Token], source: SourceText) -> list[Token]:
     """Return the tokens with every ``(`` closed and no ``)`` too many; faults go to ``source``."""
-    mended: list[Token] = []
+    output: list[Token] = []
     around: list[_Open] = []  # groups that are open across landmarks
     for stretch in _stretches(tokens):
         if stretch.is_even:
-            mended += stretch.tokens
+            output += stretch.tokens
         else:
-            mended += _Repair(stretch, around, source).run()
+            output += _Repair(stretch, around, source).run()
         if stretch.end > stretch.start:
             at = stretch.tokens[0][1]
             around.append(_Open(at, *source.position(at)))
         del around[stretch.end :]
-    return mended
+    return output
 
 
 def _stretches(tokens: Sequence[Token]) -> Iterator[_Stretch]:
@@ -144,7 +144,7 @@ class _Repair:
         self.source = source
         self.depth = stretch.start
         self.missing = stretch.missing
-        self.opened: list[_Open] = []
+        self.stack: list[_Open] = []
         self.out: list[Token] = []
         self.line = 0
         self.indent = 0
@@ -178,7 +178,7 @@ class _Repair:
         while self.missing > 0 and self._next_cannot_belong(leads):
             self._report_unclosed()
         self._take("(")
-        self.opened.append(_Open(at, self.line, self.indent))
+        self.stack.append(_Open(at, self.line, self.indent))
         self.depth += 1
         self.out.append(("(", at))
 
@@ -195,16 +195,16 @@ class _Repair:
     def _end_group(self, at: int) -> None:
         self.out.append((")", at))
         self.depth -= 1
-        if self.opened:
-            self.opened.pop()
+        if self.stack:
+            self.stack.pop()
 
     def _take(self, text: str) -> None:
-        if self.opened:
-            self.opened[-1].take(text.lower())
+        if self.stack:
+            self.stack[-1].take(text.lower())
 
     @property
     def _innermost(self) -> _Open:
-        return self.opened[-1] if self.opened else self.around[self.depth - 1]
+        return self.stack[-1] if self.stack else self.around[self.depth - 1]
 
     @property
     def _is_left_of_innermost(self) -> bool:
@@ -212,12 +212,12 @@ class _Repair:
 
     def _next_cannot_belong(self, leads: bool) -> bool:
         """Whether the group that begins here is not part of the innermost one."""
-        if not self.opened or self.opened[-1].head.startswith(":"):
+        if not self.stack or self.stack[-1].head.startswith(":"):
             return False  # anything may stand in a section or an action's part
-        group = self.opened[-1]
-        base = self.opened[0].indent
-        outdented = leads and group.line < self.line and base < group.indent >= self.indent
-        return group.is_full or outdented
+        group = self.stack[-1]
+        base = self.stack[0].indent
+        is_outdented = leads and group.line < self.line and base < group.indent >= self.indent
+        return group.is_full or is_outdented
 
     def _report_unclosed(self) -> None:
         at = self._innermost.at

@@ -63,12 +63,12 @@ def _without(
 def _preference(
     node: GroupNode, scope: Scope, params: tuple[Param, ...], durative: bool | None
 ) -> Iterator[Preference]:
-    named = len(node) == 3 and isinstance(node[1], WordNode)
-    if not named and len(node) != 2:
+    has_name = len(node) == 3 and isinstance(node[1], WordNode)
+    if not has_name and len(node) != 2:
         message = "(preference NAME CONDITION) is expected here"
         scope.source.error(node.at, "bad-preference", message)
         return
-    name = str(node[1]) if named else UNNAMED
+    name = str(node[1]) if has_name else UNNAMED
     for when, formula in _conditions(node[-1], scope, durative):
         yield Preference(name, formula, params, when)
 

@@ -61,8 +61,8 @@ def read_problem(root: GroupNode, source: SourceText, domain: Domain) -> Problem
         init.take(node)
     goal, preferences = _goal(sections.get(":goal"), root, scope)
     constraints = read_constraints(sections.get(SECTION), scope)
-    known = with_names(scope, preferences, constraints)
-    metric, maximize = _metric(sections.get(":metric"), known)
+    metric_scope = with_names(scope, preferences, constraints)
+    metric, maximize = _metric(sections.get(":metric"), metric_scope)
     problem = Problem(
         name=name,
         domain=domain,
@@ -72,7 +72,7 @@ def read_problem(root: GroupNode, source: SourceText, domain: Domain) -> Problem
         goal=goal,
         metric=metric,
         maximize=maximize,
-        timed=tuple(sorted(init.timed, key=lambda change: change.time)),
+        timed=tuple(sorted(init.timed_changes, key=lambda change: change.time)),
         preferences=preferences,
         constraints=constraints,
         path=source.path,
@@ -108,8 +108,8 @@ class _Init:
         self.facts: set[Fact] = set()
         self.values: dict[FluentKey, Number] = {}
         self.places: dict[FluentKey, int] = {}
-        self.timed: list[TimedChange] = []
-        self.negated: set[FluentKey] = set()
+        self.timed_changes: list[TimedChange] = []
+        self.negative_facts: set[FluentKey] = set()
 
     def take(self, node: ParseNode) -> None:
         source = self.scope.source
@@ -118,31 +118,31 @@ class _Init:
         elif node.head == "=":
             self._value(node)
         elif node.head == "at" and len(node) == 3 and _is_time(node[1], node[2]):
-            self._timed(node)
+            self._timed_literal(node)
         elif node.head == "not":
-            self._negated(node)
+            self._negative_fact(node)
         else:
             self._fact(node)
 
-    def _timed(self, node: GroupNode) -> None:
+    def _timed_literal(self, node: GroupNode) -> None:
         """Take a change that comes by itself, such as ``(at 9 (open))``."""
-        source, (_, spelled, change) = self.scope.source, node
+        source, (_, word, change) = self.scope.source, node
         source.use(":timed-initial-literals", node.at)
-        time = to_number(str(spelled))
+        time = to_number(str(word))
         if time is None or time < 0 or not isinstance(change, GroupNode):
-            source.error(spelled.at, "bad-number", "a time is not below zero")
+            source.error(word.at, "bad-number", "a time is not below zero")
         elif change.head == "=":
             function = read_function(change[1], self.scope) if len(change) == 3 else None
             value = self._number(change[2]) if len(change) == 3 else None
             if function is not None and value is not None:
                 key = (function.name, *function.args)
-                self.timed.append(TimedChange(time, key, value=value))
+                self.timed_changes.append(TimedChange(time, key, value=value))
         else:
             positive = change.head != "not"
             inner = change if positive else change[-1]
             atom = self._base_atom(inner) if isinstance(inner, GroupNode) and inner else None
             if atom is not None:
-                self.timed.append(TimedChange(time, (atom.name, *atom.args), positive))
+                self.timed_changes.append(TimedChange(time, (atom.name, *atom.args), positive))
             elif not source.has_errors:
                 source.error(node.at, "not-a-fact", "(at TIME (p a b)) is expected here")
 
@@ -163,20 +163,20 @@ class _Init:
                 message = f"{quote(str(atom))} stands twice"
                 self.scope.source.warn(node.at, "duplicate-fact", message)
             self.facts.add(fact)
-            self._check_negated(fact, node)
+            self._check_negative(fact, node)
 
-    def _negated(self, node: GroupNode) -> None:
+    def _negative_fact(self, node: GroupNode) -> None:
         inner = node[1] if len(node) == 2 else None
         if isinstance(inner, GroupNode) and inner.head:
             atom = read_atom(inner, self.scope)
             if atom is not None:
-                self.negated.add((atom.name, *atom.args))
-                self._check_negated((atom.name, *atom.args), node)
+                self.negative_facts.add((atom.name, *atom.args))
+                self._check_negative((atom.name, *atom.args), node)
         else:
             self.scope.source.error(node.at, "not-a-fact", "(not (p a b)) is expected here")
 
-    def _check_negated(self, fact: FluentKey, node: GroupNode) -> None:
-        if fact in self.facts and fact in self.negated:
+    def _check_negative(self, fact: FluentKey, node: GroupNode) -> None:
+        if fact in self.facts and fact in self.negative_facts:
             message = f"{quote(str(Atom(fact[0], fact[1:])))} is both true and false"
             self.scope.source.error(node.at, "duplicate-value", message, "remove one of the two")
 
@@ -197,12 +197,12 @@ class _Init:
         return value
 
     def _set(self, key: FluentKey, value: Number, at: int) -> None:
-        source, shown = self.scope.source, quote(f"({' '.join(key)})")
+        source, text = self.scope.source, quote(f"({' '.join(key)})")
         before = self.values.setdefault(key, value)
         if before != value:
-            source.error(at, "duplicate-value", f"{shown} gets a second value")
+            source.error(at, "duplicate-value", f"{text} gets a second value")
         elif key in self.places:
-            source.warn(at, "duplicate-fact", f"{shown} is set twice")
+            source.warn(at, "duplicate-fact", f"{text} is set twice")
         self.places[key] = at
 
 

@@ -109,11 +109,11 @@ def _report_hidden(text: str, source: SourceText) -> None:
     """
     if not _HIDDEN_CHARACTER.search(text):
         return
-    seen: set[str] = set()
+    characters: set[str] = set()
     for match in _COMMENT_OR_HIDDEN.finditer(text):
         character = match[0]
-        if character[0] != ";" and character not in seen:
-            seen.add(character)
+        if character[0] != ";" and character not in characters:
+            characters.add(character)
             message = f"the character U+{ord(character):04X} is not printable"
             source.error(match.start(), "not-printable", message, "remove it")
 
@@ -133,13 +133,13 @@ def _read_even(text: str, source: SourceText) -> list[ParseNode]:
         _UnevenError: if a parenthesis is missing or one too many, a section or a part of an action
             does not stand at its depth, or the text is nested too deeply.
     """
-    lowered = text.lower()
-    if len(lowered) != len(text):  # a few letters become two: then the places would be wrong
-        lowered = text
+    lower = text.lower()
+    if len(lower) != len(text):  # a few letters become two: then the places would be wrong
+        lower = text
     group = GroupNode(0)
     stack = [group]
     deepest = 0
-    for match in _TOKEN.finditer(lowered):
+    for match in _TOKEN.finditer(lower):
         token = match.group()
         if token == "(":
             inner = GroupNode(match.start())
@@ -224,26 +224,26 @@ def _build(tokens: Iterable[Token], source: SourceText) -> list[ParseNode]:
     """Return the trees of balanced tokens; a group below the deepest level becomes ``()``."""
     top = GroupNode(0)
     stack = [top]
-    skipped = 0  # how deep we are in a group that is left out
+    depth_skipped = 0  # how deep we are in a group that is left out
     too_deep: int | None = None
     deepest = 0
     for token, at in tokens:
         deepest = max(deepest, len(stack))
         if token == "(":
-            if skipped or len(stack) > MAX_DEPTH:
+            if depth_skipped or len(stack) > MAX_DEPTH:
                 too_deep = at if too_deep is None else too_deep
-                if not skipped:
+                if not depth_skipped:
                     stack[-1].append(GroupNode(at))
-                skipped += 1
+                depth_skipped += 1
                 continue
             group = GroupNode(at)
             stack[-1].append(group)
             stack.append(group)
         elif token != ")":
-            if not skipped:
+            if not depth_skipped:
                 stack[-1].append(word_at(token, at))
-        elif skipped:
-            skipped -= 1
+        elif depth_skipped:
+            depth_skipped -= 1
         else:
             stack.pop()
     if too_deep is not None:

@@ -55,9 +55,9 @@ def check_requirements(flags: Sequence[str], source: SourceText) -> None:
 
     Without any flag nothing is said: then the file leaves it to the planner.
     """
-    given = _closure(flags)
+    all_flags = _closure(flags)
     for flag, at in source.uses.items():
-        if flags and flag not in given:
+        if flags and flag not in all_flags:
             message = f"this needs the requirement {flag}"
             source.warn(at, "missing-requirement", message, f"add {flag} to (:requirements …)")
 

@@ -77,8 +77,10 @@ class Scope:
         if term.startswith("?"):
             if term not in self.variables:
                 message = f"variable {quote(term)} is not bound here"
-                glued = next((v for v in self.variables if v.startswith(f"{term}-")), None)
-                hint = f"spaces are missing around the '-' of {quote(glued)}" if glued else None
+                variable = next((v for v in self.variables if v.startswith(f"{term}-")), None)
+                hint = (
+                    f"spaces are missing around the '-' of {quote(variable)}" if variable else None
+                )
                 self.source.unknown(term.at, "unbound", message, term, self.variables, hint)
             return self.variables.get(term)
         if term not in self.objects:
@@ -96,8 +98,10 @@ class Scope:
             self.source.error(inner.at, "not-a-term", message, _bare_term(inner))
             return None
         if len(terms) != len(signature.params):
-            expected = f"{quote(signature.name)} takes {plural(len(signature.params), 'argument')}"
-            message = f"{expected}, not {len(terms)}"
+            expectation = (
+                f"{quote(signature.name)} takes {plural(len(signature.params), 'argument')}"
+            )
+            message = f"{expectation}, not {len(terms)}"
             self.source.error(group.at, "wrong-arity", message, f"declared as {signature}")
             return None
         fits = [self._fits(t, p) for t, p in zip(terms, signature.params, strict=True)]
@@ -112,7 +116,7 @@ class Scope:
         if types == param.types:  # most are, and files have many
             return True
         is_a = self.domain.is_a
-        if any(is_a(t, param.types) for t in types) or not self._declared(*types, *param.types):
+        if any(is_a(t, param.types) for t in types) or not self._declares(*types, *param.types):
             return True
         have, want = quote(" or ".join(types)), quote(" or ".join(param.types))
         message = f"{quote(term)} is {have}, not {want}"
@@ -122,18 +126,18 @@ class Scope:
         self.source.error(term.at, "wrong-type", message)
         return False
 
-    def _declared(self, *types: str) -> bool:
+    def _declares(self, *types: str) -> bool:
         """Whether all types are known: one that is not has been reported where it is named."""
         return all(t == OBJECT or t in self.domain.types for t in types)
 
     def signature(self, word: WordNode, kind: str) -> Signature | None:
         """Return the declared predicate or function; None, with an error, if there is none."""
         is_predicate = kind == "predicate"
-        known, other = self.domain.predicates, self.domain.functions
+        names, other = self.domain.predicates, self.domain.functions
         if not is_predicate:
-            known, other = other, known
-        if word in known:
-            return known[word]
+            names, other = other, names
+        if word in names:
+            return names[word]
         code = f"unknown-{kind}"
         if word == TOTAL_TIME:
             self.source.error(word.at, code, "total-time is known in the metric only")
@@ -142,7 +146,7 @@ class Scope:
             self.source.error(word.at, code, f"{quote(word)} is a {wrong}, not a {kind}")
         else:
             message = f"{kind} {quote(word)} is not declared"
-            self.source.unknown(word.at, code, message, word, known, FOREIGN.get(word))
+            self.source.unknown(word.at, code, message, word, names, FOREIGN.get(word))
         return None
 
 

@@ -88,15 +88,15 @@ def _apply(op: str, numbers: Sequence[Number]) -> Number:
         elif op == "-":
             total = total - number
         elif op == "*":
-            total = _bounded(total * number)
+            total = _check_size(total * number)
         elif number == 0:
             raise Undefined("division by zero")
         else:
-            total = _bounded(Fraction(total) / number)
+            total = _check_size(Fraction(total) / number)
     return exact(total)
 
 
-def _bounded(number: Number) -> Number:
+def _check_size(number: Number) -> Number:
     """Return a product, unless it has grown beyond what can be printed."""
     if max(number.numerator.bit_length(), number.denominator.bit_length()) > MAX_BITS:
         raise LimitError("a number grows beyond 3,900 digits", hint="scale the values down")
@@ -231,23 +231,23 @@ def instances(params: Sequence[Param], binding: Binding, problem: Problem) -> It
         return
     names = [param.name for param in params]
     choices = (problem.objects_of(param.types) for param in params)
-    for count, chosen in enumerate(product(*choices)):
+    for count, objects in enumerate(product(*choices)):
         if count >= MAX_INSTANCES:
             message = f"a quantifier over {' '.join(names)} has over {MAX_INSTANCES:,} instances"
             raise LimitError(message, hint="fewer variables in one forall or exists")
-        yield {**binding, **dict(zip(names, chosen, strict=True))}
+        yield {**binding, **dict(zip(names, objects, strict=True))}
 
 
 def bind(action: Action, args: Sequence[str], problem: Problem) -> Binding | str:
     """Return the parameters bound to ``args``, or what is wrong with them."""
     if len(args) != len(action.params):
         return f"'{action.name}' takes {len(action.params)} arguments, not {len(args)}"
-    known = problem.all_objects
+    objects = problem.all_objects
     for param, arg in zip(action.params, args, strict=True):
-        if arg not in known:
+        if arg not in objects:
             return f"there is no object '{arg}'"
-        if not problem.domain.is_a(known[arg], param.types):
-            return f"'{arg}' is {known[arg]}, but {param.name} must be {' or '.join(param.types)}"
+        if not problem.domain.is_a(objects[arg], param.types):
+            return f"'{arg}' is {objects[arg]}, but {param.name} must be {' or '.join(param.types)}"
     return {param.name: arg for param, arg in zip(action.params, args, strict=True)}
 
 
@@ -271,11 +271,11 @@ def changes(
     state: LiftedState,
     binding: Binding,
     problem: Problem,
-    started: LiftedState | None = None,
+    at_start: LiftedState | None = None,
 ) -> StateUpdate:
     """Return what ``effects`` change in ``state``; all of them read the state before.
 
-    ``started`` is the state in which their action started, if that is another one.
+    ``at_start`` is the state in which their action started, if that is another one.
 
     Raises:
         Undefined: if an expression needs a function without a value.
@@ -285,13 +285,13 @@ def changes(
     values: dict[FluentKey, Number] = {}
     happening: dict[tuple[object, ...], list[Binding]] = {}
     for effect in effects:
-        group = effect.params, id(effect.given), id(effect.given_start)
+        group = effect.params, id(effect.condition), id(effect.start_condition)
         if group not in happening:  # "when C (and E F)" is two effects with one condition
             happening[group] = [
                 inner
                 for inner in instances(effect.params, binding, problem)
-                if holds(effect.given, state, inner, problem)
-                and holds(effect.given_start, started or state, inner, problem)
+                if holds(effect.condition, state, inner, problem)
+                and holds(effect.start_condition, at_start or state, inner, problem)
             ]
         for inner in happening[group]:
             key = ground_key(effect.target, inner)

@@ -79,22 +79,22 @@ def check_fact(fact: Fact, problem: Problem) -> None:
     predicates = problem.domain.predicates
     name = fact[0] if fact else ""
     if name not in predicates:
-        known = ", ".join(map(str, predicates.values()))
-        hint = nearest(name, predicates) or f"predicates: {known}"
+        names = ", ".join(map(str, predicates.values()))
+        hint = nearest(name, predicates) or f"predicates: {names}"
         raise UsageError(f"there is no predicate '{name}'", code="bad-fact", hint=hint)
     _check_objects(fact, predicates[name].params, f"{predicates[name]}", problem, "bad-fact")
 
 
 def _check_objects(
-    words: Sequence[str], params: Sequence[Param], declared: str, problem: Problem, code: str
+    words: Sequence[str], params: Sequence[Param], declaration: str, problem: Problem, code: str
 ) -> None:
     if len(params) != len(words) - 1:
         message = f"'{words[0]}' takes {len(params)} objects, not {len(words) - 1}"
-        raise UsageError(message, code=code, hint=f"declared as {declared}")
+        raise UsageError(message, code=code, hint=f"declared as {declaration}")
     for name, param in zip(words[1:], params, strict=True):
-        known = problem.objects_of(param.types)
-        if name not in known:
-            hint = nearest(name, known) or f"one of: {', '.join(known)}"
+        objects = problem.objects_of(param.types)
+        if name not in objects:
+            hint = nearest(name, objects) or f"one of: {', '.join(objects)}"
             message = f"'{name}' is no {' or '.join(param.types)} of the problem"
             raise UsageError(message, code=code, hint=hint)
 

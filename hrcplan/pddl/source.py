@@ -63,15 +63,15 @@ class SourceText:
         self._note(at, "warning", code, message, hint)
 
     def unknown(
-        self, at: int, code: str, message: str, word: str, known: Iterable[str],
+        self, at: int, code: str, message: str, word: str, names: Iterable[str],
         hint: str | None = None,
     ) -> None:  # fmt: skip
-        """Note once that ``word`` is none of ``known``; the hint is the nearest of them."""
+        """Note once that ``word`` is none of ``names``; the hint is the nearest of them."""
         if (code, word) in self._unknown and code != "unbound":  # each action has its own variables
             return
         self._unknown.add((code, word))
         if hint is None and len(self.diagnostics) < MAX_HINTS:
-            hint = nearest(word, known)
+            hint = nearest(word, names)
         self.error(at, code, message, hint)
 
     def use(self, requirement: str, at: int) -> None:

@@ -50,9 +50,9 @@ def _constraints(node: ParseNode, scope: Scope, preference: str = "") -> Iterato
     else:
         parts = node[1:] if head == "and" else [node]
         read = (_trajectory(part, scope) for part in parts)
-        known = tuple(trajectory for trajectory in read if trajectory is not None)
-        if known:
-            yield Constraint(known, preference=preference)
+        trajectories = tuple(trajectory for trajectory in read if trajectory is not None)
+        if trajectories:
+            yield Constraint(trajectories, preference=preference)
 
 
 def _trajectory(node: ParseNode, scope: Scope) -> Trajectory | None:
@@ -60,14 +60,14 @@ def _trajectory(node: ParseNode, scope: Scope) -> Trajectory | None:
     if isinstance(node, GroupNode) and head == "at" and len(node) == 3 and node[1] == "end":
         return Trajectory("at-end", (), (read_formula(node[2], scope),))
     if not isinstance(node, GroupNode) or head not in OPERATORS or head == "at-end":
-        shown = quote(head) if head else "this"
-        message = f"{shown} is no operator of a constraint"
+        name = quote(head) if head else "this"
+        message = f"{name} is no operator of a constraint"
         hint = f"operators are: at end, {', '.join(list(OPERATORS)[1:])}"
         scope.source.error(node.at, "not-a-constraint", message, hint)
         return None
     n_times, n_parts = OPERATORS[str(head)]
-    spelled = node[1 : 1 + n_times]
-    times = [to_number(word) for word in spelled if isinstance(word, WordNode)]
+    words = node[1 : 1 + n_times]
+    times = [to_number(word) for word in words if isinstance(word, WordNode)]
     if len(node) != 1 + n_times + n_parts or len(times) != n_times or None in times:
         form = " ".join([head, *["TIME"] * n_times, *["CONDITION"] * n_parts])
         scope.source.error(node.at, "not-a-constraint", f"({form}) is expected here")
@@ -100,8 +100,8 @@ def is_kept(trajectory: Trajectory, times: Trace, test: Callable[[int, Formula],
         case "within":
             return any(ok and time <= limit for ok, time in zip(holds, times, strict=True))
         case "at-most-once":
-            begun = holds[0] + sum(now and not before for before, now in pairwise(holds))
-            return begun <= 1
+            n_starts = holds[0] + sum(now and not before for before, now in pairwise(holds))
+            return n_starts <= 1
         case "hold-during":
             return all(holds[i] for i in _between(times, limit, trajectory.times[1]))
         case "hold-after":

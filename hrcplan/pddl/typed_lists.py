@@ -33,12 +33,12 @@ def read_typed(
             if not waiting:
                 message = "no name stands before this '-', so it declares nothing"
                 source.warn(node.at, "empty-typed-list", message)
-            spelled = _type_words(next(rest, None), node, source)
+            words = _type_words(next(rest, None), node, source)
             if types is not None:
-                check_types(spelled, types, source)
+                check_types(words, types, source)
             source.use(":typing", node.at)
             for name in waiting:
-                yield name, tuple(map(str, spelled)) or (OBJECT,)
+                yield name, tuple(map(str, words)) or (OBJECT,)
             waiting = []
     for name in waiting:
         yield name, (OBJECT,)
@@ -85,19 +85,19 @@ def _type_words(node: ParseNode | None, dash: WordNode, source: SourceText) -> l
     return []
 
 
-def check_types(words: Sequence[WordNode], known: Collection[str], source: SourceText) -> None:
+def check_types(words: Sequence[WordNode], types: Collection[str], source: SourceText) -> None:
     """Remember every word that names no declared type, for ``report_types``."""
     for word in words:
-        if word != OBJECT and word not in known:
+        if word != OBJECT and word not in types:
             source.unknown_types.setdefault(str(word), word.at)
 
 
-def report_types(source: SourceText, known: Collection[str], has_section: bool = True) -> None:
+def report_types(source: SourceText, types: Collection[str], has_section: bool = True) -> None:
     """Report the types that a file names without a declaration; without ``:types`` in one go."""
     if has_section:
         for name, at in source.unknown_types.items():
             message = f"type {quote(name)} is not declared"
-            source.unknown(at, "unknown-type", message, name, [*known, OBJECT])
+            source.unknown(at, "unknown-type", message, name, [*types, OBJECT])
     elif source.unknown_types:
         names = " ".join(source.unknown_types)
         message = "types are named, but the domain has no (:types …)"
@@ -127,17 +127,17 @@ def params_of(
     warning. A faulty parameter keeps its place, so that arguments are still counted right.
     """
     params: list[Param] = []
-    seen: set[str] = set()
+    names: set[str] = set()
     for name, kinds in read_typed(nodes, source, types):
         text = str(name)
         if not name.startswith("?") or len(name) == 1:
             source.error(name.at, "not-a-variable", f"{quote(name)} should start with '?'")
-        elif name in seen and declaration:
+        elif name in names and declaration:
             source.warn(name.at, "repeated-parameter", f"parameter {quote(name)} is repeated")
-            text = next(n for i in count(2) if (n := f"{name}-{i}") not in seen)
-        elif name in seen:
+            text = next(n for i in count(2) if (n := f"{name}-{i}") not in names)
+        elif name in names:
             message = f"parameter {quote(name)} is repeated"
             source.error(name.at, "repeated-parameter", message)
-        seen.add(text)
+        names.add(text)
         params.append(Param(f"?{text.lstrip('?')}", kinds))
     return tuple(params)

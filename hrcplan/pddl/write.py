@@ -97,8 +97,8 @@ def _domain_lines(domain: Domain) -> Iterator[str]:
     yield f"(define (domain {domain.name})"
     if domain.requirements:
         yield f"  (:requirements {' '.join(domain.requirements)})"
-    yield from _section("types", _typed((n, parents) for n, parents in domain.types.items()))
-    yield from _section("constants", _typed((n, (t,)) for n, t in domain.constants.items()))
+    yield from _section("types", _typed_groups((n, parents) for n, parents in domain.types.items()))
+    yield from _section("constants", _typed_groups((n, (t,)) for n, t in domain.constants.items()))
     yield from _section("predicates", map(_signature, domain.predicates.values()))
     yield from _section("functions", map(_signature, domain.functions.values()))
     for axiom in domain.axioms:
@@ -118,7 +118,7 @@ def _domain_lines(domain: Domain) -> Iterator[str]:
 def _problem_lines(problem: Problem) -> Iterator[str]:
     yield f"(define (problem {problem.name})"
     yield f"  (:domain {problem.domain.name})"
-    yield from _section("objects", _typed((n, (t,)) for n, t in problem.objects.items()))
+    yield from _section("objects", _typed_groups((n, (t,)) for n, t in problem.objects.items()))
     yield "  (:init"
     yield from _init_lines(problem)
     yield "  )"
@@ -138,7 +138,7 @@ def _section(name: str, entries: Iterable[str]) -> Iterator[str]:
         yield "  )"
 
 
-def _typed(pairs: Iterable[tuple[str, tuple[str, ...]]]) -> Iterator[str]:
+def _typed_groups(pairs: Iterable[tuple[str, tuple[str, ...]]]) -> Iterator[str]:
     """Yield ``a b - type`` for neighbors of one type; their order stays as it is."""
     for types, group in groupby(pairs, key=lambda pair: pair[1]):
         yield f"{' '.join(name for name, _ in group)} - {_types(types)}"
@@ -149,13 +149,13 @@ def _types(types: Sequence[str]) -> str:
 
 
 def _params(params: Sequence[Param]) -> str:
-    return " ".join(_typed((p.name, p.types) for p in params))
+    return " ".join(_typed_groups((p.name, p.types) for p in params))
 
 
 def _signature(signature: Signature) -> str:
-    untyped = all(p.types == (OBJECT,) for p in signature.params)
-    listed = " ".join(p.name for p in signature.params) if untyped else _params(signature.params)
-    return f"({signature.name} {listed})" if listed else f"({signature.name})"
+    is_untyped = all(p.types == (OBJECT,) for p in signature.params)
+    params = " ".join(p.name for p in signature.params) if is_untyped else _params(signature.params)
+    return f"({signature.name} {params})" if params else f"({signature.name})"
 
 
 def _init_lines(problem: Problem) -> Iterator[str]:
@@ -169,14 +169,14 @@ def _init_lines(problem: Problem) -> Iterator[str]:
     predicates = {name: i for i, name in enumerate(domain.predicates)}
     facts = sorted(problem.facts, key=lambda fact: place(predicates, fact))
     for _, group in groupby(facts, key=lambda fact: fact[0]):
-        yield from _wrapped(fact_text(fact) for fact in group)
+        yield from _wrap(fact_text(fact) for fact in group)
     functions = {name: i for i, name in enumerate(domain.functions)}
     keys = sorted(problem.values, key=lambda key: place(functions, key))
     for _, group in groupby(keys, key=lambda key: key[0]):
-        yield from _wrapped(
+        yield from _wrap(
             f"(= {fact_text(key)} {decimal_text(problem.values[key])})" for key in group
         )
-    yield from _wrapped(map(_timed_init, problem.timed))
+    yield from _wrap(map(_timed_init, problem.timed))
 
 
 def _constraint_lines(constraints: Sequence[Constraint]) -> Iterator[str]:
@@ -222,7 +222,7 @@ def _preference(preference: Preference) -> str:
     return f"(forall ({_params(preference.params)}) {text})" if preference.params else text
 
 
-def _wrapped(entries: Iterable[str]) -> Iterator[str]:
+def _wrap(entries: Iterable[str]) -> Iterator[str]:
     line = "   "
     for entry in entries:
         if len(line) + len(entry) >= WIDTH and line.strip():
@@ -266,13 +266,13 @@ def _timed_effect(effect: Effect) -> str:
     time = _TIMES[effect.when]
     if effect.when == "all":
         return _effect(effect)
-    if effect.given_start == TRUE:
+    if effect.start_condition == TRUE:
         text = f"({time} {_effect(replace(effect, params=()))})"
     else:
-        given = f"(at start {_formula(effect.given_start)})"
-        if effect.given != TRUE:
-            given = f"(and {given} ({time} {_formula(effect.given)}))"
-        text = f"(when {given} ({time} {_effect(replace(effect, params=(), given=TRUE))}))"
+        condition = f"(at start {_formula(effect.start_condition)})"
+        if effect.condition != TRUE:
+            condition = f"(and {condition} ({time} {_formula(effect.condition)}))"
+        text = f"(when {condition} ({time} {_effect(replace(effect, params=(), condition=TRUE))}))"
     return f"(forall ({_params(effect.params)}) {text})" if effect.params else text
 
 
@@ -281,8 +281,8 @@ def _effect(effect: Effect) -> str:
         text = f"({effect.kind} {effect.target} {_expression(effect.value)})"
     else:
         text = str(effect.target) if effect.kind == "add" else f"(not {effect.target})"
-    if effect.given != TRUE:
-        text = f"(when {_formula(effect.given)} {text})"
+    if effect.condition != TRUE:
+        text = f"(when {_formula(effect.condition)} {text})"
     return f"(forall ({_params(effect.params)}) {text})" if effect.params else text
 
 

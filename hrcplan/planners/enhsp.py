@@ -188,8 +188,8 @@ def _reads_change(problem: Problem, effect: Effect) -> bool:
 
 def _is_simple(problem: Problem, effect: Effect) -> bool:
     """Return whether h-max is known to be admissible: numbers grow or shrink by constants."""
-    if effect.value is None or effect.given != TRUE:
-        return effect.given == TRUE
+    if effect.value is None or effect.condition != TRUE:
+        return effect.condition == TRUE
     fixed = all(f.name not in problem.domain.changed_functions for f in functions_in(effect.value))
     return fixed and effect.kind in ("increase", "decrease")
 

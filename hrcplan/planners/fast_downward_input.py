@@ -140,7 +140,7 @@ def _formulas(problem: Problem) -> Iterator[Formula]:
     yield problem.goal
     for action in problem.domain.actions:
         yield from (condition.formula for condition in action.conditions)
-        yield from (effect.given for effect in action.effects)
+        yield from (effect.condition for effect in action.effects)
     yield from (axiom.body for axiom in problem.domain.axioms)
 
 
@@ -164,7 +164,7 @@ def _prices(problem: Problem) -> Iterator[int | None]:
 
 
 def _price(effect: Effect, problem: Problem) -> Iterator[int | None]:
-    if effect.kind != "increase" or effect.given != TRUE or effect.params:
+    if effect.kind != "increase" or effect.condition != TRUE or effect.params:
         yield None
     match effect.value:
         case Constant(value):
@@ -194,7 +194,7 @@ def _proof(problem: Problem) -> str:
     """Return the strongest admissible search for what the files contain."""
     if problem.domain.axioms or not all(_is_simple(formula) for formula in _formulas(problem)):
         return "astar(blind())"  # the translator makes axioms, with which no other is admissible
-    conditional = any(e.given != TRUE for a in problem.domain.actions for e in a.effects)
+    conditional = any(e.condition != TRUE for a in problem.domain.actions for e in a.effects)
     return "astar(hmax())" if conditional else "astar(lmcut())"
 
 

@@ -103,7 +103,7 @@ def _deciding(problem: Problem) -> Iterator[Expr]:
             yield from _compared(condition.formula)
         yield from (duration for _, duration in action.durations)
         for effect in action.effects:
-            yield from _compared(effect.given)
+            yield from _compared(effect.condition)
             if effect.value is not None and effect.target.name != TOTAL_COST:
                 yield effect.value
 

@@ -152,5 +152,5 @@ def _looks_at_cost(problem: Problem) -> bool:
         of_cost = [e for e in action.effects if e.target.name == TOTAL_COST]
         if TOTAL_COST in read or any(e.kind not in ("increase", "decrease") for e in of_cost):
             return True
-        formulas += [effect.given for effect in action.effects if effect.given != TRUE]
+        formulas += [effect.condition for effect in action.effects if effect.condition != TRUE]
     return any(f.name == TOTAL_COST for formula in formulas for f in formula_functions(formula))

@@ -157,8 +157,8 @@ class _Builder:
             for inner in instances(effect.params, instance.binding, self.grounder.problem):
                 bit = self.grounder.bit(ground_key(effect.target, inner))
                 added, deleted = (bit, 0) if effect.kind == "add" else (0, bit)
-                tests = ALWAYS if effect.given == TRUE else self.grounder.tests(
-                    effect.given, inner, values)  # fmt: skip
+                tests = ALWAYS if effect.condition == TRUE else self.grounder.tests(
+                    effect.condition, inner, values)  # fmt: skip
                 if tests == ALWAYS:
                     adds, deletes = adds | added, deletes | deleted
                 elif tests and bit:

@@ -57,7 +57,7 @@ def moves(
     for effect in numeric_effects(action, when):
         assert effect.value is not None
         for inner in instances(effect.params, instance.binding, grounder.problem):
-            tests = grounder.tests(effect.given, inner, values)
+            tests = grounder.tests(effect.condition, inner, values)
             if tests == NEVER:
                 continue
             key = ground_key(effect.target, inner)
@@ -173,7 +173,7 @@ def _keys(
         if phase not in (None, effect.when):
             continue
         for inner in instances(effect.params, binding, grounder.problem):
-            yield from named(effect.given, inner)
+            yield from named(effect.condition, inner)
             yield from (ground_key(f, inner) for f in functions_in(effect.value))
             if effect.kind not in ("assign", "add", "delete"):
                 yield ground_key(effect.target, inner)

@@ -44,7 +44,7 @@ def check_supported(domain: Domain) -> None:
                 message = f"'{action.name}' changes ({name} …), which is not agent state"
                 raise UnsupportedError(message, hint="enhsp and kairos plan with such numbers")
         for effect in action.effects:
-            plain = effect.kind == "increase" and effect.given == TRUE and not effect.params
+            plain = effect.kind == "increase" and effect.condition == TRUE and not effect.params
             if effect.target.name == TOTAL_COST and not plain:
                 message = f"'{action.name}' does more with total-cost than increase it"
                 raise UnsupportedError(message, hint="enhsp and kairos plan with such costs")
@@ -65,7 +65,7 @@ def numeric_effects(action: Action, when: str | None = None) -> Iterator[Effect]
 def functions_read(action: Action) -> Iterator[Function]:
     """Yield the functions that an action looks at, costs apart: they shape what it does."""
     formulas: list[Formula] = [c.formula for c in action.conditions]
-    formulas += [effect.given for effect in action.effects]
+    formulas += [effect.condition for effect in action.effects]
     for formula in formulas:
         yield from formula_functions(formula)
     for _, duration in action.durations:

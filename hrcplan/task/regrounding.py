@@ -146,7 +146,7 @@ class Groundings:
 def _shaping(action: Action) -> Iterator[Function]:
     """Yield the functions on which more depends than costs, roles, and ``_comparisons``."""
     simple = {id(comparison) for comparison in _comparisons(action)}
-    for formula in (*_parts(action), *(e.given for e in action.effects)):
+    for formula in (*_parts(action), *(e.condition for e in action.effects)):
         if id(formula) not in simple:
             yield from formula_functions(formula)
     for _, duration in action.durations:
@@ -216,7 +216,7 @@ def _assignments(task: Task) -> dict[FluentKey, list[tuple[Expr, Binding]]] | No
         action = schema(name)
         for effect in numeric_effects(action):
             assert effect.value is not None
-            plain = effect.kind == "assign" and effect.given == TRUE and not effect.params
+            plain = effect.kind == "assign" and effect.condition == TRUE and not effect.params
             if not plain or any(f.name == DURATION for f in functions_in(effect.value)):
                 return None
             binding = _binding(action, args)

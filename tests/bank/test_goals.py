@@ -12,7 +12,7 @@ from hrcplan.bank import build, build_bank, from_problems, read_goals
 from hrcplan.bank.ramirez_geffner import read_actions, read_instance
 from hrcplan.bank.variants import vary
 from hrcplan.errors import InputError, PddlError, UsageError
-from hrcplan.pddl.generate import renamed, with_copy, with_goal
+from hrcplan.pddl.generate import rename, with_copy, with_goal
 from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import And, Atom
 from hrcplan.task import Task
@@ -178,7 +178,7 @@ def test_copies_of_objects():
     assert more.values["capacity", "robot", "peas"] == problem.values["capacity", "robot", "beans"]
     assert problem.facts < more.facts
     assert (
-        build(from_problems([replace(more, goal=renamed(more.goal, {"beans": "peas"}))]))
+        build(from_problems([replace(more, goal=rename(more.goal, {"beans": "peas"}))]))
         .graphs[0]
         .plans
         == build(from_problems([problem])).graphs[0].plans
@@ -190,7 +190,7 @@ def test_renamed_formulas():
     every = "(forall (?i - ingredient) (in ?i pan))"
     text = f"(and (not (stored oats)) (or (in oats pan) {every}) (not (= oats milk)))"
     goal = with_goal(problem, text, "g").goal
-    assert str(renamed(goal, {"oats": "nuts"})) == str(
+    assert str(rename(goal, {"oats": "nuts"})) == str(
         with_goal(problem, text.replace("oats", "nuts"), "g").goal
     )
 

@@ -16,7 +16,7 @@ from hrcplan.studies import report_study
 from hrcplan.studies.changed_mind import claims, figures, reach, scenario
 from hrcplan.studies.changed_mind.cells import Cells
 from hrcplan.studies.changed_mind.findings import all_means, endings, findings
-from hrcplan.studies.changed_mind.findings import judged as all_claims
+from hrcplan.studies.changed_mind.findings import claims_of as all_claims
 from hrcplan.studies.changed_mind.measures import MEASURES
 from hrcplan.studies.estimate import Interval
 from hrcplan.studies.measure import ends, number, with_sign
