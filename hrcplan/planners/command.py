@@ -17,6 +17,7 @@ from tempfile import NamedTemporaryFile, TemporaryDirectory
 from hrcplan.core.numbers import Number
 from hrcplan.errors import MissingPlannerError, PlannerError, UsageError
 from hrcplan.pddl.constructs import ALL
+from hrcplan.pddl.guards import guarded
 from hrcplan.pddl.model import Problem
 from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
@@ -68,10 +69,11 @@ class CommandPlanner:
         if missing is not None:
             raise MissingPlannerError(f"{self.card.name}: {missing}")
         problem = request.problem
+        given = guarded(problem)
         with TemporaryDirectory(prefix="hrcplan-") as folder:
             cwd = Path(folder)
-            (cwd / "domain.pddl").write_text(domain_text(problem.domain))
-            (cwd / "problem.pddl").write_text(problem_text(problem))
+            (cwd / "domain.pddl").write_text(domain_text(given.domain))
+            (cwd / "problem.pddl").write_text(problem_text(given))
             limits = ProcessLimits(request.time_left_s, request.memory_bytes)
             finished = run(list(self._argv(cwd, limits.time_s)), cwd=cwd, limits=limits)
             texts = [finished.stdout, *_plan_files(cwd, limits.output_bytes)]

@@ -20,6 +20,7 @@ from tempfile import TemporaryDirectory
 from hrcplan.core.numbers import Number, to_number
 from hrcplan.errors import LimitError, MissingPlannerError, PlannerError, UnsupportedError
 from hrcplan.pddl.dialect import with_binary_sums, with_effects
+from hrcplan.pddl.guards import guarded
 from hrcplan.pddl.model import (
     TOTAL_COST,
     TRUE,
@@ -145,7 +146,7 @@ def _input(request: Request) -> _Input:
         problem = replace(problem, domain=kept, metric=None, maximize=False)
     simple = all(_is_simple(problem, e) for a in problem.domain.actions for e in a.effects)
     simple = simple and exact and not clash
-    binary = with_binary_sums(problem)
+    binary = with_binary_sums(guarded(problem))
     texts = domain_text(binary.domain), problem_text(binary)
     return _Input(*texts, None, plain_metric and not moving, simple)
 

@@ -13,9 +13,8 @@ from tempfile import TemporaryDirectory
 
 from hrcplan.errors import MissingPlannerError, PlannerError
 from hrcplan.pddl.constructs import AXIOMS
-from hrcplan.pddl.inlining import remaining
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
-from hrcplan.planners.fast_downward_input import DownwardInput, downward_input, grounded_input
+from hrcplan.planners.fast_downward_input import DownwardInput, downward_input
 from hrcplan.planners.lowering import NO_SEQUENCE
 from hrcplan.planners.process import FinishedProcess, ProcessEnd, ProcessLimits, run
 
@@ -85,19 +84,9 @@ class FastDownward:
         if missing is not None or binary is None:
             raise MissingPlannerError(f"fast-downward cannot run here: {missing}")
         given = downward_input(request)
-        try:
-            return _answered(request, given, binary)
-        except PlannerError:
-            if given.lowered is not None or remaining(request.problem):
-                raise
-        # A cost without a value, for one: the action cannot run, but the translator gives up.
-        return _answered(request, grounded_input(request), binary)
-
-
-def _answered(request: Request, given: DownwardInput, binary: Path) -> Answer:
-    if given.solved:
-        return _solved(request, given, "; cost = 0")
-    return _Search(request, given).run(binary)
+        if given.solved:
+            return _solved(request, given, "; cost = 0")
+        return _Search(request, given).run(binary)
 
 
 def find_binary() -> Path | None:

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from hrcplan.core.numbers import Number
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.dialect import with_effects, without_numbers
+from hrcplan.pddl.guards import guarded
 from hrcplan.pddl.inlining import remaining
 from hrcplan.pddl.model import (
     TOTAL_COST,
@@ -80,7 +81,7 @@ def downward_input(request: Request) -> DownwardInput:
         LimitError: if the task cannot be grounded within the limits, and has to be.
     """
     problem = request.problem
-    lifted = _lifted(problem)
+    lifted = _lifted(guarded(problem))
     if remaining(problem):
         if lifted is None:
             raise UnsupportedError("fast-downward knows no numbers with derived predicates")

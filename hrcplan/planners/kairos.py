@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 from hrcplan.core.numbers import Number
 from hrcplan.errors import LimitError, MissingPlannerError, PlannerError, UnsupportedError
 from hrcplan.pddl.constructs import ALL
+from hrcplan.pddl.guards import guarded
 from hrcplan.pddl.model import TOTAL_COST, Function
 from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
@@ -116,7 +117,8 @@ class _Portfolio:
         if self.lowered is not None:
             texts = self.lowered.domain_text, self.lowered.problem_text
         else:
-            texts = domain_text(self.request.problem.domain), problem_text(self.request.problem)
+            given = guarded(self.request.problem)
+            texts = domain_text(given.domain), problem_text(given)
         try:
             return kairos.parse_problem(texts[1], kairos.parse_domain(texts[0]))
         except kairos.PddlError as error:

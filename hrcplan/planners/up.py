@@ -23,6 +23,7 @@ from hrcplan.errors import (
     UnsupportedError,
 )
 from hrcplan.pddl.dialect import with_effects
+from hrcplan.pddl.guards import guarded
 from hrcplan.pddl.model import TOTAL_COST, Function, Problem
 from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
@@ -126,7 +127,8 @@ def _forms(request: Request) -> Iterator[_Form]:
     problem = request.problem
     temporal = problem.domain.is_temporal
     plain = problem.metric == Function(TOTAL_COST) and not problem.maximize
-    free = problem if plain else _without_costs(problem)
+    free = guarded(problem)
+    free = free if plain else _without_costs(free)
     texts = [domain_text(free.domain), problem_text(free)]
     lifted = _Form(texts, None, plain and not temporal)
     if temporal:

@@ -121,6 +121,8 @@ SPARSE_PROBLEM = """(define (problem p) (:domain sparse) (:objects a b c)
         ("(>= (fuel) (distance ?x ?y))", "(decrease (fuel) 1)"),
         ("(not (< (distance ?x ?y) 1))", "(decrease (fuel) 1)"),
         ("(> (fuel) 0)", "(decrease (fuel) (distance ?x ?y))"),
+        ("(imply (< (distance ?x ?y) 1) (at ?y))", "(decrease (fuel) (distance ?x ?y))"),
+        ("(> (fuel) 0)", "(when (at ?x) (decrease (fuel) (distance ?x ?y)))"),
     ],
 )
 def test_planners_leave_out_what_reads_an_undefined_value(
