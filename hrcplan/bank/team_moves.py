@@ -106,6 +106,10 @@ class TeamMoves:
             moment = self.after(moment, None)
         return moment
 
+    def can_reach(self, goal: int, world: int) -> bool:
+        """Return whether the team can still reach a goal."""
+        return bool(self.costs.of(self.costs.place(world), 0)[goal] < NEVER)
+
     def choices(self, world: int, moment: Moment) -> TeamChoices:
         """Return what the agent whose turn it is can do."""
         alone = moment.without_robot >= self.n_turns and not self.is_robot[moment.turn]

@@ -276,7 +276,10 @@ class _TeamPlay(_Play[S]):
             ending = self._round(turn)
             turn += 1
             ending = ending or self._ending(turn, most)
-        return EpisodeRecord(self.course, tuple(self.turns), ending, tuple(self.decisions_ms))
+        goal = self.course.goal(turn)
+        is_reachable = ending == REACHED or self.moves.can_reach(goal, self.state)
+        decisions = tuple(self.decisions_ms)
+        return EpisodeRecord(self.course, tuple(self.turns), ending, decisions, most, is_reachable)
 
     def _round(self, turn: int) -> str | None:
         for agent, is_robot in zip(self.bank.team, self.moves.is_robot, strict=True):

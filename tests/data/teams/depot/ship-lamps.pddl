@@ -1,0 +1,26 @@
+(define (problem ship-lamps)
+  (:domain depot)
+  (:objects
+    cart fork worker - agent
+    gate desk aisle shelf - place
+    books lamps tiles wine - crate)
+  (:init
+    (controllable cart) (controllable fork)
+    (lane worker gate desk) (lane worker desk gate)
+    (lane worker desk aisle) (lane worker aisle desk)
+    (lane worker gate aisle) (lane worker aisle gate)
+    (lane cart gate desk) (lane cart desk gate)
+    (lane cart desk aisle) (lane cart aisle desk)
+    (lane fork gate aisle) (lane fork aisle gate)
+    (lane fork aisle shelf) (lane fork shelf aisle)
+    (hands worker) (desk desk) (parcel lamps) (parcel wine) (sealed books)
+    (fits worker lamps) (fits worker wine)
+    (fits cart books) (fits cart lamps) (fits cart wine)
+    (fits fork books) (fits fork tiles) (fits fork wine)
+    (at worker desk) (empty worker)
+    (at cart gate) (empty cart)
+    (at fork shelf) (empty fork)
+    (on books gate) (on lamps aisle) (on tiles shelf) (on wine gate)
+    (= (total-cost) 0) (= (effort worker) 1) (= (effort cart) 1) (= (effort fork) 1))
+  (:goal (and (labelled lamps) (on lamps gate)))
+  (:metric minimize (total-cost)))

@@ -1,0 +1,27 @@
+(define (problem sick-day)
+  (:domain household)
+  (:objects
+    robot anna - agent
+    kitchen hall living bath bedroom - room
+    tray basket fern suitcase - thing)
+  (:init
+    (controllable robot)
+    (door kitchen hall) (door hall kitchen)
+    (door hall living) (door living hall)
+    (door hall bath) (door bath hall)
+    (door hall bedroom) (door bedroom hall)
+    (door kitchen living) (door living kitchen)
+    (enters anna kitchen) (enters anna hall) (enters anna living) (enters anna bath) (enters anna bedroom)
+    (enters robot kitchen) (enters robot hall) (enters robot living) (enters robot bedroom)
+    (cooks anna) (strong robot)
+    (light tray) (light basket) (light fern) (heavy suitcase)
+    (has-stove kitchen) (has-water kitchen) (has-water bath)
+    (dish tray) (linen basket) (plant fern)
+    (at anna living) (free anna) (idle anna)
+    (at robot hall) (free robot) (idle robot)
+    (lies tray living) (lies basket bedroom) (lies fern bedroom) (lies suitcase hall)
+    (= (total-cost) 0)
+    (= (motivation anna) 1) (= (effort anna kitchen) 1) (= (effort anna hall) 1) (= (effort anna living) 1) (= (effort anna bath) 1) (= (effort anna bedroom) 1)
+    (= (motivation robot) 1) (= (effort robot kitchen) 1) (= (effort robot hall) 1) (= (effort robot living) 1) (= (effort robot bath) 1) (= (effort robot bedroom) 1))
+  (:goal (and (cooked tray) (lies tray bedroom) (washed basket)))
+  (:metric minimize (+ (total-cost) (* 0.2 (total-time)))))
