@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import fields
+from dataclasses import Field, fields
 from fractions import Fraction
-from typing import Any
+from typing import Any, ClassVar, Protocol
 
 from hrcplan.core.json_values import JsonValue
 from hrcplan.core.numbers import Number, exact, nearest_float
@@ -20,23 +20,34 @@ _FieldValue = (
     Plan
     | frozenset[Fact]
     | Mapping[FluentKey, Number]
-    | tuple[str, ...]
+    | tuple[str | tuple[str | float, ...], ...]
     | float
     | Number
     | str
     | None
 )
 
+
+class Item(Protocol):
+    """An event or a command of any machine: a data class with a time."""
+
+    __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
+
+    @property
+    def t(self) -> float:
+        """Seconds on the world's clock."""
+
+
 ABSENT = "absent"  # is left out where it is empty, as in journals of earlier versions
 
-_KINDS: Mapping[str, type] = {
+KINDS: Mapping[str, type] = {
     kind.__name__.lower(): kind
     for kind in (ev.Ended, ev.Overdue, ev.Observed, ev.Sensed, ev.Settled, ev.Planned, ev.StopAsked,
                  ev.AskPlan, ev.Dispatch, ev.Cancel, ev.Wake, ev.Adopt, ev.Tell, ev.Finish)
 }  # fmt: skip
 
 
-def to_json(item: Event | Command) -> dict[str, Any]:
+def to_json(item: Event | Command | Item) -> dict[str, Any]:
     """Return an event or command as a JSON object; ``kind`` comes first.
 
     >>> from hrcplan.execution import events as ev
@@ -51,14 +62,18 @@ def to_json(item: Event | Command) -> dict[str, Any]:
     return document
 
 
-def from_json(document: Mapping[str, Any]) -> Any:
+def from_json(document: Mapping[str, Any], kinds: Mapping[str, type] = KINDS) -> Any:
     """Return the event or command that ``to_json`` made a JSON object of.
+
+    Args:
+        document: The JSON object.
+        kinds: The classes of events and commands by ``kind``.
 
     Raises:
         ValueError: if it is none.
     """
     try:
-        kind = _KINDS[document["kind"]]
+        kind = kinds[document["kind"]]
         item = kind(**{k: _DECODERS.get(k, _same)(v) for k, v in document.items() if k != "kind"})
         if item.t >= 0 and isinstance(getattr(item, "number", 0), int):
             return item
@@ -75,7 +90,7 @@ def _encoded(value: _FieldValue) -> JsonValue:
     if isinstance(value, Mapping):
         return {" ".join(key): _number(number) for key, number in value.items()}
     if isinstance(value, tuple):
-        return list(value)
+        return [list(part) if isinstance(part, tuple) else part for part in value]
     return _number(value) if isinstance(value, Fraction) else value
 
 
@@ -116,12 +131,17 @@ def _metric(value: float | str | None) -> float | Number | None:
     return None if value is None else exact_number(value)
 
 
+def _pairs(rows: list[list[Any]]) -> tuple[tuple[Any, ...], ...]:
+    return tuple(map(tuple, rows))
+
+
 def _same(value: JsonValue) -> JsonValue:
     return value
 
 
 _DECODERS: Mapping[str, Callable[[Any], Any]] = {
     "facts": _facts, ABSENT: _facts, "numbers": _numbers, "values": _numbers, "plan": _plan,
-    "args": tuple, "reasons": tuple, "metric": _metric,
+    "args": tuple, "reasons": tuple, "metric": _metric, "agents": tuple, "options": tuple,
+    "helps": tuple, "goals": _pairs,
 }  # fmt: skip
 """How the fields that JSON has no type for are read; all others stay as they are."""

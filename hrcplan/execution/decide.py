@@ -16,7 +16,7 @@ from hrcplan.execution.action_model import UNIT_S
 from hrcplan.execution.events import Command
 from hrcplan.execution.model import ExecutionModel
 from hrcplan.execution.order import Waits, rest_of, waits
-from hrcplan.execution.run import FollowedPlan, Phase, Run, RunningAction, RunStep, plus
+from hrcplan.execution.run import FollowedPlan, Phase, Run, RunStep, begin_action, plus
 from hrcplan.pddl.model import FluentKey, Problem
 from hrcplan.plans import Plan, PlannedAction
 from hrcplan.validation import objective, validate
@@ -195,14 +195,9 @@ class Decider:
             return run.with_reason(ev.DEVIATION, f"{planned} needs {obstacle}"), None
         duration = planned.duration_s if step.schema.durative else None
         lasts = float(UNIT_S if duration is None else duration)
-        state, start_effects = self.actions.begin(run.state, step, duration or 0)
-        action = RunningAction(run.n_dispatched, index, step, run.t, lasts, start_effects)
         current = replace(run.current_plan, begun={**run.current_plan.begun, index: run.t})
-        run = replace(
-            run, state=state, running=(*run.running, action), current_plan=current,
-            n_dispatched=run.n_dispatched + 1,
-        )  # fmt: skip
-        return run, ev.Dispatch(run.t, action.number, step.agent, planned.name, planned.args, lasts)
+        run = replace(run, current_plan=current)
+        return begin_action(self.actions, run, step, duration or 0, lasts, index)
 
     def finish(self, run: Run, ending: str, why: str) -> RunStep:
         """Return the run when it is over, and the command that stops every agent."""

@@ -1,24 +1,80 @@
-"""The loop around the monitor: world and planner on one side, journal on the other.
+"""The loop around a machine: world and planner on one side, journal on the other.
 
 Every event is written down before it is acted on, and so is every decision. A run that is
 continued from a journal goes the same way again: recorded events are compared with what the world
-does, recorded plans are used instead of asking a planner, and then the run goes on.
+does, recorded answers are used instead of asking a planner, and then the run goes on.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
-from typing import Protocol
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Generic, Protocol, TypeVar
 
 from hrcplan.execution import events as ev
+from hrcplan.execution.codec import Item
 from hrcplan.execution.events import Command, Event
-from hrcplan.execution.monitor import Monitor
-from hrcplan.execution.run import Run
-from hrcplan.execution.worlds import EventWorld
+from hrcplan.execution.run import Run, RunningAction
 
 PATIENCE = 3  # times its duration, after which an action counts as failed
 MAX_STEPS = 100_000  # events of one run; a world that never ends is stopped
+QUESTIONS: Mapping[type, type] = {ev.AskPlan: ev.Planned}  # and the events that answer them
+
+
+class DrivenRun(Protocol):
+    """The state of a machine, as far as the loop looks at it."""
+
+    @property
+    def t(self) -> float:
+        """When the last event happened."""
+
+    @property
+    def is_over(self) -> bool:
+        """Whether the run has ended."""
+
+    @property
+    def running(self) -> tuple[RunningAction, ...]:
+        """The actions that have begun and not ended."""
+
+
+R = TypeVar("R", bound=DrivenRun)
+E = TypeVar("E", bound=Item)
+C = TypeVar("C", bound=Item)
+Own = TypeVar("Own", bound=Item)
+C_co = TypeVar("C_co", bound=Item, covariant=True)
+C_contra = TypeVar("C_contra", bound=Item, contravariant=True)
+E_co = TypeVar("E_co", bound=Item, covariant=True)
+E_contra = TypeVar("E_contra", bound=Item, contravariant=True)
+
+
+class Machine(Protocol[R, E_contra, C_co]):
+    """A pure state machine: `Monitor`, or another one."""
+
+    def begin(self) -> R:
+        """Return the run before any event."""
+
+    def step(self, run: R, event: E_contra) -> tuple[R, tuple[C_co, ...]]:
+        """Return the run after an event, and the commands that follow from it."""
+
+
+class DrivenWorld(Protocol[E_co, C_contra]):
+    """An `EventWorld`, whatever its events and commands are."""
+
+    def begin(self) -> tuple[E_co, ...]:
+        """Return what is seen at time 0, before anything is done."""
+
+    def do(self, command: C_contra) -> None:
+        """Begin or break off an action, or take note; returns at once."""
+
+    def next(self) -> tuple[E_co, ...]:
+        """Return the events of the next instant; none if nothing can happen any more."""
+
+
+class AnswersQuestions(Protocol):
+    """Answers the commands that are questions."""
+
+    def answer(self, ask: Any) -> Any:
+        """Return the event that answers a question."""
 
 
 class PlanProvider(Protocol):
@@ -31,27 +87,27 @@ class PlanProvider(Protocol):
 class RunRecord(Protocol):
     """Where events and decisions go before they are acted on."""
 
-    def record_event(self, event: Event) -> Event:
+    def record_event(self, event: Own) -> Own:
         """Write an event down and return it as it can be read again."""
 
-    def record_decision(self, commands: tuple[Command, ...]) -> None:
-        """Write down what the monitor decided."""
+    def record_decision(self, commands: Sequence[Item]) -> None:
+        """Write down what the machine decided."""
 
-    def recorded_plan(self) -> ev.Planned | None:
-        """Return the next event if it is a plan that was recorded before; None if not."""
+    def recorded_answer(self, kind: type[Own]) -> Own | None:
+        """Return the next event if it was recorded before and is of a kind; None if not."""
 
 
 class NullRecord:
     """A record that stores nothing."""
 
-    def record_event(self, event: Event) -> Event:
+    def record_event(self, event: Own) -> Own:
         """Return the event."""
         return event
 
-    def record_decision(self, commands: tuple[Command, ...]) -> None:
+    def record_decision(self, commands: Sequence[Item]) -> None:
         """Do nothing."""
 
-    def recorded_plan(self) -> ev.Planned | None:
+    def recorded_answer(self, kind: type[Own]) -> Own | None:
         """Return None: nothing was recorded."""
         return None
 
@@ -60,19 +116,23 @@ RunWatch = Callable[[Run, Event, tuple[Command, ...]], None]
 
 
 @dataclass
-class Driver:
-    """Carries one run out until it is over; ``watch`` is called after every step."""
+class Driver(Generic[R, E, C]):
+    """Carries one run out until it is over; ``watch`` is called after every step.
 
-    monitor: Monitor
-    world: EventWorld
-    planner: PlanProvider
+    ``questions`` maps the commands that are questions to the events that answer them.
+    """
+
+    monitor: Machine[R, E | ev.Overdue | ev.Settled | ev.StopAsked, C]
+    world: DrivenWorld[E, C]
+    planner: AnswersQuestions
     record: RunRecord
-    watch: RunWatch | None = None
+    watch: Callable[[R, Any, tuple[C, ...]], None] | None = None
+    questions: Mapping[type, type] = field(default_factory=lambda: QUESTIONS)
 
-    def run(self) -> Run:
+    def run(self) -> R:
         """Return the finished run."""
         run = self.monitor.begin()
-        events: Iterable[Event] = self.world.begin()
+        events: Iterable[E | ev.StopAsked] = self.world.begin()
         for _ in range(MAX_STEPS):
             run = self._instant(run, events)
             if run.is_over:
@@ -80,22 +140,35 @@ class Driver:
             events = self.world.next() or (ev.StopAsked(run.t, "nothing happens any more"),)
         return self._step(run, ev.StopAsked(run.t, f"more than {MAX_STEPS} instants"))[0]
 
-    def _instant(self, run: Run, events: Iterable[Event]) -> Run:
+    def _instant(self, run: R, events: Iterable[E | ev.StopAsked]) -> R:
         """Return the run after the events of one instant, and what follows at once from them."""
         t = run.t
         for event in events:
             run, ask = self._step(run, event)
+            run = self._answered(run, ask)
             t = max(t, event.t)
         for action in run.running:
             if t > action.begun_s + PATIENCE * action.duration_s + ev.INSTANT_S:
                 run, ask = self._step(run, ev.Overdue(t, action.number))
         run, ask = self._step(run, ev.Settled(t))
         while ask is not None:
-            run, again = self._step(run, self.record.recorded_plan() or self.planner.answer(ask))
+            run, again = self._step(run, self._answer(ask))
             run, ask = (run, again) if again is not None else self._step(run, ev.Settled(t))
         return run
 
-    def _step(self, run: Run, event: Event) -> tuple[Run, ev.AskPlan | None]:
+    def _answered(self, run: R, ask: C | None) -> R:
+        """Return the run after the answers to what an event asks for at once."""
+        while ask is not None:
+            run, ask = self._step(run, self._answer(ask))
+        return run
+
+    def _answer(self, ask: C) -> Any:
+        recorded: Any = self.record.recorded_answer(self.questions[type(ask)])
+        return self.planner.answer(ask) if recorded is None else recorded
+
+    def _step(
+        self, run: R, event: E | ev.Overdue | ev.Settled | ev.StopAsked
+    ) -> tuple[R, C | None]:
         event = self.record.record_event(event)
         run, commands = self.monitor.step(run, event)
         self.record.record_decision(commands)
@@ -103,7 +176,7 @@ class Driver:
             self.watch(run, event, commands)
         ask = None
         for command in commands:
-            if isinstance(command, ev.AskPlan):
+            if type(command) in self.questions:
                 ask = command
             else:
                 self.world.do(command)

@@ -41,8 +41,9 @@ class Observer:
         return self._reverted(run, action, event.outcome), ()
 
     def _succeeded(self, run: Run, action: RunningAction) -> Run:
-        assert run.current_plan is not None
-        plan = replace(run.current_plan, ended=run.current_plan.ended | {action.index})
+        plan = run.current_plan
+        if plan is not None and action.index is not None:
+            plan = replace(plan, ended=plan.ended | {action.index})
         step, counts = action.step, run.counts
         counts = replace(
             counts, done=plus(counts.done, [step.agent]), last_end_s=run.t,
@@ -65,10 +66,12 @@ class Observer:
     def _reverted(self, run: Run, action: RunningAction, outcome: str) -> Run:
         """Take a failed or cancelled action back: no effect, the time is used up."""
         agent, counts = action.step.agent, run.counts
-        assert run.current_plan is not None
-        begun = {i: t for i, t in run.current_plan.begun.items() if i != action.index}
+        plan = run.current_plan
+        if plan is not None:
+            begun = {i: t for i, t in plan.begun.items() if i != action.index}
+            plan = replace(plan, begun=begun)
         run = replace(
-            run, running=run.without(action), current_plan=replace(run.current_plan, begun=begun),
+            run, running=run.without(action), current_plan=plan,
             state=self.actions.revert(run.state, action.start_effects),
         )  # fmt: skip
         if outcome == ev.CANCELLED:

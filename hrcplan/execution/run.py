@@ -9,8 +9,8 @@ from dataclasses import dataclass, field, replace
 from hrcplan.agents.memory import Memory
 from hrcplan.agents.profile import Experience
 from hrcplan.core.numbers import Number
-from hrcplan.execution.action_model import BoundAction, StartEffects
-from hrcplan.execution.events import Command
+from hrcplan.execution.action_model import ActionModel, BoundAction, StartEffects
+from hrcplan.execution.events import Command, Dispatch
 from hrcplan.execution.order import Waits
 from hrcplan.pddl.model import FluentKey
 from hrcplan.pddl.semantics import LiftedState
@@ -29,10 +29,10 @@ class Phase(enum.Enum):
 
 @dataclass(frozen=True, slots=True)
 class RunningAction:
-    """One dispatched action that has not ended; ``index`` is its place in the plan."""
+    """One action that has begun and has not ended; ``index`` is its place in the plan, if any."""
 
     number: int
-    index: int
+    index: int | None
     step: BoundAction
     begun_s: float
     duration_s: float
@@ -159,6 +159,29 @@ class Run:
         phase = self.ending or self.phase.value
         actions = f"{n_done} actions done, {n_failed} failed"
         return f"Run({phase}, t={self.t:g}, {actions}, {counts.n_replans} replans)"
+
+
+def begin_action(
+    actions: ActionModel, run: Run, step: BoundAction, duration: Number, lasts_s: float,
+    index: int | None = None,
+) -> tuple[Run, Dispatch]:  # fmt: skip
+    """Return the run when an action has begun, and the command that says so.
+
+    Args:
+        actions: How actions begin.
+        run: The run before.
+        step: The action.
+        duration: Its duration in the PDDL; 0 for a step without duration.
+        lasts_s: After how many seconds it is expected to end.
+        index: Its place in the plan; None if no plan has it.
+    """
+    state, start_effects = actions.begin(run.state, step, duration)
+    action = RunningAction(run.n_dispatched, index, step, run.t, lasts_s, start_effects)
+    run = replace(
+        run, state=state, running=(*run.running, action), n_dispatched=run.n_dispatched + 1
+    )
+    args = tuple(step.binding.values())
+    return run, Dispatch(run.t, action.number, step.agent, step.schema.name, args, lasts_s)
 
 
 RunStep = tuple[Run, tuple[Command, ...]]

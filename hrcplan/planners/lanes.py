@@ -103,12 +103,16 @@ def _with_duration(problem: Problem, schema: Action | None, action: PlannedActio
     if isinstance(binding, str) or any(op == "=" for op, _ in schema.durations):
         return action  # validation says what is wrong, or evaluates the duration there
     with contextlib.suppress(Undefined):
-        return replace(action, duration_s=_shortest(problem, schema, binding))
+        return replace(action, duration_s=shortest_duration(problem, schema, binding))
     return action
 
 
-def _shortest(problem: Problem, schema: Action, binding: Binding) -> Number:
-    """Return the shortest duration that is allowed in the initial state."""
+def shortest_duration(problem: Problem, schema: Action, binding: Binding) -> Number:
+    """Return the shortest duration of an action that is allowed in the initial state.
+
+    Raises:
+        Undefined: if it depends on a function without a value.
+    """
     values = [(op, evaluate(expr, problem.values, binding)) for op, expr in schema.durations]
     least = [value for op, value in values if op in ("=", ">=")]
     most = [value for op, value in values if op == "<="]
@@ -120,7 +124,7 @@ def _duration(problem: Problem, schema: Action, action: PlannedAction) -> Number
         return 1
     if action.duration_s is not None:
         return action.duration_s
-    return _shortest(problem, schema, _binding(schema, action, problem))
+    return shortest_duration(problem, schema, _binding(schema, action, problem))
 
 
 def _binding(schema: Action, action: PlannedAction, problem: Problem) -> dict[str, str]:

@@ -3,28 +3,38 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import Any, Protocol, TypeVar
 
 from hrcplan import __version__
 from hrcplan.errors import InputError, UsageError
-from hrcplan.execution import events as ev
-from hrcplan.execution.codec import from_json, to_json
-from hrcplan.execution.events import Command, Event
+from hrcplan.execution.codec import KINDS, Item, from_json, to_json
 from hrcplan.execution.journal.file import JournalFile
 from hrcplan.execution.journal.reader import FORMAT, Journal
-from hrcplan.execution.journal.setup import RunSetup
-from hrcplan.execution.outcome import Outcome
+
+E = TypeVar("E", bound=Item)
+
+
+class HasJson(Protocol):
+    """What a journal begins and ends with: a setup, and an outcome."""
+
+    def to_json(self) -> dict[str, Any]:
+        """Return it as a JSON object."""
 
 
 class JournalWriter:
     """Appends to a journal; a run that is resumed first goes over the lines that are there.
 
-    Lines are written at once, and on disk before a decision is acted on.
+    Lines are written at once, and on disk before a decision is acted on. ``kinds`` are the classes
+    of events and commands.
     """
 
-    def __init__(self, file: JournalFile, journal: Journal | None = None) -> None:
+    def __init__(
+        self, file: JournalFile, journal: Journal | None = None,
+        kinds: Mapping[str, type] = KINDS,
+    ) -> None:  # fmt: skip
         self.path = file.path
+        self._kinds = kinds
         self._file = file
         self._recorded = () if journal is None else journal.lines
         self._position = 1
@@ -34,16 +44,16 @@ class JournalWriter:
         """Whether the run still goes over what was recorded before."""
         return self._position < len(self._recorded)
 
-    def record_event(self, event: Event) -> Event:
+    def record_event(self, event: E) -> E:
         """Write an event down and return it as it can be read again.
 
         Raises:
             InputError: if the journal has another event at this place.
         """
         line = self._line({"event": to_json(event)})
-        return from_json(line["event"])  # type: ignore[no-any-return]
+        return from_json(line["event"], self._kinds)  # type: ignore[no-any-return]
 
-    def record_decision(self, commands: tuple[Command, ...]) -> None:
+    def record_decision(self, commands: Sequence[Item]) -> None:
         """Write down what the monitor decided.
 
         Raises:
@@ -53,14 +63,14 @@ class JournalWriter:
         if commands and not self.is_repeating:
             self._file.sync()  # what is acted on is on disk, with all that came before it
 
-    def recorded_plan(self) -> ev.Planned | None:
-        """Return the plan that was recorded at this place, if any."""
+    def recorded_answer(self, kind: type[E]) -> E | None:
+        """Return the event that was recorded at this place, if it is of a kind."""
         event = self._recorded[self._position].get("event") if self.is_repeating else None
-        if event is None or event.get("kind") != "planned":
+        if event is None or event.get("kind") != kind.__name__.lower():
             return None
-        return from_json(event)  # type: ignore[no-any-return]
+        return from_json(event, self._kinds)  # type: ignore[no-any-return]
 
-    def finish(self, outcome: Outcome) -> None:
+    def finish(self, outcome: HasJson) -> None:
         """Write the outcome, the last line."""
         self._line({"row": outcome.to_json()})
         self._file.sync()
@@ -84,7 +94,10 @@ class JournalWriter:
         self._file.append(text.encode("utf-8", "backslashreplace"))
 
     @classmethod
-    def begin(cls, file: JournalFile, setup: RunSetup) -> JournalWriter:
+    def begin(
+        cls, file: JournalFile, setup: HasJson, journal_format: int = FORMAT,
+        kinds: Mapping[str, type] = KINDS,
+    ) -> JournalWriter:  # fmt: skip
         """Return the writer of a new journal whose first line is the setup.
 
         Raises:
@@ -93,12 +106,15 @@ class JournalWriter:
         if file.n_bytes:
             hint = "--resume goes on with it; or name another file"
             raise UsageError("the journal exists already", path=str(file.path), hint=hint)
-        writer = cls(file)
-        writer._append({"seq": 0, "journal": FORMAT, "hrcplan": __version__, **setup.to_json()})
+        writer = cls(file, kinds=kinds)
+        head = {"seq": 0, "journal": journal_format, "hrcplan": __version__}
+        writer._append({**head, **setup.to_json()})
         return writer
 
     @classmethod
-    def resume(cls, file: JournalFile, journal: Journal) -> JournalWriter:
+    def resume(
+        cls, file: JournalFile, journal: Journal, kinds: Mapping[str, type] = KINDS
+    ) -> JournalWriter:
         """Return the writer that goes over a journal and then on; a torn last line is cut off."""
         file.cut(journal.n_bytes)
-        return cls(file, journal)
+        return cls(file, journal, kinds)
