@@ -93,7 +93,7 @@ class ExpectedHelp(BeliefAssistant[Any]):
         counts.
         """
         posterior, steps = self.posterior(state), tuple(choices.steps.tolist())
-        saved = np.nan_to_num(choices.saved.clip(-DEAD_END, DEAD_END))
+        saved = np.nan_to_num(choices.savings.clip(-DEAD_END, DEAD_END))
         worth = posterior @ saved - self.waste_price * (1 - posterior @ choices.is_next)
         if steps and worth.max() <= 0 and self._humans_wait(state.progress):
             # Of the goals that a step helps, which a goal that is reached already is not.

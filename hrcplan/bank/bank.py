@@ -70,7 +70,7 @@ class Bank:
     graphs: tuple[PlanGraph, ...]
     recipe: BuildOptions = BuildOptions()
     build_s: float = 0.0
-    _rerooted: dict[tuple[int, int, int | None], PlanGraph] = field(default_factory=dict)
+    _graphs: dict[tuple[int, int, int | None], PlanGraph] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         nodes = sum(graph.n_nodes for graph in self.graphs)
@@ -127,17 +127,17 @@ class Bank:
         """
         turn = (turn or 0) if self.team else None
         key = (goal, state & self.relevant_facts(goal), turn)
-        known = self._rerooted.get(key)
-        if known is None:
+        plan_graph = self._graphs.get(key)
+        if plan_graph is None:
             tests, name = self.goals.tests[goal], self.names[goal]
             if turn is not None:
-                known = team_graph(self.table, tests, state, turn, name=name, limits=limits)
+                plan_graph = team_graph(self.table, tests, state, turn, name=name, limits=limits)
             else:
-                known = optimal_graph(self.table, tests, state, name=name, limits=limits)
-            self._rerooted[key] = known
-            while sum(graph.n_nodes + 1 for graph in self._rerooted.values()) > MAX_REROOTED:
-                self._rerooted.pop(next(iter(self._rerooted)))
-        return known
+                plan_graph = optimal_graph(self.table, tests, state, name=name, limits=limits)
+            self._graphs[key] = plan_graph
+            while sum(graph.n_nodes + 1 for graph in self._graphs.values()) > MAX_REROOTED:
+                self._graphs.pop(next(iter(self._graphs)))
+        return plan_graph
 
     def locate(
         self, goal: int, state: int, limits: BuildLimits = NO_LIMITS, *, turn: int | None = None
@@ -181,7 +181,7 @@ class Bank:
     def _relevant(self) -> list[tuple[tuple[Operator, ...], int]]:
         """For each goal the steps and facts that matter to any plan of it, from any state."""
         by_goal = (relevant(self.table.ops, tests) for tests in self.goals.tests)
-        return [(ops, needed.facts) for ops, needed in by_goal]
+        return [(ops, literals.facts) for ops, literals in by_goal]
 
     @cached_property
     def _overwritten(self) -> list[int]:
@@ -269,12 +269,12 @@ class Bank:
 
 def _variants(state: int, facts: int) -> Iterator[int]:
     """Yield a state with a few facts set in all possible ways."""
-    chosen = facts
+    subset = facts
     for _ in range(MAX_VARIANTS):
-        yield state & ~facts | chosen
-        if not chosen:
+        yield state & ~facts | subset
+        if not subset:
             return
-        chosen = (chosen - 1) & facts
+        subset = (subset - 1) & facts
 
 
 def build_bank(

@@ -103,29 +103,29 @@ class _Order:
         for position in before:
             for earlier in positions(before[position]):
                 after[earlier] |= 1 << position
-        self.related = {i: before[i] | after[i] for i in before}
-        self.free = {i: mask & ~self.related[i] & ~(1 << i) for i in before}
+        self.neighbors = {i: before[i] | after[i] for i in before}
+        self.free = {i: mask & ~self.neighbors[i] & ~(1 << i) for i in before}
 
     def node(self, mask: int) -> OrderNode:
         """Return the steps of a mask as chains and cliques."""
         if mask.bit_count() == 1:
             return Leaf(self.steps[mask.bit_length() - 1], mask)
-        parts = _connected(mask, self.related)
+        parts = _components_of(mask, self.neighbors)
         if len(parts) > 1:
             return Clique(tuple(map(self.node, parts)), mask)
-        parts = _connected(mask, self.free)
+        parts = _components_of(mask, self.free)
         if len(parts) != 1:
             parts.sort(key=lambda part: self._n_before(part, mask))
             return Chain(tuple(map(self.node, parts)), mask)
         first = self._first_part(mask)
-        return self._joined(first, mask & ~first)
+        return self._chain(first, mask & ~first)
 
     def _n_before(self, part: int, mask: int) -> int:
         return (self.before[part.bit_length() - 1] & mask).bit_count()
 
-    def _joined(self, first: int, rest: int) -> Chain:
+    def _chain(self, first: int, rest: int) -> Chain:
         """Return a chain of two parts, with what this adds; chains within it become part of it."""
-        added = [
+        extra = [
             (self.steps[i], self.steps[j])
             for i in positions(first)
             for j in positions(rest & self.free[i])
@@ -133,8 +133,8 @@ class _Order:
         children: list[OrderNode] = []
         for node in (self.node(first), self.node(rest)):
             children += node.children if isinstance(node, Chain) else [node]
-            added += node.added if isinstance(node, Chain) else []
-        return Chain(tuple(children), first | rest, tuple(added))
+            extra += node.added if isinstance(node, Chain) else []
+        return Chain(tuple(children), first | rest, tuple(extra))
 
     def _first_part(self, mask: int) -> int:
         """Return the first part of the best cut.
@@ -167,9 +167,9 @@ class _Order:
         }
         onward = {i: (self.free[i] | self.before[i]) & mask for i in room}
         for value in range(most + 1):
-            seen, came = _reached(source, sink, onward)
+            side, came = _flood(source, sink, onward)
             if sink not in came:
-                return value, seen
+                return value, side
             here = sink
             while here != source:
                 back, here = here, came[here]
@@ -181,22 +181,22 @@ class _Order:
         return most, 0
 
 
-def _reached(source: int, sink: int, onward: Mapping[int, int]) -> tuple[int, dict[int, int]]:
+def _flood(source: int, sink: int, onward: Mapping[int, int]) -> tuple[int, dict[int, int]]:
     """Return what is met on the way from source to sink, as bits, and where each was come from."""
-    seen, waiting = 1 << source, [source]
+    nodes, waiting = 1 << source, [source]
     came: dict[int, int] = {}
     for here in waiting:
-        new = onward[here] & ~seen
-        seen |= new
+        new = onward[here] & ~nodes
+        nodes |= new
         for there in positions(new):
             came[there] = here
             waiting.append(there)
         if sink in came:
             break
-    return seen, came
+    return nodes, came
 
 
-def _connected(mask: int, links: Mapping[int, int]) -> list[int]:
+def _components_of(mask: int, links: Mapping[int, int]) -> list[int]:
     """Return the connected parts of a set of bits, that with the lowest bit first."""
     parts = []
     while mask:

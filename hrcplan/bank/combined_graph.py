@@ -40,7 +40,7 @@ class CombinedGraph:
         table = bank.table
         self.label, self.n_labels, self.n_steps = table.labels, table.n_labels, len(table)
         self.one_label_each = self.n_labels == self.n_steps
-        self._concerned: dict[tuple[int, int], Ids] = {}
+        self._goals_of: dict[tuple[int, int], Ids] = {}
         sizes = [graph.n_nodes for graph in bank.graphs]
         self.off = sum(sizes)
         self.offsets = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)
@@ -50,13 +50,13 @@ class CombinedGraph:
 
     def _lay_out_edges(self) -> None:
         graphs, starts = self.bank.graphs, self.offsets
-        sources = _joined(
+        sources = _concatenate(
             np.repeat(np.arange(g.n_nodes), np.diff(g.first)) + o
             for g, o in zip(graphs, starts, strict=False)
         )
-        steps = _joined(g.steps.astype(np.int64) for g in graphs)
-        self.targets = _joined(g.targets + o for g, o in zip(graphs, starts, strict=False))
-        self._moves = _closed(sources * self.n_steps + steps)
+        steps = _concatenate(g.steps.astype(np.int64) for g in graphs)
+        self.targets = _concatenate(g.targets + o for g, o in zip(graphs, starts, strict=False))
+        self._moves = _with_sentinel(sources * self.n_steps + steps)
         self.step_of = steps.astype(np.int32)
         self.first = np.searchsorted(sources, np.arange(self.off + 2))
         both = [_shares(graph) for graph in graphs]
@@ -67,22 +67,22 @@ class CombinedGraph:
             self._pairs, owners = self._moves, sources
         else:
             distinct, which = np.unique(pairs, return_inverse=True)
-            self._pairs, owners = _closed(distinct), distinct // self.n_labels
+            self._pairs, owners = _with_sentinel(distinct), distinct // self.n_labels
             logs = _log_sums(shares, logs, which, len(distinct))
         self.log_shares = np.append(logs, -math.inf)
         self.n_next = np.bincount(owners, minlength=self.off + 1).astype(np.int64)
 
     def edges(self, nodes: Ids, step: int) -> tuple[Bools, Ids]:
         """Return which nodes have an edge for a step, and the places of these edges."""
-        wanted = nodes * self.n_steps + step
-        places = self._moves.searchsorted(wanted)
-        return self._moves.take(places) == wanted, places
+        keys = nodes * self.n_steps + step
+        places = self._moves.searchsorted(keys)
+        return self._moves.take(places) == keys, places
 
     def labeled(self, nodes: Ids, label: int) -> tuple[Bools, Ids]:
         """Return which nodes a label can follow, and the places of its shares."""
-        wanted = nodes * self.n_labels + label
-        places = self._pairs.searchsorted(wanted)
-        return self._pairs[places] == wanted, places
+        keys = nodes * self.n_labels + label
+        places = self._pairs.searchsorted(keys)
+        return self._pairs[places] == keys, places
 
     def concerned(self, step: int, pattern: int) -> Ids:
         """Return the goals whose nodes a step may move, or that it may say something about.
@@ -91,13 +91,13 @@ class CombinedGraph:
             step: The step.
             pattern: The facts that it has changed, as bits.
         """
-        known = self._concerned.get((step, pattern))
-        if known is None:
+        goals = self._goals_of.get((step, pattern))
+        if goals is None:
             users = self._users[self.label[step]]
-            touched = (g for g, facts in enumerate(self._relevant) if facts & pattern)
-            known = np.array(sorted(users.union(touched)), dtype=np.int64)
-            self._concerned[step, pattern] = known
-        return known
+            relevant = (g for g, facts in enumerate(self._relevant) if facts & pattern)
+            goals = np.array(sorted(users.union(relevant)), dtype=np.int64)
+            self._goals_of[step, pattern] = goals
+        return goals
 
     @cached_property
     def _relevant(self) -> list[int]:
@@ -106,10 +106,10 @@ class CombinedGraph:
     @cached_property
     def needs(self) -> Bools:
         """For each goal and label, whether some plan of the goal has it."""
-        needed = np.zeros((len(self.bank.graphs), self.n_labels), dtype=np.bool_)
+        needs = np.zeros((len(self.bank.graphs), self.n_labels), dtype=np.bool_)
         for label, goals in enumerate(self._users):
-            needed[sorted(goals), label] = True
-        return needed
+            needs[sorted(goals), label] = True
+        return needs
 
     @cached_property
     def _users(self) -> list[set[int]]:
@@ -128,26 +128,26 @@ def combined_graph_of(bank: Bank) -> CombinedGraph:
 
     Of 30 goals with 13,000 nodes each it takes 80 MB. The last belief frees it.
     """
-    combined = _SHARED.get(id(bank))  # while it lives, so does its bank: no other one has that id
-    if combined is None:
-        combined = _SHARED[id(bank)] = CombinedGraph(bank)
-    return combined
+    graph = _SHARED.get(id(bank))  # while it lives, so does its bank: no other one has that id
+    if graph is None:
+        graph = _SHARED[id(bank)] = CombinedGraph(bank)
+    return graph
 
 
 class ApplicableSteps:
     """Which labels some agent can do in a state, as bits; kept up to date from state to state."""
 
-    def __init__(self, combined: CombinedGraph) -> None:
-        table, task = combined.bank.table, combined.bank.goals.task
+    def __init__(self, graph: CombinedGraph) -> None:
+        table, task = graph.bank.table, graph.bank.goals.task
         self._task = task
-        self._rules: list[list[Rule]] = [[] for _ in range(combined.n_labels)]
-        self._odd: list[list[int]] = [[] for _ in range(combined.n_labels)]
+        self._rules: list[list[Rule]] = [[] for _ in range(graph.n_labels)]
+        self._odd: list[list[int]] = [[] for _ in range(graph.n_labels)]
         self._mentions: dict[int, set[int]] = {}
         for step in range(len(table)):
             for index in table[step].actions:
-                self._take(index, combined.label[step])
-        self._affected: dict[int, _Part] = {}
-        self._all = self._part(range(combined.n_labels))
+                self._take(index, graph.label[step])
+        self._parts: dict[int, _Part] = {}
+        self._all = self._part(range(graph.n_labels))
 
     def _take(self, index: int, label: int) -> None:
         action = self._task.actions[index]
@@ -160,12 +160,16 @@ class ApplicableSteps:
 
     def _part(self, labels: Iterable[int]) -> _Part:
         """Return how some labels are looked at."""
-        chosen = sorted(labels)
+        part_labels = sorted(labels)
         rules = tuple(
-            (1 << label, *rule) for label in chosen for rule in dict.fromkeys(self._rules[label])
+            (1 << label, *rule)
+            for label in part_labels
+            for rule in dict.fromkeys(self._rules[label])
         )
-        odd = tuple((1 << label, tuple(self._odd[label])) for label in chosen if self._odd[label])
-        return ~sum(1 << label for label in chosen), rules, odd
+        odd = tuple(
+            (1 << label, tuple(self._odd[label])) for label in part_labels if self._odd[label]
+        )
+        return ~sum(1 << label for label in part_labels), rules, odd
 
     def of(self, state: int) -> int:
         """Return the labels that can be done in a state, as bits."""
@@ -174,19 +178,19 @@ class ApplicableSteps:
     def after(self, doable: int, before: int, state: int) -> int:
         """Return the labels that can be done in ``state``, from those of a state ``before``."""
         pattern = before ^ state
-        part = self._affected.get(pattern)
+        part = self._parts.get(pattern)
         if part is None:
             labels: set[int] = set()
             for position in positions(pattern):
                 labels |= self._mentions.get(position, set())
-            part = self._affected[pattern] = self._part(labels)
+            part = self._parts[pattern] = self._part(labels)
         return self._update(state, doable, part)
 
     def _update(self, state: int, doable: int, part: _Part) -> int:
         others, rules, odd = part
         doable &= others
-        for bit, mask, value, touched, adds in rules:
-            if state & mask == value and state & touched != adds:
+        for bit, mask, value, writes, adds in rules:
+            if state & mask == value and state & writes != adds:
                 doable |= bit
         for bit, actions in odd:
             if any(self._task.is_applicable(state, index) for index in actions):
@@ -194,11 +198,11 @@ class ApplicableSteps:
         return doable
 
 
-def _joined(parts: Iterable[Ids]) -> Ids:
+def _concatenate(parts: Iterable[Ids]) -> Ids:
     return np.concatenate([np.zeros(0, dtype=np.int64), *parts])
 
 
-def _closed(keys: Ids) -> Ids:
+def _with_sentinel(keys: Ids) -> Ids:
     """Return keys with one behind them that is never looked for."""
     return np.append(keys, np.iinfo(np.int64).max)
 

@@ -9,7 +9,7 @@ from typing import Protocol
 import numpy as np
 
 from hrcplan.bank.graph import PlanGraph
-from hrcplan.bank.search import BuildLimits, Explored, Explorer, group_rows
+from hrcplan.bank.search import BuildLimits, Explorer, StateSpaceLayers, group_rows
 from hrcplan.core.arrays import Ids, SmallIds, Words
 from hrcplan.core.numbers import Number
 from hrcplan.search.lm_cut import Landmark, landmarks
@@ -51,31 +51,31 @@ def optimal_with_price(
     reaches the goal, this is the proof that it has all optimal plans: any other step would be
     paid on top. Otherwise the bound rises until the goal is reached.
     """
-    ops, needed = relevant(table.ops, goal)
-    packing = FactPacking.of_facts(needed.facts)
+    ops, literals = relevant(table.ops, goal)
+    packing = FactPacking.of_facts(literals.facts)
     start = packing.row(state)
     marks = landmarks(ops, state, goal)
     if marks is None:
         return empty_graph(name, packing), None
     bound = sum(mark.cost for mark in marks)
-    explored: Explored | None = None
+    space: StateSpaceLayers | None = None
     if blind:
         marks = ()
     else:
         useful, own = _useful(ops, marks)
         rules = PackedRules(useful, packing)
         search = Explorer(rules, goal, own, bound, optimal=True, limits=limits, name=name)
-        explored = search.run(start)
+        space = search.run(start)
     rules = PackedRules(ops, packing)
-    while explored is None or explored.cost is None:
+    while space is None or space.cost is None:
         search = Explorer(rules, goal, marks, bound, optimal=True, limits=limits, name=name)
-        explored = search.run(start)
-        if explored.cost is None:
-            if explored.next_bound is None:
+        space = search.run(start)
+        if space.cost is None:
+            if space.next_bound is None:
                 return empty_graph(name, packing), None
-            bound = max(explored.next_bound, bound + min(op.cost for op in ops))
-    graph = assemble(table, explored, packing, name)
-    return merge_equivalent_nodes(graph, table, goal), explored.cost
+            bound = max(space.next_bound, bound + min(op.cost for op in ops))
+    graph = assemble(table, space, packing, name)
+    return merge_equivalent_nodes(graph, table, goal), space.cost
 
 
 def _useful(
@@ -128,23 +128,25 @@ class HasUnits(Protocol):
         ...
 
 
-def assemble(table: HasUnits, explored: Explored, packing: FactPacking, name: str) -> PlanGraph:
+def assemble(
+    table: HasUnits, space: StateSpaceLayers, packing: FactPacking, name: str
+) -> PlanGraph:
     """Return what an exploration found, without the states that lead to no goal."""
-    alive = explored.is_goal.copy()
-    for sources, _, targets in reversed(explored.edges):
+    alive = space.is_goal.copy()
+    for sources, _, targets in reversed(space.edges):
         alive[sources[alive[targets]]] = True
     before = np.concatenate([[0], np.cumsum(alive)])
     ids = before[:-1]
     parts = [
         (ids[sources[keep]], steps[keep], ids[targets[keep]])
-        for sources, steps, targets in explored.edges
+        for sources, steps, targets in space.edges
         for keep in [alive[sources] & alive[targets]]
     ]
-    layers = tuple((table.in_units(paid), int(before[first])) for paid, first in explored.layers)
+    layers = tuple((table.in_units(cost), int(before[first])) for cost, first in space.layers)
     sources, steps, targets = (np.concatenate([part[i] for part in parts]) for i in range(3))
     return PlanGraph(
-        name, packing, explored.states[alive], _nonempty(layers, int(alive.sum())),
-        *by_source(sources, steps, targets, int(alive.sum())), explored.is_goal[alive],
+        name, packing, space.states[alive], _nonempty(layers, int(alive.sum())),
+        *by_source(sources, steps, targets, int(alive.sum())), space.is_goal[alive],
     )  # fmt: skip
 
 
@@ -178,22 +180,22 @@ def merge_equivalent_nodes(graph: PlanGraph, table: StepTable, goal: Tests) -> P
     packing = FactPacking.of_facts(read_by(used, goal) & graph.relevant_facts)
     if packing.positions == graph.packing.positions or not graph.n_nodes:
         return graph
-    rows = _selected(graph.rows, graph.packing, packing)
-    layered = np.concatenate([graph.layer_of[:, None].astype(np.uint64), rows], axis=1)
-    merged, which, order, starts = group_rows(layered)
+    rows = _select(graph.rows, graph.packing, packing)
+    keys = np.concatenate([graph.layer_of[:, None].astype(np.uint64), rows], axis=1)
+    distinct_rows, which, order, starts = group_rows(keys)
     sources = np.repeat(which, np.diff(graph.first))
-    first = np.searchsorted(merged[:, 0], np.arange(len(graph.layers)))
+    first = np.searchsorted(distinct_rows[:, 0], np.arange(len(graph.layers)))
     layers = tuple((cost, int(first[i])) for i, (cost, _) in enumerate(graph.layers))
     return PlanGraph(
-        graph.goal, packing, merged[:, 1:].copy(), layers,
-        *by_source(sources, graph.steps, which[graph.targets], len(merged)),
+        graph.goal, packing, distinct_rows[:, 1:].copy(), layers,
+        *by_source(sources, graph.steps, which[graph.targets], len(distinct_rows)),
         graph.is_goal[order[starts]], team=graph.team,
     )  # fmt: skip
 
 
-def _selected(rows: Words, old: FactPacking, new: FactPacking) -> Words:
+def _select(rows: Words, old: FactPacking, new: FactPacking) -> Words:
     bits = np.unpackbits(rows.view(np.uint8), axis=1, bitorder="little")
     place = {position: i for i, position in enumerate(old.positions)}
-    chosen = np.zeros((len(rows), new.n_words * WORD), dtype=np.uint8)
-    chosen[:, : len(new.positions)] = bits[:, [place[position] for position in new.positions]]
-    return np.packbits(chosen, axis=1, bitorder="little").view(np.uint64)
+    columns = np.zeros((len(rows), new.n_words * WORD), dtype=np.uint8)
+    columns[:, : len(new.positions)] = bits[:, [place[position] for position in new.positions]]
+    return np.packbits(columns, axis=1, bitorder="little").view(np.uint64)

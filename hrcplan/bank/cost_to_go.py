@@ -85,17 +85,17 @@ class CostToGo:
     def _reach(self, rules: PackedRules) -> Words:
         """Return the states that the team can get to."""
         layer = self._packing.row(self.bank.initial).reshape(1, -1)
-        seen, layers, n = SeenStates(), [layer], 1
-        seen.add(layer)
+        visited_states, layers, n = SeenStates(), [layer], 1
+        visited_states.add(layer)
         while len(layer):
             after = np.concatenate([layer[:0], *(rows for _, _, rows in rules.expand(layer))])
             after = group_rows(after)[0] if len(after) else after
-            layer = after[~seen.contains(after)]
+            layer = after[~visited_states.contains(after)]
             n += len(layer)
             if n > self.max_states:
                 message = f"the agents can get to more than {self.max_states:,} states"
                 raise LimitError(message, code="memory", hint="use fewer objects or agents")
-            seen.add(layer)
+            visited_states.add(layer)
             layers.append(layer)
         return np.concatenate(layers)
 
@@ -105,14 +105,14 @@ class CostToGo:
         Raises:
             UsageError: if the team cannot get to it.
         """
-        known = self._places.get(state)
-        if known is None:
+        place = self._places.get(state)
+        if place is None:
             key = _keys(self._packing.row(state).reshape(1, -1))
-            known = int(self._keys.searchsorted(key)[0])
-            if known == len(self._keys) or self._keys[known] != key[0]:
+            place = int(self._keys.searchsorted(key)[0])
+            if place == len(self._keys) or self._keys[place] != key[0]:
                 raise UsageError("the agents cannot get to this state")
-            self._places[state] = known
-        return known
+            self._places[state] = place
+        return place
 
     def actions(self, place: int, turn: int) -> tuple[Ids, Ids]:
         """Return the steps that an agent can do in its turn, and the states they lead to."""

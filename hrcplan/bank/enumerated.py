@@ -15,7 +15,7 @@ import numpy as np
 from hrcplan.bank.construct import assemble, empty_graph, merge_equivalent_nodes
 from hrcplan.bank.goals import Goals
 from hrcplan.bank.graph import PlanGraph
-from hrcplan.bank.search import BuildLimits, Explored
+from hrcplan.bank.search import BuildLimits, StateSpaceLayers
 from hrcplan.pddl.model import Formula
 from hrcplan.planners import kstar, process
 from hrcplan.planners.lowering import lower
@@ -39,12 +39,12 @@ def sampled_graph(
         PlannerError: if K* crashes.
     """
     task, steps = step_task(table, goals.formulas[goal])
-    allowed = process.ProcessLimits(
+    process_limits = process.ProcessLimits(
         min(LONGEST_S, max(0.0, limits.deadline - time.monotonic())),
         memory_bytes=max(limits.mib, 1024) << 20,
         output_bytes=1 << 28,
     )
-    listing = kstar.list_plans(lower(task), allowed, n=n)
+    listing = kstar.list_plans(lower(task), process_limits, n=n)
     plans = {tuple(steps[action.index] for action in plan) for plan in listing.plans}
     graph = graph_of_plans(table, goals, goal, sorted(plans))
     return replace(graph, complete=listing.complete)
@@ -62,10 +62,12 @@ def step_task(table: StepTable, goal: Formula) -> tuple[Task, list[int]]:
         best = cheapest.setdefault(way, action.index)
         if table.price(action.index) < table.price(best):
             cheapest[way] = action.index
-    chosen = sorted(cheapest.values())
-    actions = tuple(replace(task.actions[old], index=new) for new, old in enumerate(chosen))
-    prices = tuple(table.price(old) for old in chosen)
-    return task.with_actions(actions, prices), [table.of_action[old] for old in chosen]
+    cheapest_actions = sorted(cheapest.values())
+    actions = tuple(
+        replace(task.actions[old], index=new) for new, old in enumerate(cheapest_actions)
+    )
+    prices = tuple(table.price(old) for old in cheapest_actions)
+    return task.with_actions(actions, prices), [table.of_action[old] for old in cheapest_actions]
 
 
 def graph_of_plans(
@@ -73,31 +75,31 @@ def graph_of_plans(
 ) -> PlanGraph:
     """Return the graph whose nodes are the states that optimal plans go through."""
     tests, name = goals.tests[goal], goals.names[goal]
-    _, needed = relevant(table.ops, tests)
-    packing = FactPacking.of_facts(needed.facts)
+    _, literals = relevant(table.ops, tests)
+    packing = FactPacking.of_facts(literals.facts)
     if not plans:
         return empty_graph(name, packing)
     edges: dict[tuple[int, int, int], tuple[int, int]] = {}
     for plan in plans:
-        state, paid = goals.task.initial, 0
+        state, cost = goals.task.initial, 0
         for step in plan:
             op = next(op for op in table.ways(step) if meets(state, op.tests))
             after = op.apply(state)
-            edges[paid, state & needed.facts, step] = (paid + op.cost, after & needed.facts)
-            state, paid = after, paid + op.cost
-    root = (0, goals.task.initial & needed.facts)
-    graph = assemble(table, _explored(packing, root, edges, tests), packing, name)
+            edges[cost, state & literals.facts, step] = (cost + op.cost, after & literals.facts)
+            state, cost = after, cost + op.cost
+    root = (0, goals.task.initial & literals.facts)
+    graph = assemble(table, _as_space(packing, root, edges, tests), packing, name)
     return merge_equivalent_nodes(graph, table, tests)
 
 
-def _explored(
+def _as_space(
     packing: FactPacking, root: tuple[int, int],
     edges: dict[tuple[int, int, int], tuple[int, int]], goal: Tests,
-) -> Explored:  # fmt: skip
+) -> StateSpaceLayers:  # fmt: skip
     nodes = sorted({root, *edges.values()})
     index = {node: i for i, node in enumerate(nodes)}
-    prices = np.array([paid for paid, _ in nodes], dtype=object)
-    starts = [i for i, paid in enumerate(prices) if not i or prices[i - 1] != paid]
+    prices = np.array([cost for cost, _ in nodes], dtype=object)
+    starts = [i for i, cost in enumerate(prices) if not i or prices[i - 1] != cost]
     rows = [(index[key[:2]], key[2], index[after]) for key, after in edges.items()]
     table = np.array(sorted(rows, key=lambda row: row[2]), dtype=np.int64).reshape(-1, 3)
     parts = tuple(
@@ -107,4 +109,4 @@ def _explored(
     states = [state for _, state in nodes]
     is_goal = np.array([meets(state, goal) for state in states])
     layers = tuple((int(prices[i]), i) for i in starts)
-    return Explored(packing.rows(states), layers, parts, is_goal, None, None)
+    return StateSpaceLayers(packing.rows(states), layers, parts, is_goal, None, None)

@@ -98,8 +98,8 @@ class Goals:
             raise UsageError(
                 f"there is no goal '{unknown[0]}'", hint=nearest(unknown[0], self.names)
             )
-        chosen = tuple(self.formulas[self.names.index(name)] for name in names)
-        return replace(self, names=tuple(names), formulas=chosen)
+        formulas = tuple(self.formulas[self.names.index(name)] for name in names)
+        return replace(self, names=tuple(names), formulas=formulas)
 
 
 def from_problems(problems: Sequence[Problem], files: tuple[SourceFile, ...] = ()) -> Goals:
@@ -111,23 +111,25 @@ def from_problems(problems: Sequence[Problem], files: tuple[SourceFile, ...] = (
     if not problems:
         raise InputError("no goals", code="no-goals")
     first = problems[0]
-    seen: dict[str, Problem] = {}
+    by_name: dict[str, Problem] = {}
     for problem in problems:
-        if problem.name in seen:
+        if problem.name in by_name:
             message = f"two goals are called '{problem.name}'"
-            hint = f"the other is {seen[problem.name].path}" if seen[problem.name].path else None
+            hint = (
+                f"the other is {by_name[problem.name].path}" if by_name[problem.name].path else None
+            )
             raise InputError(message, code="same-name", path=problem.path or None, hint=hint)
-        seen[problem.name] = problem
+        by_name[problem.name] = problem
         _check_alike(first, problem)
-    return Goals(first, tuple(seen), tuple(p.goal for p in problems), files)
+    return Goals(first, tuple(by_name), tuple(p.goal for p in problems), files)
 
 
 def _check_alike(first: Problem, other: Problem) -> None:
     lines = list(_differences(first, other))
     if lines:
-        shown = "; ".join(lines[:MAX_DIFFERENCES])
+        differences = "; ".join(lines[:MAX_DIFFERENCES])
         more = f"; and {len(lines) - MAX_DIFFERENCES} more" if len(lines) > MAX_DIFFERENCES else ""
-        message = f"'{other.name}' is not in the same world as '{first.name}': {shown}{more}"
+        message = f"'{other.name}' is not in the same world as '{first.name}': {differences}{more}"
         hint = "the goals of a bank share objects and init"
         raise InputError(message, code="goals-differ", path=other.path or None, hint=hint)
 

@@ -134,12 +134,12 @@ class PlanGraph:
 
     def next(self, node: int) -> dict[int, int]:
         """Return what can follow a node: steps, in order, and the nodes they lead to."""
-        known = self._next[node]
-        if known is None:
+        edges = self._next[node]
+        if edges is None:
             a, b = self.first[node], self.first[node + 1]
-            known = dict(zip(self.steps[a:b].tolist(), self.targets[a:b].tolist(), strict=True))
-            self._next[node] = known
-        return known
+            edges = dict(zip(self.steps[a:b].tolist(), self.targets[a:b].tolist(), strict=True))
+            self._next[node] = edges
+        return edges
 
     def after(self, steps: Sequence[int], node: int = 0) -> int | None:
         """Return the node after steps that are the beginning of a plan; None if they are not."""

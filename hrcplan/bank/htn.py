@@ -137,11 +137,15 @@ class Htn:
         roots = [kind.root for kind in self.kinds if not mask & ~kind.root.mask]
         if not roots:
             return None
-        done = 0 if last is None else self.layout.places.get(last, 0)
-        node = _one_of(roots, done, pick)
+        last_mask = 0 if last is None else self.layout.places.get(last, 0)
+        node = _one_of(roots, last_mask, pick)
         while not isinstance(node, Leaf):
-            left = [child for child in node.children if child.mask & mask]
-            node = left[0] if isinstance(node, Chain) else _one_of(left, done, pick)
+            open_children = [child for child in node.children if child.mask & mask]
+            node = (
+                open_children[0]
+                if isinstance(node, Chain)
+                else _one_of(open_children, last_mask, pick)
+            )
         return node.step
 
 
@@ -158,11 +162,11 @@ def _available(node: OrderNode, mask: int) -> int:
     return bits
 
 
-def _one_of(nodes: list[OrderNode], done: int, pick: Pick) -> OrderNode:
+def _one_of(nodes: list[OrderNode], last_mask: int, pick: Pick) -> OrderNode:
     if len(nodes) == 1:
         return nodes[0]
-    begun = next((node for node in nodes if node.mask & done), None)
-    return nodes[pick(len(nodes))] if begun is None else begun
+    current = next((node for node in nodes if node.mask & last_mask), None)
+    return nodes[pick(len(nodes))] if current is None else current
 
 
 def decompose(graph: PlanGraph) -> Htn:

@@ -15,19 +15,19 @@ MAX_OBSERVED = 20  # steps that the subset test can look at where there are too 
 MAX_WORK = 2_000_000  # steps of a search before its answer is "unknown"
 
 
-def is_subset(graph: PlanGraph, observed: Sequence[int]) -> bool | None:
+def is_subset(graph: PlanGraph, steps: Sequence[int]) -> bool | None:
     """Return whether some plan holds these steps in any order, as often as they stand here.
 
     None means unknown: there are more than ``MAX_MULTISETS`` kinds of plans, and either more than
     ``MAX_OBSERVED`` steps or too much to look at.
     """
-    seen = Counter(observed)
-    if not seen.keys() <= graph.used_steps:
-        return not seen
+    counts = Counter(steps)
+    if not counts.keys() <= graph.used_steps:
+        return not counts
     kinds = step_multisets(graph)
     if kinds is not None:
-        return any(seen <= Counter(dict(kind)) for kind in kinds)
-    return _has_subset(graph, seen) if len(observed) <= MAX_OBSERVED else None
+        return any(counts <= Counter(dict(kind)) for kind in kinds)
+    return _has_subset(graph, counts) if len(steps) <= MAX_OBSERVED else None
 
 
 Multiset = frozenset[tuple[int, int]]
@@ -61,9 +61,9 @@ def _one_multiset(graph: PlanGraph) -> frozenset[Multiset] | None:
         if (times[graph.targets[edges]] != after).any():
             return None
     sources = np.repeat(np.arange(graph.n_nodes), np.diff(graph.first))
-    gained = times[graph.targets].astype(np.int16) - times[sources]
-    gained[np.arange(len(sources)), column[graph.steps]] -= 1
-    if gained.any():  # ways from different layers meet in one node
+    difference = times[graph.targets].astype(np.int16) - times[sources]
+    difference[np.arange(len(sources)), column[graph.steps]] -= 1
+    if difference.any():  # ways from different layers meet in one node
         return None
     ends = np.unique(times[graph.is_goal], axis=0)
     return frozenset(
@@ -91,22 +91,22 @@ def _all_multisets(graph: PlanGraph) -> frozenset[Multiset] | None:
     return frozenset(frozenset(Counter(steps).items()) for steps in ends)
 
 
-def _has_subset(graph: PlanGraph, seen: Counter[int]) -> bool | None:
-    """Return whether one plan holds all of ``seen``: which of them a way has met, as bits."""
+def _has_subset(graph: PlanGraph, counts: Counter[int]) -> bool | None:
+    """Return whether one plan holds all of ``counts``: which of them a way has met, as bits."""
     places: dict[int, list[int]] = {}
-    for position, step in enumerate(seen.elements()):
+    for position, step in enumerate(counts.elements()):
         places.setdefault(step, []).append(1 << position)
-    everything = (1 << seen.total()) - 1
-    met: list[set[int]] = [set() for _ in range(graph.n_nodes)]
-    met[0].add(0)
+    everything = (1 << counts.total()) - 1
+    masks: list[set[int]] = [set() for _ in range(graph.n_nodes)]
+    masks[0].add(0)
     work = 0
     for node in range(graph.n_nodes):
-        if graph.is_goal[node] and everything in met[node]:
+        if graph.is_goal[node] and everything in masks[node]:
             return True
         for step, target in _following(graph, node):
-            met[target].update(_meet(mask, places.get(step, ())) for mask in met[node])
-        work += len(met[node])
-        met[node] = set()
+            masks[target].update(_meet(mask, places.get(step, ())) for mask in masks[node])
+        work += len(masks[node])
+        masks[node] = set()
         if work > MAX_WORK:
             return None
     return False

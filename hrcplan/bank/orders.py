@@ -40,8 +40,8 @@ def kinds_of(graph: PlanGraph) -> tuple[tuple[Multiset, ...], bool]:
     """
     multisets = step_multisets(graph)
     if multisets is None:
-        listed = (frozenset(Counter(p).items()) for p in islice(plans(graph), MAX_LISTED))
-        return tuple(islice(dict.fromkeys(listed), MAX_KINDS)), False
+        kinds = (frozenset(Counter(p).items()) for p in islice(plans(graph), MAX_LISTED))
+        return tuple(islice(dict.fromkeys(kinds), MAX_KINDS)), False
     costs = _costs(graph) if len(multisets) > 1 else dict.fromkeys(graph.used_steps, 1)
 
     def rank(kind: Multiset) -> tuple[Number, int, list[tuple[int, int]]]:
@@ -143,20 +143,22 @@ def order_of(graph: PlanGraph, layout: Layout, kind: Multiset) -> KindOrder:
         LimitError: if more than ``MAX_PLACES`` would have to be looked at.
     """
     mask = layout.mask(Counter(dict(kind)).elements()) or 0
-    ways = _by_node(graph, layout, mask) or _by_left(graph, layout, mask)
+    ways = _by_node(graph, layout, mask) or _by_remaining(graph, layout, mask)
     alive = ways.alive()
-    kept = [(ways.left[s], done, alive[t]) for s, t, done in ways.layers]
-    here = np.concatenate([ways.left[:0], *(left[used] for left, _, used in kept)])
-    done = np.concatenate([ways.left[:0], *(done[used] for _, done, used in kept)])
-    left = ways.left[alive]
+    edges = [(ways.remaining[s], bits, alive[t]) for s, t, bits in ways.layers]
+    here = np.concatenate([ways.remaining[:0], *(remaining[used] for remaining, _, used in edges)])
+    bits = np.concatenate([ways.remaining[:0], *(bits[used] for _, bits, used in edges)])
+    remaining = ways.remaining[alive]
     before = {
-        i: mask & ~int(np.bitwise_or.reduce(here[done == 1 << i], initial=0))
+        i: mask & ~int(np.bitwise_or.reduce(here[bits == 1 << i], initial=0))
         for i in positions(mask)
     }
     # What comes next in the graph can do so in the order. If no more can, they are the same.
-    possible = sum(np.count_nonzero((left & (b | 1 << i)) == 1 << i) for i, b in before.items())
+    possible = sum(
+        np.count_nonzero((remaining & (b | 1 << i)) == 1 << i) for i, b in before.items()
+    )
     n_plans = ways.n_plans(graph.n_paths_to_goal.dtype.type)
-    return KindOrder(mask, before, n_plans, bool(possible == len(done)))
+    return KindOrder(mask, before, n_plans, bool(possible == len(bits)))
 
 
 @dataclass(frozen=True)
@@ -167,7 +169,7 @@ class _Ways:
     the places that it leads from and to, and the bit that it takes away.
     """
 
-    left: Masks
+    remaining: Masks
     ends: Bools
     layers: Sequence[tuple[Ids, Ids, Masks]]
 
@@ -180,7 +182,7 @@ class _Ways:
 
     def n_plans(self, dtype: type[np.generic]) -> int:
         """Return how many ways lead from the first place to ends."""
-        counts = np.zeros(len(self.left), dtype=dtype)
+        counts = np.zeros(len(self.remaining), dtype=dtype)
         counts[0] = 1
         for sources, targets, _ in self.layers:
             np.add.at(counts, targets, counts[sources])
@@ -190,8 +192,11 @@ class _Ways:
 def _by_node(graph: PlanGraph, layout: Layout, mask: int) -> _Ways | None:
     """Return the ways where each node has one place only; None if some has more."""
     dtype = layout.dtype
-    left, known = np.zeros(graph.n_nodes, dtype=dtype), np.zeros(graph.n_nodes, dtype=np.bool_)
-    left[0], known[0] = mask, True
+    remaining, has_place = (
+        np.zeros(graph.n_nodes, dtype=dtype),
+        np.zeros(graph.n_nodes, dtype=np.bool_),
+    )
+    remaining[0], has_place[0] = mask, True
     starts = np.zeros(int(graph.steps.max(initial=0)) + 1, dtype=dtype)
     full = starts.copy()
     for step, start in layout.starts.items():
@@ -199,24 +204,24 @@ def _by_node(graph: PlanGraph, layout: Layout, mask: int) -> _Ways | None:
     layers: list[tuple[Ids, Ids, Masks]] = []
     for edges, sources in graph.edges_by_layer():
         steps, targets = graph.steps[edges], graph.targets[edges].astype(np.int64)
-        times = left[sources] >> starts[steps] & full[steps]  # n low bits for n times left
-        done = ((times + 1) >> 1) << starts[steps]
-        used = known[sources] & (done != 0)
-        sources, targets, done = sources[used], targets[used], done[used]
-        after = left[sources] ^ done
-        clash = known[targets] & (left[targets] != after)
-        left[targets], known[targets] = after, True
-        if clash.any() or (left[targets] != after).any():
+        times = remaining[sources] >> starts[steps] & full[steps]  # n low bits for n times left
+        bit = ((times + 1) >> 1) << starts[steps]
+        used = has_place[sources] & (bit != 0)
+        sources, targets, bit = sources[used], targets[used], bit[used]
+        after = remaining[sources] ^ bit
+        clash = has_place[targets] & (remaining[targets] != after)
+        remaining[targets], has_place[targets] = after, True
+        if clash.any() or (remaining[targets] != after).any():
             return None
-        layers.append((sources, targets, done))
-    return _Ways(left, graph.is_goal & known & (left == 0), layers)
+        layers.append((sources, targets, bit))
+    return _Ways(remaining, graph.is_goal & has_place & (remaining == 0), layers)
 
 
-def _by_left(graph: PlanGraph, layout: Layout, mask: int) -> _Ways:
+def _by_remaining(graph: PlanGraph, layout: Layout, mask: int) -> _Ways:
     """Return the ways with a place for whatever can be left to do at a node."""
     places: list[dict[int, int]] = [{} for _ in range(graph.n_nodes)]
     places[0][mask] = 0
-    left, ends = [mask], [False]
+    remaining, ends = [mask], [False]
     layers: list[list[tuple[int, int, int]]] = [[] for _ in graph.layers]
     for node, layer in enumerate(graph.layer_of.tolist()):
         for rest, place in places[node].items():
@@ -225,16 +230,16 @@ def _by_left(graph: PlanGraph, layout: Layout, mask: int) -> _Ways:
                 highest = (rest & layout.places.get(step, 0)).bit_length()
                 if not highest:
                     continue
-                done = 1 << highest - 1
-                at = places[target].setdefault(rest ^ done, len(left))
-                if at == len(left):
-                    left.append(rest ^ done)
+                bit = 1 << highest - 1
+                at = places[target].setdefault(rest ^ bit, len(remaining))
+                if at == len(remaining):
+                    remaining.append(rest ^ bit)
                     ends.append(False)
-                layers[layer].append((place, at, done))
-        if len(left) > MAX_PLACES:
+                layers[layer].append((place, at, bit))
+        if len(remaining) > MAX_PLACES:
             raise LimitError(f"too many ways through the plans of '{graph.goal}'")
     dtype = layout.dtype
-    return _Ways(np.array(left, dtype=dtype), np.array(ends, dtype=np.bool_), [
+    return _Ways(np.array(remaining, dtype=dtype), np.array(ends, dtype=np.bool_), [
         (np.array([e[0] for e in edges], dtype=np.int64),
          np.array([e[1] for e in edges], dtype=np.int64),
          np.array([e[2] for e in edges], dtype=dtype))

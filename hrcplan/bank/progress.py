@@ -79,7 +79,7 @@ class ProgressTracker:
         self.combined = combined_graph_of(bank)
         self._doable = ApplicableSteps(self.combined)
         self._relevant = [graph.relevant_facts for graph in bank.graphs]
-        self._known: dict[tuple[int, int], int] = {}
+        self._roots: dict[tuple[int, int], int] = {}
         self._matters: dict[int, int] = {}
         world = bank.initial
         self.moves = team_moves(bank)
@@ -93,33 +93,35 @@ class ProgressTracker:
         What it says, it says about the moment before. A step that changes nothing is progress on no
         plan, so no goal explains it, also where another agent's step of the same name would be.
         """
-        combined = self.combined
+        graph = self.combined
         before, world = progress.world, self.bank.table.successor(progress.world, step)
         if world is None:
             return None
         if self.moves is not None and progress.moment is not None:
             return self._follow_turn(self.moves, progress, progress.moment, step)
-        goals = combined.concerned(step, before ^ world)
+        goals = graph.concerned(step, before ^ world)
         old = progress.nodes.take(goals)
-        hit, places = combined.edges(old, step)
+        hit, places = graph.edges(old, step)
         movers = goals[hit], places[hit]
-        if combined.one_label_each:
+        if graph.one_label_each:
             says = movers
         else:
-            same, named = combined.labeled(old, combined.label[step])
-            says = goals[same], named[same]
-        n_next, shares = combined.n_next.take(progress.nodes), combined.log_shares.take(says[1])
-        seen = Evidence(says[0], shares, n_next, progress.doable.bit_count())
+            same, pairs = graph.labeled(old, graph.label[step])
+            says = goals[same], pairs[same]
+        n_next, shares = graph.n_next.take(progress.nodes), graph.log_shares.take(says[1])
+        evidence = Evidence(says[0], shares, n_next, progress.doable.bit_count())
         if progress.off:
-            seen = self._look_off(progress, step, seen)
+            evidence = self._look_off(progress, step, evidence)
         if before == world:
-            return progress, replace(seen, goals=seen.goals[:0], log_shares=seen.log_shares[:0])
+            return progress, replace(
+                evidence, goals=evidence.goals[:0], log_shares=evidence.log_shares[:0]
+            )
         nodes = progress.nodes.copy()
-        nodes[movers[0]] = combined.targets.take(movers[1])
-        missed = [] if len(movers[0]) == len(goals) else goals[~hit].tolist()
-        off = self._jumps(progress, step, world, missed, nodes)
+        nodes[movers[0]] = graph.targets.take(movers[1])
+        misses = [] if len(movers[0]) == len(goals) else goals[~hit].tolist()
+        off = self._jumps(progress, step, world, misses, nodes)
         doable = self._doable.after(progress.doable, before, world)
-        return Progress(world, nodes, doable, off), seen
+        return Progress(world, nodes, doable, off), evidence
 
     def is_robots_turn(self, progress: Progress) -> bool:
         """Return whether it is the turn of a robot; False where agents do not take turns."""
@@ -152,11 +154,11 @@ class ProgressTracker:
                 np.zeros(0, np.int64), np.zeros(0), n_next, len(choices.steps)
             )
         goals = np.flatnonzero(is_right)
-        seen = Evidence(goals, -np.log(n_next[goals]), n_next, len(choices.steps) + 1,
+        evidence = Evidence(goals, -np.log(n_next[goals]), n_next, len(choices.steps) + 1,
                         choices.log_odds[:, place])  # fmt: skip
         if step is not None:
             world = self.bank.table.successor(world, step) or 0
-        return self._in_turn(progress, world, after), seen
+        return self._in_turn(progress, world, after), evidence
 
     def after_turn(self, moves: TeamMoves, progress: Progress, step: int) -> Progress:
         """Return the progress after an applicable step, where agents take turns."""
@@ -166,10 +168,10 @@ class ProgressTracker:
     def _in_turn(self, progress: Progress, world: int, moment: Moment) -> Progress:
         """Return the progress in a state, in a turn."""
         places = [self.bank.node(goal, world, moment.turn) for goal in range(len(self.bank.names))]
-        combined = self.combined
+        graph = self.combined
         nodes = np.array(
-            [combined.off if node is None else int(offset) + node
-             for offset, node in zip(combined.offsets[:-1], places, strict=True)], dtype=np.int64,
+            [graph.off if node is None else int(offset) + node
+             for offset, node in zip(graph.offsets[:-1], places, strict=True)], dtype=np.int64,
         )  # fmt: skip
         off = {
             g: OffGraph(world, turn=moment.turn) for g, node in enumerate(places) if node is None
@@ -177,8 +179,8 @@ class ProgressTracker:
         doable = self._doable.after(progress.doable, progress.world, world)
         return Progress(world, nodes, doable, off or _NOWHERE, moment)
 
-    def _look_off(self, progress: Progress, step: int, seen: Evidence) -> Evidence:
-        label, n_next = self.combined.label, seen.n_next
+    def _look_off(self, progress: Progress, step: int, evidence: Evidence) -> Evidence:
+        label, n_next = self.combined.label, evidence.n_next
         more: list[tuple[int, float]] = []
         for goal, place in progress.off.items():
             graph, node = self.graph_of(goal, place)
@@ -188,10 +190,10 @@ class ProgressTracker:
             if ways:
                 more.append((goal, math.log(ways) - math.log(graph.plans_from(node))))
         if not more:
-            return seen
-        goals = np.append(seen.goals, [goal for goal, _ in more])
-        shares = np.append(seen.log_shares, [share for _, share in more])
-        return replace(seen, goals=goals, log_shares=shares)
+            return evidence
+        goals = np.append(evidence.goals, [goal for goal, _ in more])
+        shares = np.append(evidence.log_shares, [share for _, share in more])
+        return replace(evidence, goals=goals, log_shares=shares)
 
     def graph_of(self, goal: int, place: OffGraph) -> tuple[PlanGraph, int]:
         """Return graph and node of a goal that has left its graph."""
@@ -232,15 +234,15 @@ class ProgressTracker:
     ) -> int:
         """Return the node of a goal after a step that is no edge; ``off`` notes it has none."""
         if node != self.combined.off:
-            moved = (progress.world ^ world) & self._relevant[goal]
-            if not moved:
+            change = (progress.world ^ world) & self._relevant[goal]
+            if not change:
                 return node
-            known = self._known.get((node, moved))
-            if known is None:
-                known = self._known[node, moved] = self._find(goal, world)
-            if known == self.combined.off:
+            root = self._roots.get((node, change))
+            if root is None:
+                root = self._roots[node, change] = self._find(goal, world)
+            if root == self.combined.off:
                 off[goal] = OffGraph(world)
-            return known
+            return root
         node_after = self._find(goal, world)
         if node_after != self.combined.off:
             off.pop(goal, None)

@@ -38,7 +38,7 @@ class RecognitionInstance:
     """
 
     goals: Goals
-    observed: tuple[tuple[str, ...], ...]
+    observations: tuple[tuple[str, ...], ...]
     true_goal: int | None
 
 
@@ -57,8 +57,8 @@ def read_instance(folder: Path) -> RecognitionInstance:
         message = f"'{folder}' has no {TEMPLATE} and {HYPOTHESES}"
         raise InputError(message, code="no-goals", path=str(folder))
     goals = goals_of(*(SourceFile.read(folder / part) for part in (DOMAIN, TEMPLATE, HYPOTHESES)))
-    observed = folder / OBSERVATIONS
-    actions = read_actions(read_text(observed), goals.problem) if observed.is_file() else ()
+    path = folder / OBSERVATIONS
+    actions = read_actions(read_text(path), goals.problem) if path.is_file() else ()
     return RecognitionInstance(goals, actions, _true_goal(folder / TRUE_HYPOTHESIS, goals))
 
 
@@ -137,9 +137,9 @@ def _true_goal(path: Path, goals: Goals) -> int | None:
     common = frozenset.intersection(*sets)  # what the template asks for besides the hypothesis
     world = replace(goals.problem, goal=TRUE)
     for number, line in _lines(read_source(path)):
-        wanted = _parts(_goal(world, line, str(path), number))
+        goal_parts = _parts(_goal(world, line, str(path), number))
         for index, parts in enumerate(sets):
-            if parts == wanted | (parts & common):
+            if parts == goal_parts | (parts & common):
                 return index
     message = f"the true goal is not among those of {HYPOTHESES}"
     raise InputError(message, code="no-goals", path=str(path))
@@ -163,14 +163,16 @@ def _without_duplicates(source: SourceText) -> tuple[SourceText, Mapping[str, tu
     names_in_use, text = set(places), source.text
     names: dict[str, list[str]] = {name: [name] for name, words in places.items() if len(words) > 1}
     edits: list[tuple[int, str, str]] = []
-    for name, given in names.items():
+    for name, new_names in names.items():
         for word in places[name][1:]:
-            count = len(given) + 1
+            count = len(new_names) + 1
             while f"{name}-{count}" in names_in_use:
                 count += 1
-            given.append(f"{name}-{count}")
-            names_in_use.add(given[-1])
-            edits.append((word.at, name, given[-1]))
+            new_names.append(f"{name}-{count}")
+            names_in_use.add(new_names[-1])
+            edits.append((word.at, name, new_names[-1]))
     for at, name, new in sorted(edits, reverse=True):
         text = text[:at] + new + text[at + len(name) :]
-    return SourceText(source.path, text), {name: tuple(given) for name, given in names.items()}
+    return SourceText(source.path, text), {
+        name: tuple(new_names) for name, new_names in names.items()
+    }

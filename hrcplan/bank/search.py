@@ -55,7 +55,7 @@ class BuildLimits:
 
 
 @dataclass(frozen=True)
-class Explored:
+class StateSpaceLayers:
     """Layered states and the steps between them; ids count states in order of cost so far.
 
     ``layers`` are (cost so far, first id); ``edges`` are (sources, steps, targets), one entry for
@@ -76,7 +76,7 @@ class _Pending:
     """States of one cost that wait to be looked at, and the steps that led to them."""
 
     states: list[Words] = field(default_factory=list)
-    met: list[Words] = field(default_factory=list)
+    landmarks: list[Words] = field(default_factory=list)
     sources: list[Ids] = field(default_factory=list)
     steps: list[SmallIds] = field(default_factory=list)
 
@@ -110,44 +110,52 @@ class Explorer:
         self.one_way = len({op.step for op in rules.ops}) == len(rules.ops)
         self.pending: dict[int, _Pending] = {}
         self.queue: list[int] = []
-        self.seen = SeenStates()
+        self.visited_states = SeenStates()
         self.next_bound: int | None = None
         self.n_bytes = self.n_waiting = 0
-        self.kept: list[tuple[int, Words]] = []
+        self.layers: list[tuple[int, Words]] = []
         self.edges: list[Edges] = []
         self.goals: list[Bools] = []
         self.n_nodes = 0
 
-    def run(self, start: Words) -> Explored:
+    def run(self, start: Words) -> StateSpaceLayers:
         """Return what a search from one state finds.
 
         Raises:
             LimitError: if time or memory runs out.
         """
-        met = np.zeros((1, self.bounds.n_words), dtype=np.uint64)
-        self._push(0, start.reshape(1, -1), met, np.array([-1]), np.array([-1], dtype=np.int32))
+        landmarks = np.zeros((1, self.bounds.n_words), dtype=np.uint64)
+        self._push(
+            0, start.reshape(1, -1), landmarks, np.array([-1]), np.array([-1], dtype=np.int32)
+        )
         cost: int | None = None
         while self.queue:
-            paid = heapq.heappop(self.queue)
-            states, met, is_goal = self._take(paid)
+            cost_so_far = heapq.heappop(self.queue)
+            states, landmarks, is_goal = self._take(cost_so_far)
             if is_goal.any():
-                cost = paid if cost is None else cost
+                cost = cost_so_far if cost is None else cost
                 if self.optimal:
                     break
             first = self.n_nodes - len(states)
-            self._follow(paid, states[~is_goal], met[~is_goal], first + np.flatnonzero(~is_goal))
+            self._follow(
+                cost_so_far, states[~is_goal], landmarks[~is_goal], first + np.flatnonzero(~is_goal)
+            )
         return self._result(cost)
 
-    def _take(self, paid: int) -> tuple[Words, Words, Bools]:
+    def _take(self, cost: int) -> tuple[Words, Words, Bools]:
         """Return the distinct states of a cost, what all ways to them met, and which are goals."""
-        pending = self.pending.pop(paid)
-        states, met = np.concatenate(pending.states), np.concatenate(pending.met)
+        pending = self.pending.pop(cost)
+        states, landmarks = np.concatenate(pending.states), np.concatenate(pending.landmarks)
         sources, steps = np.concatenate(pending.sources), np.concatenate(pending.steps)
-        self.n_waiting -= _n_bytes(states, met, sources, steps)
+        self.n_waiting -= _n_bytes(states, landmarks, sources, steps)
         distinct, which, order, starts = group_rows(states)
-        common = np.bitwise_and.reduceat(met[order], starts, axis=0)
-        totals = paid + self.bounds.of(common)
-        new = ~self.seen.contains(distinct) if self.optimal else np.ones(len(distinct), np.bool_)
+        common = np.bitwise_and.reduceat(landmarks[order], starts, axis=0)
+        totals = cost + self.bounds.of(common)
+        new = (
+            ~self.visited_states.contains(distinct)
+            if self.optimal
+            else np.ones(len(distinct), np.bool_)
+        )
         keep = new & (totals <= self.bound)
         self._note_pruned(totals[new & ~keep])
         ids = np.where(keep, self.n_nodes + np.cumsum(keep) - 1, -1)
@@ -156,13 +164,13 @@ class Explorer:
         edge = (sources[real], steps[real], targets[real])
         states, common = distinct[keep], common[keep]
         is_goal = self.rules.meets(states, self.goal)
-        self.kept.append((paid, states))
+        self.layers.append((cost, states))
         self.edges.append(edge)
         self.goals.append(is_goal)
         self.n_nodes += len(states)
         self.n_bytes += _n_bytes(states, *edge)
         if self.optimal:
-            self.seen.add(states)
+            self.visited_states.add(states)
             self.n_bytes += states.nbytes + 8 * len(states)
         return states, common, is_goal
 
@@ -171,18 +179,18 @@ class Explorer:
             low = int(totals.min())
             self.next_bound = low if self.next_bound is None else min(low, self.next_bound)
 
-    def _follow(self, paid: int, states: Words, met: Words, ids: Ids) -> None:
+    def _follow(self, cost_so_far: int, states: Words, landmarks: Words, ids: Ids) -> None:
         for rows, ops, after in self._changes(states):
-            now = met[rows] | self.bounds.marks_of[ops]
-            totals = paid + self.costs[ops] + self.bounds.of(now)
+            now = landmarks[rows] | self.bounds.marks_of[ops]
+            totals = cost_so_far + self.costs[ops] + self.bounds.of(now)
             fits = totals <= self.bound
             self._note_pruned(totals[~fits])
             rows, ops, after, now = rows[fits], ops[fits], after[fits], now[fits]
             for cost in self.prices:
-                if (paid + cost) & MAX_TIES > self.max_ties:
+                if (cost_so_far + cost) & MAX_TIES > self.max_ties:
                     continue
                 part = slice(None) if len(self.prices) == 1 else self.costs[ops] == cost
-                self._push(paid + cost, after[part], now[part], ids[rows[part]],
+                self._push(cost_so_far + cost, after[part], now[part], ids[rows[part]],
                            self.step_of[ops[part]])  # fmt: skip
             # Sorting the waiting states will take about as much again as they do, twice over.
             self.limits.check(self.name, self.n_bytes + 3 * self.n_waiting, self.n_nodes)
@@ -200,28 +208,32 @@ class Explorer:
         first[1:] = (rows[1:] != rows[:-1]) | (self.step_of[ops[1:]] != self.step_of[ops[:-1]])
         yield rows[first], ops[first], after[first]
 
-    def _push(self, paid: int, states: Words, met: Words, sources: Ids, steps: SmallIds) -> None:
+    def _push(
+        self, cost: int, states: Words, landmarks: Words, sources: Ids, steps: SmallIds
+    ) -> None:
         if not len(states):
             return
-        if paid not in self.pending:
-            self.pending[paid] = _Pending()
-            heapq.heappush(self.queue, paid)
-        self.n_waiting += _n_bytes(states, met, sources, steps)
-        pending = self.pending[paid]
+        if cost not in self.pending:
+            self.pending[cost] = _Pending()
+            heapq.heappush(self.queue, cost)
+        self.n_waiting += _n_bytes(states, landmarks, sources, steps)
+        pending = self.pending[cost]
         pending.states.append(states)
-        pending.met.append(met)
+        pending.landmarks.append(landmarks)
         pending.sources.append(sources)
         pending.steps.append(steps)
 
-    def _result(self, cost: int | None) -> Explored:
+    def _result(self, cost: int | None) -> StateSpaceLayers:
         layers: list[tuple[int, int]] = []
         first = 0
-        for paid, states in self.kept:
-            layers.append((paid, first))
+        for layer_cost, states in self.layers:
+            layers.append((layer_cost, first))
             first += len(states)
-        states = np.concatenate([states for _, states in self.kept])
+        states = np.concatenate([states for _, states in self.layers])
         is_goal = np.concatenate(self.goals)
-        return Explored(states, tuple(layers), tuple(self.edges), is_goal, cost, self.next_bound)
+        return StateSpaceLayers(
+            states, tuple(layers), tuple(self.edges), is_goal, cost, self.next_bound
+        )
 
 
 class Bound:
@@ -235,14 +247,16 @@ class Bound:
             for op in mark.ops:
                 self.marks_of[op, i // WORD] |= np.uint64(1 << i % WORD)
 
-    def of(self, met: Words) -> Ids:
+    def of(self, landmarks: Words) -> Ids:
         """Return the cost of the landmarks that are not met yet, row by row."""
         if not len(self.costs):
-            return np.zeros(len(met), dtype=np.int64)
+            return np.zeros(len(landmarks), dtype=np.int64)
         if (self.costs == self.costs[0]).all():
-            n_met = np.bitwise_count(met).sum(axis=1, dtype=np.int64)
-            return np.asarray(self.costs[0] * (len(self.costs) - n_met))
-        bits = np.unpackbits(met.view(np.uint8), axis=1, bitorder="little", count=len(self.costs))
+            n = np.bitwise_count(landmarks).sum(axis=1, dtype=np.int64)
+            return np.asarray(self.costs[0] * (len(self.costs) - n))
+        bits = np.unpackbits(
+            landmarks.view(np.uint8), axis=1, bitorder="little", count=len(self.costs)
+        )
         return np.asarray(self.costs.sum() - bits.astype(np.int64) @ self.costs)
 
 
@@ -297,9 +311,9 @@ def group_rows(rows: Words) -> tuple[Words, Ids, Ids, Ids]:
     """
     single = rows.shape[1] == 1
     order = np.argsort(rows[:, 0]) if single else np.lexsort(rows.T[::-1])
-    ordered = rows[order]
+    in_order = rows[order]
     first = np.ones(len(rows), dtype=np.bool_)
-    first[1:] = (ordered[1:] != ordered[:-1]).any(axis=1)
+    first[1:] = (in_order[1:] != in_order[:-1]).any(axis=1)
     which = np.empty(len(rows), dtype=np.int64)
     which[order] = np.cumsum(first) - 1
-    return ordered[first], which, order, np.flatnonzero(first)
+    return in_order[first], which, order, np.flatnonzero(first)

@@ -57,7 +57,7 @@ def goals_in(files: tuple[SourceFile, ...], kind: str = "problems") -> Goals:
 
 def _problem_files(domain: str, first: SourceFile, folder: Path | None) -> Iterator[SourceFile]:
     if folder is None:
-        yield from _shipped(domain)
+        yield from _library_files(domain)
         return
     if not folder.is_dir():
         hint = "GOALS is a folder of problem files, or one with template.pddl and hyps.dat"
@@ -72,7 +72,7 @@ def _problem_files(domain: str, first: SourceFile, folder: Path | None) -> Itera
     yield from problems
 
 
-def _shipped(domain: str) -> Iterator[SourceFile]:
+def _library_files(domain: str) -> Iterator[SourceFile]:
     name = Path(domain).stem
     names = library.problem_names(name)
     if not names:

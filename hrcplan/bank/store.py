@@ -105,26 +105,26 @@ def load(path: str | Path) -> Bank:
         InputError: if the file is missing or no bank, is damaged or of another version, or the
             PDDL it was made from has changed.
     """
-    shown = str(path)
-    header, body = _FORMAT.decode(read_bytes(path, limit=None), shown)
+    name = str(path)
+    header, body = _FORMAT.decode(read_bytes(path, limit=None), name)
     try:
         folder = Path(os.path.realpath(path)).parent
-        files = tuple(_source(entry, folder, shown) for entry in header["sources"])
+        files = tuple(_source(entry, folder, name) for entry in header["sources"])
         goals = goals_in(files, header["kind"]).only(header["names"])
         recipe = _recipe(header["recipe"])
         table = StepTable(goals.task, recipe.cost)
         if len(table) != header["n_steps"] or table.agents != header["agents"]:
-            raise InputError(f"'{shown}' does not fit its PDDL", code="bad-bank", path=shown,
+            raise InputError(f"'{name}' does not fit its PDDL", code="bad-bank", path=name,
                              hint="it was made by another hrcplan: build it again")  # fmt: skip
         graphs = tuple(_graph(entry, body) for entry in header["goals"])
         build_s = _seconds(header["build_s"])
     except (*HEADER_FAULTS, UsageError) as error:
-        raise InputError(f"'{shown}' has a header that makes no sense: {error!r}", code="bad-bank",
-                         path=shown, hint="build it again") from None  # fmt: skip
+        raise InputError(f"'{name}' has a header that makes no sense: {error!r}", code="bad-bank",
+                         path=name, hint="build it again") from None  # fmt: skip
     bank = Bank(goals, table, graphs, recipe, build_s)
     if fault := _structure_fault(bank):
-        message = f"'{shown}' is no bank of its goals: {fault}"
-        raise InputError(message, code="bad-bank", path=shown, hint="build it again")
+        message = f"'{name}' is no bank of its goals: {fault}"
+        raise InputError(message, code="bad-bank", path=name, hint="build it again")
     return bank
 
 
@@ -169,29 +169,29 @@ def find_fault(path: str | Path) -> str | None:
 
 def _source_entry(file: SourceFile, folder: Path) -> dict[str, str]:
     """Return a source with its text; files that are not shipped are named from ``folder``."""
-    path, shipped = Path(file.path).resolve(), library.root().resolve()
-    inside = path.is_relative_to(shipped)
+    path, library_folder = Path(file.path).resolve(), library.root().resolve()
+    inside = path.is_relative_to(library_folder)
     return {
         "place": "shipped" if inside else "beside",
-        "path": str(path.relative_to(shipped)) if inside else os.path.relpath(path, folder),
+        "path": str(path.relative_to(library_folder)) if inside else os.path.relpath(path, folder),
         "sha256": file.sha256,
         "text": file.data.decode(),
     }
 
 
-def _source(entry: Mapping[str, str], folder: Path, shown: str) -> SourceFile:
+def _source(entry: Mapping[str, str], folder: Path, bank_name: str) -> SourceFile:
     """Return a stored source, after a look at the file it came from, if that is there.
 
     Raises:
         InputError: if the file has changed since.
     """
     origin = (library.root() if entry["place"] == "shipped" else folder) / entry["path"]
-    stored = SourceFile(os.path.normpath(origin), entry["text"].encode())
-    if os.path.isfile(origin) and SourceFile.read(origin).sha256 != stored.sha256:
-        message = f"'{shown}' was made from another version of {stored.path}"
+    source = SourceFile(os.path.normpath(origin), entry["text"].encode())
+    if os.path.isfile(origin) and SourceFile.read(origin).sha256 != source.sha256:
+        message = f"'{bank_name}' was made from another version of {source.path}"
         hint = "build the bank again, or restore the file"
-        raise InputError(message, code="bank-outdated", path=shown, hint=hint)
-    return stored
+        raise InputError(message, code="bank-outdated", path=bank_name, hint=hint)
+    return source
 
 
 # Recipe and graphs.

@@ -22,7 +22,7 @@ from hrcplan.bank.construct import (
     merge_equivalent_nodes,
 )
 from hrcplan.bank.graph import PlanGraph, Team
-from hrcplan.bank.search import BuildLimits, Explored, Explorer
+from hrcplan.bank.search import BuildLimits, Explorer, StateSpaceLayers
 from hrcplan.core.arrays import Ids, SmallIds
 from hrcplan.core.numbers import Number
 from hrcplan.pddl.conventions import robots
@@ -66,14 +66,14 @@ def team_graph(
     """
     team = Team(turn_order(table.task.problem), turn)
     turns = _Turns(table, team.agents)
-    ops, needed = relevant(turns.ops, goal)
-    packing = FactPacking.of_facts(needed.facts)
-    explored = _explore(ops, packing, goal, state | turns.facts[turn], name,
+    ops, literals = relevant(turns.ops, goal)
+    packing = FactPacking.of_facts(literals.facts)
+    space = _explore(ops, packing, goal, state | turns.facts[turn], name,
                      replace(limits, hint=HINT))  # fmt: skip
-    if explored is None:
-        plain = FactPacking.of_facts(needed.facts & ~turns.all_facts)
+    if space is None:
+        plain = FactPacking.of_facts(literals.facts & ~turns.all_facts)
         return replace(empty_graph(name, plain), team=team)
-    whole = assemble(_Units(), explored, packing, name)
+    whole = assemble(_Units(), space, packing, name)
     graph = replace(_without_waits(whole, turns), team=team)
     return merge_equivalent_nodes(graph, table, goal)
 
@@ -88,7 +88,7 @@ class _Units:
 def _explore(
     ops: Sequence[Operator], packing: FactPacking, goal: Tests, state: int, name: str,
     limits: BuildLimits,
-) -> Explored | None:  # fmt: skip
+) -> StateSpaceLayers | None:  # fmt: skip
     """Return what a search finds that holds all optimal plans; None if there is no plan."""
     marks = landmarks(ops, state, goal)
     if marks is None:
@@ -97,12 +97,12 @@ def _explore(
     rules, start = PackedRules(ops, packing), packing.row(state)
     while True:
         search = Explorer(rules, goal, marks, bound, optimal=True, limits=limits, name=name)
-        explored = search.run(start)
-        if explored.cost is not None:
-            return explored
-        if explored.next_bound is None:
+        space = search.run(start)
+        if space.cost is not None:
+            return space
+        if space.next_bound is None:
             return None
-        bound = max(explored.next_bound, bound + TIMESTEP)
+        bound = max(space.next_bound, bound + TIMESTEP)
 
 
 @dataclass(frozen=True)
@@ -142,10 +142,10 @@ class _Turns:
 
     def _in_turn(self, op: Operator, turn: int, cost: int) -> Operator:
         mine, following = self.facts[turn], self.facts[(turn + 1) % len(self.agents)]
-        passed = BitEffect(adds=following, deletes=mine)
+        turn_change = BitEffect(adds=following, deletes=mine)
         return Operator(
             tuple((mask | mine, value | mine) for mask, value in op.tests),
-            (*op.at_start, passed), op.at_end, step=op.step, cost=cost,
+            (*op.at_start, turn_change), op.at_end, step=op.step, cost=cost,
         )  # fmt: skip
 
     @property
@@ -179,9 +179,9 @@ def _without_waits(graph: PlanGraph, turns: _Turns) -> PlanGraph:
     owners, places = np.arange(n), np.arange(n)
     parts: list[tuple[Ids, SmallIds, Ids]] = []
     for n_waits in range(len(turns.agents)):
-        allowed = ~is_wait & ~anybody if n_waits else ~is_wait
+        is_allowed = ~is_wait & ~anybody if n_waits else ~is_wait
         edges, which = _edges_of(graph.first, places)
-        fits = allowed[edges]
+        fits = is_allowed[edges]
         edges, which = edges[fits], which[fits]
         parts.append((owners[which], graph.steps[edges], graph.targets[edges].astype(np.int64)))
         owners, places = owners[after_wait[places] >= 0], after_wait[places]

@@ -42,7 +42,7 @@ class TeamChoices:
         waits: For each goal, whether the agent waits for it.
         log_odds: For each goal and step, and then for waiting, the log of its share among the
             mistakes.
-        saved: For each goal and step, the timesteps that it saves compared with waiting; negative
+        savings: For each goal and step, the timesteps that it saves compared with waiting; negative
             if it costs some, NaN if the goal is out of reach either way.
     """
 
@@ -50,7 +50,7 @@ class TeamChoices:
     is_next: Bools
     waits: Bools
     log_odds: Floats
-    saved: Floats
+    savings: Floats
 
     def next_steps(self, goal: int) -> list[int]:
         """Return the steps that the agent does for a goal, in order."""
@@ -80,7 +80,7 @@ class TeamMoves:
         controllable = robots(bank.goals.problem)
         self.is_robot = [agent in controllable for agent in bank.team]
         self._owners = step_owners(bank.table, bank.team)
-        self._known: dict[tuple[int, int, bool], TeamChoices] = {}
+        self._choices_by_key: dict[tuple[int, int, bool], TeamChoices] = {}
 
     def after(self, moment: Moment, step: int | None) -> Moment:
         """Return the moment after a step, or after a wait of the agent whose turn it is.
@@ -114,12 +114,12 @@ class TeamMoves:
         """Return what the agent whose turn it is can do."""
         alone = moment.without_robot >= self.n_turns and not self.is_robot[moment.turn]
         key = (self.costs.place(world), moment.turn, alone)
-        known = self._known.get(key)
-        if known is None:
-            if len(self._known) >= MAX_KNOWN:
-                self._known.clear()
-            known = self._known[key] = self._choices(*key)
-        return known
+        choices = self._choices_by_key.get(key)
+        if choices is None:
+            if len(self._choices_by_key) >= MAX_KNOWN:
+                self._choices_by_key.clear()
+            choices = self._choices_by_key[key] = self._choices(*key)
+        return choices
 
     def _choices(self, place: int, turn: int, alone: bool) -> TeamChoices:
         steps, targets = self.costs.actions(place, turn)
@@ -131,15 +131,15 @@ class TeamMoves:
         if alone and len(steps):
             own = self.costs.of(targets, following, with_robots=False)
             best = own.min(axis=1, keepdims=True)
-            stuck = ~is_next.any(axis=1, keepdims=True) & (best < NEVER) & (now > 0)
-            is_next |= stuck & (own == best)
+            is_stuck = ~is_next.any(axis=1, keepdims=True) & (best < NEVER) & (now > 0)
+            is_next |= is_stuck & (own == best)
         waits = ~is_next.any(axis=1) & (now[:, 0] > 0)  # who has reached its goal is not waiting
         odd = _weights(np.concatenate([after, wait], axis=1), now)
         odd[np.concatenate([is_next, waits[:, None]], axis=1)] = 0
         totals = np.maximum(odd.sum(axis=1, keepdims=True), LOST)
         with np.errstate(divide="ignore"):
             log_odds = np.log(odd / totals)
-        return TeamChoices(steps, is_next, waits, log_odds, _saved(wait, after))
+        return TeamChoices(steps, is_next, waits, log_odds, _savings(wait, after))
 
 
 def team_moves(bank: Bank) -> TeamMoves | None:
@@ -152,12 +152,12 @@ def team_moves(bank: Bank) -> TeamMoves | None:
 
 def _weights(costs: Costs, now: Costs) -> Floats:
     """Return how likely mistakes are, from what they cost; the scale does not matter."""
-    lost = costs // TIMESTEP - now // TIMESTEP
-    return np.where(costs < NEVER, np.maximum(np.exp(-DECAY * lost), LOST), LOST)
+    loss = costs // TIMESTEP - now // TIMESTEP
+    return np.where(costs < NEVER, np.maximum(np.exp(-DECAY * loss), LOST), LOST)
 
 
-def _saved(wait: Costs, after: Costs) -> Floats:
+def _savings(wait: Costs, after: Costs) -> Floats:
     """Return the timesteps that steps save compared with waiting."""
-    saved: Floats = (wait // TIMESTEP - after // TIMESTEP).astype(np.float64)
-    saved[(wait >= NEVER) & (after >= NEVER)] = np.nan
-    return saved
+    savings: Floats = (wait // TIMESTEP - after // TIMESTEP).astype(np.float64)
+    savings[(wait >= NEVER) & (after >= NEVER)] = np.nan
+    return savings

@@ -47,7 +47,7 @@ def vary(goals: Goals, n: int, seed: int, *, n_objects: int = 0) -> Goals:
     ('variant-1', 'variant-2')
     """
     rng = random.Random(seed)
-    world = _enlarged(goals, rng, n_objects)
+    world = _with_copies(goals, rng, n_objects)
     table = StepTable(replace(goals, problem=world).task)
     old = [shape for goal in goals.formulas if (shape := _shape(table, goal)) is not None]
     if not old:
@@ -71,12 +71,12 @@ def vary(goals: Goals, n: int, seed: int, *, n_objects: int = 0) -> Goals:
     return Goals(replace(world, goal=variants[0], name=names[0]), names, tuple(variants))
 
 
-def _enlarged(goals: Goals, rng: random.Random, n_objects: int) -> Problem:
+def _with_copies(goals: Goals, rng: random.Random, n_objects: int) -> Problem:
     world = goals.problem
-    mentioned = sorted({term for goal in goals.formulas for term in objects_in(goal)})
-    known = [name for name in mentioned if name in world.objects]
+    terms = sorted({term for goal in goals.formulas for term in objects_in(goal)})
+    names = [name for name in terms if name in world.objects]
     for number in range(1, n_objects + 1):
-        old = rng.choice(known)
+        old = rng.choice(names)
         new = next(
             name for i in range(number, 10**9) if (name := f"{old}-{i}") not in world.all_objects
         )
@@ -92,9 +92,9 @@ def _candidates(goals: Goals, world: Problem, rng: random.Random) -> Iterator[Fo
     while True:
         goal = rng.choice(goals.formulas)
         inside = [name for name in objects_in(goal) if name in types]
-        chosen = rng.sample(inside, min(len(inside), rng.randint(1, MAX_SWAPS)))
+        targets = rng.sample(inside, min(len(inside), rng.randint(1, MAX_SWAPS)))
         swaps: dict[str, str] = {}
-        for name in chosen:
+        for name in targets:
             free = [o for o in by_type[types[name]] if o not in inside and o not in swaps.values()]
             if free:
                 swaps[name] = rng.choice(free)

@@ -90,7 +90,7 @@ class Sampler:
 
         Every plan has the same chance, up to the rounding of floats (about 1e-12).
         """
-        parts = [self._draw(min(CHUNK, n - done), rng) for done in range(0, n, CHUNK)]
+        parts = [self._draw(min(CHUNK, n - n_so_far), rng) for n_so_far in range(0, n, CHUNK)]
         width = max((part.shape[1] for part in parts), default=0)
         plans = np.full((n, width), -1, dtype=np.int32)
         for i, part in enumerate(parts):
@@ -101,17 +101,17 @@ class Sampler:
         graph = self.graph
         nodes = np.zeros(n, dtype=np.int32)
         columns: list[SmallIds] = []
-        done = graph.is_goal[nodes]
-        while not done.all():
+        is_end = graph.is_goal[nodes]
+        while not is_end.all():
             edges = self._choose(nodes, rng.random(n))
-            if done.any():
-                edges[done] = 0
-                columns.append(np.where(done, np.int32(-1), graph.steps[edges]))
-                nodes = np.where(done, nodes, graph.targets[edges])
+            if is_end.any():
+                edges[is_end] = 0
+                columns.append(np.where(is_end, np.int32(-1), graph.steps[edges]))
+                nodes = np.where(is_end, nodes, graph.targets[edges])
             else:
                 columns.append(graph.steps[edges])
                 nodes = graph.targets[edges]
-            done = graph.is_goal[nodes]
+            is_end = graph.is_goal[nodes]
         return np.stack(columns, axis=1) if columns else np.zeros((n, 0), dtype=np.int32)
 
     def _choose(self, nodes: NDArray[np.integer], chance: Floats) -> Ids:
@@ -145,22 +145,22 @@ class Sampler:
         return plans
 
 
-def is_prefix(graph: PlanGraph, observed: Sequence[int]) -> bool:
+def is_prefix(graph: PlanGraph, steps: Sequence[int]) -> bool:
     """Return whether some plan begins with these steps."""
-    return graph.after(observed) is not None
+    return graph.after(steps) is not None
 
 
-def is_subsequence(graph: PlanGraph, observed: Sequence[int]) -> bool:
+def is_subsequence(graph: PlanGraph, steps: Sequence[int]) -> bool:
     """Return whether some plan holds these steps in this order, with others between them."""
     if not graph.n_nodes:
         return False
-    wanted = np.array([*observed, -1], dtype=np.int32)
-    matched = np.full(graph.n_nodes, -1, dtype=np.int64)
-    matched[0] = 0
+    keys = np.array([*steps, -1], dtype=np.int32)
+    n_matches = np.full(graph.n_nodes, -1, dtype=np.int64)
+    n_matches[0] = 0
     for edges, sources in graph.edges_by_layer():
-        done = matched[sources]
-        np.maximum.at(matched, graph.targets[edges], done + (graph.steps[edges] == wanted[done]))
-    return bool(matched[graph.is_goal].max() == len(observed))
+        n = n_matches[sources]
+        np.maximum.at(n_matches, graph.targets[edges], n + (graph.steps[edges] == keys[n]))
+    return bool(n_matches[graph.is_goal].max() == len(steps))
 
 
 def shortest(graph: PlanGraph, node: int = 0) -> Iterator[tuple[int, int]]:

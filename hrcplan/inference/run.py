@@ -243,7 +243,7 @@ def _load(
             hint = "build a bank of problem files with `hrcplan bank build`"
             raise InputError(message, code="no-goals", path=str(source), hint=hint)
         instance = read_instance(path)
-        return instance.goals, instance.observed if (path / OBSERVATIONS).is_file() else None
+        return instance.goals, instance.observations if (path / OBSERVATIONS).is_file() else None
     from hrcplan.bank.store import load
 
     return load(path), None

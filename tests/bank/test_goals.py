@@ -101,11 +101,11 @@ FOLDERS = {
 @pytest.mark.parametrize("name", FOLDERS)
 def test_goal_recognition_folders(name, instances):
     found = read_instance(instances / name)
-    assert (len(found.goals), len(found.observed), found.true_goal) == FOLDERS[name]
+    assert (len(found.goals), len(found.observations), found.true_goal) == FOLDERS[name]
     lines = [line.strip() for line in (instances / name / "hyps.dat").read_text().splitlines()]
     assert list(found.goals.names) == [line for line in lines if line]
     task, state = found.goals.task, found.goals.task.initial
-    for words in found.observed:
+    for words in found.observations:
         (action,) = task.find(words[0], words[1:])
         assert task.is_applicable(state, action)
         state = task.successor(state, action)
@@ -140,7 +140,7 @@ def test_untidy_goal_recognition_folders(grid):
     (grid / "obs.dat").unlink()
     (grid / "real_hyp.dat").unlink()
     found = read_instance(grid)
-    assert (len(found.goals), found.observed, found.true_goal) == (5, (), None)
+    assert (len(found.goals), found.observations, found.true_goal) == (5, (), None)
     assert [g.plans for g in build(found.goals).graphs] == [1, 2, 2, 2, 1]
 
 

@@ -11,16 +11,16 @@ def test_what_is_remembered_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
     states = [bank.table.successor(bank.initial, step) for step in range(6)]
     wanted = [bank.graph_from(0, state).plans for state in states if state is not None]
     most = 2 * max(bank.graph_from(0, state).n_nodes for state in states if state is not None)
-    bank._rerooted.clear()
+    bank._graphs.clear()
     monkeypatch.setattr(module, "MAX_REROOTED", most)
     for _ in range(2):
         found = []
         for state in states:
             if state is not None:
                 found.append(bank.graph_from(0, state).plans)
-                assert sum(graph.n_nodes + 1 for graph in bank._rerooted.values()) <= most
+                assert sum(graph.n_nodes + 1 for graph in bank._graphs.values()) <= most
         assert found == wanted
-    assert 0 < len(bank._rerooted) < len(set(states))
+    assert 0 < len(bank._graphs) < len(set(states))
 
 
 def test_a_graph_that_is_remembered_is_not_made_again() -> None:

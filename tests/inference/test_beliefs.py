@@ -110,7 +110,7 @@ def test_a_team_has_few_next_steps_and_mistakes_that_cost_time(hall):
     n_right = choices.is_next.sum(axis=1)
     right = choices.is_next[:, choices.place(step)]
     assert 0 < right.sum() < len(hall.names)
-    lost = -choices.saved[:, choices.place(step)]  # compared with waiting
+    lost = -choices.savings[:, choices.place(step)]  # compared with waiting
     chances = []
     for goal in range(len(hall.names)):
         if right[goal]:
@@ -119,7 +119,7 @@ def test_a_team_has_few_next_steps_and_mistakes_that_cost_time(hall):
         # Waiting is next where nothing else is; what costs t more timesteps is odder by e^(-t/2).
         assert choices.waits[goal] == (not n_right[goal])
         others = [i for i in range(len(choices.steps)) if not choices.is_next[goal, i]]
-        weights = [math.exp(0.5 * choices.saved[goal, i]) for i in others]
+        weights = [math.exp(0.5 * choices.savings[goal, i]) for i in others]
         weights += [] if choices.waits[goal] else [1.0]
         chances.append(0.05 * math.exp(-0.5 * lost[goal]) / sum(weights))
     belief = ExactBelief(hall, mistake_rate=0.05)

@@ -122,7 +122,7 @@ def test_the_true_goal_is_found_once_it_is_reached(instances, folder):
     instance = read_instance(instances / folder)
     found = infer(str(instances / folder))
     assert found.method == "cost"
-    assert len(found.posterior) == len(instance.observed) + 1
+    assert len(found.posterior) == len(instance.observations) + 1
     assert found.posterior[-1].index(max(found.posterior[-1])) == instance.true_goal
     assert found.ignored == ()
     assert all(sum(row) == pytest.approx(1) for row in found.posterior)
@@ -140,7 +140,7 @@ def test_without_time_relaxed_plans_answer_and_a_note_says_so(instances):
 def test_unobserved_actions_are_put_in_between(instances):
     """Every second action is left out: what could not have been done follows what makes it so."""
     instance = read_instance(instances / LOGISTICS)
-    some = instance.observed[1::2]
+    some = instance.observations[1::2]
     belief = CostBelief(instance.goals, timeout_s=10)
     found = run(belief, Resolver(belief.steps, instance.goals), some, "cost")
     assert found.ignored == ()
