@@ -197,7 +197,11 @@ class _Checker:
         """Yield bindings of the wanted parameters (and those tied to them) that can occur."""
         if not all(self.problem.objects_of(param.types) for param in action.params):
             return
-        atoms = [atom for atom in needed_atoms(action) if atom.name not in self.changing]
+        atoms = [
+            atom
+            for atom in needed_atoms(action, self.problem.domain)
+            if atom.name not in self.changing
+        ]
         others = [
             part
             for condition in action.conditions

@@ -9,6 +9,7 @@ from hrcplan.pddl.model import (
     Action,
     And,
     Atom,
+    Domain,
     Fact,
     Formula,
     Not,
@@ -140,12 +141,42 @@ def lifted_names(formula: Formula) -> Iterator[str]:
             yield from (function.name for function in formula_functions(formula))
 
 
-def needed_atoms(action: Action) -> tuple[Atom, ...]:
-    """Return the atoms that must have been true before the action starts."""
-    own = {e.target.name for e in action.effects if e.kind == "add" and e.when == "start"}
+def needed_atoms(action: Action, domain: Domain) -> tuple[Atom, ...]:
+    """Return the atoms that must have been true before the action starts.
+
+    What it needs later may come of its own start, or of other actions that this start allows.
+    """
+    early = _caused(action, domain)
     return tuple(
         part
         for condition in action.conditions
         for part in conjuncts(condition.formula)
-        if isinstance(part, Atom) and (condition.when == "start" or part.name not in own)
+        if isinstance(part, Atom) and (condition.when == "start" or part.name not in early)
     )
+
+
+def _caused(action: Action, domain: Domain) -> set[str]:
+    """Return the predicates of facts that may come of an action's start, while it runs."""
+    names = {e.target.name for e in action.effects if e.kind == "add" and e.when == "start"}
+    if not names or not action.durative:
+        return names
+    rules = [(set(_needed_names(other)), set(_added_names(other))) for other in domain.actions]
+    size = 0
+    while size < len(names):
+        size = len(names)
+        for needed, added in rules:
+            if not names.isdisjoint(needed):
+                names |= added
+    return names
+
+
+def _needed_names(action: Action) -> Iterator[str]:
+    for condition in action.conditions:
+        yield from lifted_names(condition.formula)
+    for effect in action.effects:
+        yield from lifted_names(effect.condition)
+        yield from lifted_names(effect.start_condition)
+
+
+def _added_names(action: Action) -> Iterator[str]:
+    return (effect.target.name for effect in action.effects if effect.kind == "add")

@@ -7,12 +7,14 @@ longest, however many run at the same time.
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from math import lcm
 
 from hrcplan.core.numbers import Number, exact
 from hrcplan.errors import UnsupportedError
+from hrcplan.pddl.constructs import ALL
 from hrcplan.pddl.model import TRUE, Domain
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
 from hrcplan.planners.exact.weights import metric
@@ -20,6 +22,7 @@ from hrcplan.planners.lowering import lower
 from hrcplan.search.lm_cut import landmarks, longest_chain
 from hrcplan.task import Task
 from hrcplan.task.steps import Operator
+from hrcplan.task.unreachable import is_out_of_reach
 
 MAX_ACTIONS = 20_000
 
@@ -32,9 +35,11 @@ class RelaxedBound:
             "lm-cut",
             "bounds the metric from below with landmarks, and finds no plans",
             temporal=True,
+            numeric=True,
             metric="none",
             limits=True,
             own=True,
+            constructs=ALL,
         )
 
     def missing(self) -> str | None:
@@ -45,9 +50,14 @@ class RelaxedBound:
         """Return a bound, or that even the relaxed task has no plan.
 
         Raises:
+            LimitError: if there is too little time or memory.
             UnsupportedError: if the metric is not a sum of costs and time, if there are too many
                 actions, or if the sequential reading of a temporal task hides what can happen.
         """
+        if not request.lazy_task.is_ready or request.problem.domain.is_temporal:
+            deadline = time.monotonic() + request.time_left_s / 2
+            if is_out_of_reach(request.problem, deadline):
+                return Answer(Status.UNSOLVABLE)
         task = request.task
         if len(task.actions) > MAX_ACTIONS:
             raise UnsupportedError(f"more than {MAX_ACTIONS:,} ground actions")

@@ -121,7 +121,7 @@ class _Rule:
     def __init__(self, action: Action, problem: Problem) -> None:
         self.action = action
         self.names = [param.name for param in action.params]
-        self.join = Join(action, needed_atoms(action), problem)
+        self.join = Join(action, needed_atoms(action, problem.domain), problem)
         self.fixed = tuple(_fixed_parts(action, problem.domain))
         self.adds = [
             (effect.params, effect.target)

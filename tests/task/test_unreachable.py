@@ -1,0 +1,56 @@
+"""Goals that not even the relaxed problem reaches; and those that it must not give up."""
+
+import pytest
+
+from hrcplan.planners.contract import Status
+from hrcplan.planners.solve import solve
+from hrcplan.task.reachable import reachable
+from hrcplan.task.unreachable import is_out_of_reach
+from tests.texts import problem_of
+
+DOMAIN = """(define (domain workshop)
+  (:requirements :durative-actions :fluents :derived-predicates :timed-initial-literals :adl)
+  (:predicates (lit) (repaired) (done) (open) (never) (ready)) (:functions (level))
+  (:derived (ready) (and (repaired) (open)))
+  (:durative-action light :parameters () :duration (= ?duration 5)
+    :condition (at end (repaired)) :effect (and (at start (lit)) (at end (not (lit)))))
+  (:durative-action repair :parameters () :duration (= ?duration 3)
+    :condition (over all (lit)) :effect (at end (repaired)))
+  (:durative-action finish :parameters () :duration (= ?duration 1)
+    :condition (at start {condition}) :effect (at end {effect})))"""
+PROBLEM = """(define (problem p) (:domain workshop)
+  (:init (= (level) 1) (at 7 (open))) (:goal {goal}))"""
+
+
+@pytest.mark.parametrize(
+    ("condition", "effect", "goal", "is_out"),
+    [
+        ("(never)", "(done)", "(done)", True),
+        ("(done)", "(done)", "(and (repaired) (done))", True),
+        ("(> (level) 3)", "(done)", "(done)", True),
+        ("(and)", "(done)", "(> (level) 3)", True),
+        ("(and)", "(done)", "(or (never) (not (or (done) (not (never)))))", True),
+        ("(never)", "(and (done) (increase (level) 1))", "(done)", True),
+        ("(repaired)", "(done)", "(done)", False),
+        ("(open)", "(done)", "(done)", False),
+        ("(ready)", "(done)", "(done)", False),
+        ("(> (level) 3)", "(increase (level) 1)", "(> (level) 9)", False),
+        ("(and)", "(not (open))", "(not (open))", False),
+    ],
+)
+def test_a_goal_out_of_reach(condition: str, effect: str, goal: str, is_out: bool) -> None:
+    domain = DOMAIN.format(condition=condition, effect=effect)
+    problem = problem_of(domain, PROBLEM.format(goal=goal))
+    assert is_out_of_reach(problem) == is_out
+    if is_out:
+        result = solve(problem, timeout_s=20)
+        assert result.status is Status.UNSOLVABLE, result.attempts
+
+
+def test_what_two_actions_make_true_for_each_other_can_be_reached() -> None:
+    """Light ends only once a repair is done, which needs the light."""
+    domain = DOMAIN.format(condition="(repaired)", effect="(done)")
+    problem = problem_of(domain, PROBLEM.format(goal="(done)"))
+    instances, facts = reachable(problem)
+    assert {i.action.name for i in instances} == {"light", "repair", "finish"}
+    assert ("repaired",) in facts
