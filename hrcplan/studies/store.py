@@ -94,7 +94,7 @@ class Store:
         """Close the file and let other writers in; an error of SQLite becomes one of hrcplan."""
         self.close()
         with _explain_errors(self.folder):
-            if isinstance(error, sqlite3.Error):
+            if isinstance(error, sqlite3.Error | UnicodeDecodeError):
                 raise error
 
     def close(self) -> None:
@@ -136,7 +136,7 @@ class Store:
         """
         try:
             pairs = self._connection.execute(f"select key, value from {_ABOUT}").fetchall()
-        except sqlite3.DatabaseError as error:
+        except (sqlite3.DatabaseError, UnicodeDecodeError) as error:
             path = str(self.folder / FILE)
             raise InputError(f"not a file of rows: {error}", code="bad-rows", path=path) from None
         try:
@@ -247,7 +247,8 @@ def _explain_errors(folder: Path) -> Iterator[None]:
     except sqlite3.OperationalError as error:  # it may not be opened or written, or is locked
         message = f"cannot use the rows in {folder}: {error}"
         raise UsageError(message, code="no-access", path=str(folder)) from None
-    except sqlite3.DatabaseError as error:
+    # A message of SQLite quotes the file, so it may be no UTF-8 either.
+    except (sqlite3.DatabaseError, UnicodeDecodeError) as error:
         message = f"the rows in {folder} are damaged: {error}"
         raise InputError(message, code="bad-rows", path=str(folder)) from None
 

@@ -73,3 +73,15 @@ def test_workers_import_nothing_from_the_current_folder(tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr
     assert json.loads(done.stdout)["n_new"] > 32
     assert "of the folder" not in done.stderr
+
+
+def test_a_name_in_the_schema_that_is_no_utf_8_is_an_input_error(
+    folder: Path, tmp_path: Path
+) -> None:
+    copy = tmp_path / "copy"
+    shutil.copytree(folder, copy)
+    data = bytearray((copy / "rows.sqlite").read_bytes())
+    data[data.rindex(b"tablerows") + 5] = 0xAB  # SQLite quotes the byte in its message
+    (copy / "rows.sqlite").write_bytes(data)
+    with pytest.raises(InputError, match=r"damaged|not a file of rows"):
+        report_study(copy)
