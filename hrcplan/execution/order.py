@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from hrcplan.core.numbers import Number
 from hrcplan.pddl.interference import clash
 from hrcplan.pddl.model import Problem
-from hrcplan.planners.lanes import touched
+from hrcplan.planners.lanes import whole_access
 from hrcplan.plans import EPSILON_S, Plan, PlannedAction, occupied
 
 
@@ -37,7 +37,7 @@ def waits(problem: Problem, plan: Plan) -> Waits:
     >>> waits(read("transport", "two-boxes"), plan)[1]
     (Wait(index=0, for_end=True, offset_s=0),)
     """
-    touches = [touched(problem, action) for action in plan.actions]
+    touches = [whole_access(problem, action) for action in plan.actions]
     busy = [occupied(action, problem) for action in plan.actions]
 
     def ordered(i: int, j: int) -> bool:

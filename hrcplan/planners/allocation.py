@@ -75,9 +75,9 @@ class Diagram:
     @property
     def at_now(self) -> Line:
         """The line of the plan that is best at the value of now; where two are, the second."""
-        held = [p for p in self.pieces if p.least <= self.value <= p.most]
+        pieces = [p for p in self.pieces if p.least <= self.value <= p.most]
         outside = self.pieces[0 if self.value < self.pieces[0].least else -1]
-        return (held[-1] if held else outside).line
+        return (pieces[-1] if pieces else outside).line
 
     def stays_best(self, line: Line) -> tuple[Number, Number] | None:
         """Return from where to where no plan beats that of ``line``; None if it is best nowhere."""
@@ -157,8 +157,8 @@ def _metric(problem: Problem, plan: Plan) -> Number:
     late = _gaps(plan)
     if problem.metric is None:
         return exact(Fraction(value - late if problem.domain.is_temporal else value))
-    known = {**problem.values, (TOTAL_COST,): 0}
-    times = (evaluate(problem.metric, {**known, (TOTAL_TIME,): t}, {}) for t in (late, 0))
+    values = {**problem.values, (TOTAL_COST,): 0}
+    times = (evaluate(problem.metric, {**values, (TOTAL_TIME,): t}, {}) for t in (late, 0))
     with_gaps, without = times
     return exact(Fraction(value - (with_gaps - without)))
 

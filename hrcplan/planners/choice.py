@@ -53,7 +53,7 @@ def jobs(request: Request) -> list[Job]:
     Raises:
         UnsupportedError: if no planner here can hold the task.
     """
-    planners = [planner for name in registry.names() for planner in _loaded(name)]
+    planners = [planner for name in registry.names() for planner in _load(name)]
     able = [p for p in planners if unable(p.card, request) is None and p.missing() is None]
     if not able:
         raise UnsupportedError("no planner here can hold this task")
@@ -88,7 +88,7 @@ def _modes(card: Capabilities, request: Request) -> tuple[bool, ...]:
     return (False, True) if card.name in _SEQUENCES else (False,)
 
 
-def _loaded(name: str) -> Iterator[Planner]:
+def _load(name: str) -> Iterator[Planner]:
     """Yield the planner of a name, unless its package is broken: ``auto`` goes on without it."""
     try:
         yield registry.make(name)

@@ -75,10 +75,10 @@ class CommandPlanner:
             (cwd / "domain.pddl").write_text(domain_text(given.domain))
             (cwd / "problem.pddl").write_text(problem_text(given))
             limits = ProcessLimits(request.time_left_s, request.memory_bytes)
-            finished = run(list(self._argv(cwd, limits.time_s)), cwd=cwd, limits=limits)
-            texts = [finished.stdout, *_plan_files(cwd, limits.output_bytes)]
+            process = run(list(self._argv(cwd, limits.time_s)), cwd=cwd, limits=limits)
+            texts = [process.stdout, *_plan_files(cwd, limits.output_bytes)]
         plans = [plan for text in texts for plan in find_plans(text, problem)]
-        return self._answer(problem, finished, plans)
+        return self._answer(problem, process, plans)
 
     def _argv(self, cwd: Path, time_s: float) -> Iterator[str]:
         """Yield the words of the command; files of the caller's folder get their whole path."""
@@ -90,27 +90,27 @@ class CommandPlanner:
             is_file = Path(word).is_file() and (position > 0 or "/" in word)
             yield str(Path(word).absolute()) if is_file else word
 
-    def _answer(self, problem: Problem, finished: FinishedProcess, plans: list[Plan]) -> Answer:
+    def _answer(self, problem: Problem, process: FinishedProcess, plans: list[Plan]) -> Answer:
         name = self.card.name
-        if finished.ended is ProcessEnd.MISSING:
-            raise MissingPlannerError(f"{name} cannot be started: {finished.stderr.strip()}")
-        if not plans and finished.code == 0 and validate(problem, Plan()).valid:
+        if process.end is ProcessEnd.MISSING:
+            raise MissingPlannerError(f"{name} cannot be started: {process.stderr.strip()}")
+        if not plans and process.code == 0 and validate(problem, Plan()).valid:
             plans = [Plan()]
         if plans:
             return Answer(Status.SOLVED, best_of(problem, plans))
-        output = finished.stdout + finished.stderr
-        if finished.ended is not ProcessEnd.EXITED:
-            return Answer(Status.UNSOLVED, note=f"stopped: {finished.ended.value}")
+        output = process.stdout + process.stderr
+        if process.end is not ProcessEnd.EXITED:
+            return Answer(Status.UNSOLVED, note=f"stopped: {process.end.value}")
         if _NO_PLAN.search(output):
             return Answer(Status.UNSOLVABLE)
         lines = [line.strip() for line in output.splitlines() if line.strip()]
         last = " / ".join(lines[-3:])[-300:]
-        if finished.code is None or finished.code < 0 or _is_crash(finished.code):
-            raise PlannerError(f"{name} ended with exit code {finished.code}: {last}")
-        if finished.code != 0:
-            return Answer(Status.UNSOLVED, note=f"no plan, exit code {finished.code}: {last}")
+        if process.code is None or process.code < 0 or _is_crash(process.code):
+            raise PlannerError(f"{name} ended with exit code {process.code}: {last}")
+        if process.code != 0:
+            return Answer(Status.UNSOLVED, note=f"no plan, exit code {process.code}: {last}")
         message = f"{name} ended without an error, but no plan could be read in its output"
-        hint = f"the output is in {_saved(output)}" if lines else "it printed nothing"
+        hint = f"the output is in {_save(output)}" if lines else "it printed nothing"
         raise PlannerError(message, code="plan-not-read", hint=hint)
 
 
@@ -133,7 +133,7 @@ def _plan_files(folder: Path, most_bytes: int) -> list[str]:
     return [text for _, text in sorted(texts, key=lambda item: item[0])]
 
 
-def _saved(output: str) -> str:
+def _save(output: str) -> str:
     """Return the path of a new file with the output of a planner."""
     with NamedTemporaryFile(
         "w", prefix="hrcplan-output-", suffix=".log", delete=False, errors="replace"

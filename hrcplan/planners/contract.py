@@ -103,15 +103,15 @@ class Replays:
     """Replays of plans; the last ones are kept, since a planner and its check ask for the same."""
 
     def __init__(self) -> None:
-        self._known: dict[Plan, Report] = {}
+        self._reports: dict[Plan, Report] = {}
 
     def __call__(self, problem: Problem, plan: Plan) -> Report:
         """Return the replay of a plan; the problem is always the same one."""
-        if plan not in self._known:
-            while len(self._known) >= MOST_REPLAYS:
-                del self._known[next(iter(self._known))]
-            self._known[plan] = validate(problem, plan)
-        return self._known[plan]
+        if plan not in self._reports:
+            while len(self._reports) >= MOST_REPLAYS:
+                del self._reports[next(iter(self._reports))]
+            self._reports[plan] = validate(problem, plan)
+        return self._reports[plan]
 
 
 @dataclass(frozen=True)
@@ -184,8 +184,8 @@ class Answer:
         Raises:
             ValueError: if there is a plan without a solved status, or the other way round.
         """
-        solved = self.status in (Status.OPTIMAL, Status.SOLVED)
-        if solved != (self.plan is not None):
+        has_plan = self.status in (Status.OPTIMAL, Status.SOLVED)
+        if has_plan != (self.plan is not None):
             raise ValueError(f"{self.status} with plan {self.plan!r}")
 
 

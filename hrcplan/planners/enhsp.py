@@ -34,7 +34,7 @@ from hrcplan.pddl.model import (
 from hrcplan.pddl.semantics import ground_key, instances
 from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
-from hrcplan.planners.lowering import NO_SEQUENCE, Lowered, lower
+from hrcplan.planners.lowering import NO_SEQUENCE, Lowering, lower
 from hrcplan.planners.number_range import decides_exactly, never_lowers_cost, prices_exactly
 from hrcplan.planners.process import FinishedProcess, ProcessEnd, ProcessLimits, run
 from hrcplan.plans import parse_plan
@@ -57,7 +57,7 @@ class _Input:
 
     domain: str
     problem: str
-    lowered: Lowered | None
+    lowering: Lowering | None
     costs: bool
     whole: bool
 
@@ -98,13 +98,13 @@ class Enhsp:
         missing = self.missing()
         if missing is not None:
             raise MissingPlannerError(f"enhsp cannot run here: {missing}")
-        given = _input(request)
+        texts = _input(request)
         if request.any_plan:
-            return _attempt(request, given, _FIRST, request.time_left_s)
+            return _attempt(request, texts, _FIRST, request.time_left_s)
         reserve_s = min(_RESERVE_S, request.time_left_s / 2)
-        answer = _attempt(request, given, _PROOF, request.time_left_s - reserve_s)
+        answer = _attempt(request, texts, _PROOF, request.time_left_s - reserve_s)
         if answer.status is Status.UNSOLVED and request.time_left_s > 0:
-            answer = _attempt(request, given, _FIRST, request.time_left_s)
+            answer = _attempt(request, texts, _FIRST, request.time_left_s)
         return answer
 
 
@@ -137,13 +137,13 @@ def _input(request: Request) -> _Input:
     counts = exact or request.any_plan  # rounding is no matter where nothing is proven
     if domain.is_temporal or numeric or not plain_metric or not counts or clash:
         with contextlib.suppress(*(() if domain.is_temporal else (UnsupportedError, LimitError))):
-            lowered = lower(request.task)
-            texts = lowered.domain_text, lowered.problem_text
-            return _Input(*texts, lowered, True, not lowered.conditional)
+            lowering = lower(request.task)
+            texts = lowering.domain_text, lowering.problem_text
+            return _Input(*texts, lowering, True, not lowering.conditional)
     moving = any(_reads_change(problem, e) for a in domain.actions for e in a.effects)
     if moving or not plain_metric:
-        kept = with_effects(domain, lambda effect: effect.target.name != TOTAL_COST)
-        problem = replace(problem, domain=kept, metric=None, maximize=False)
+        plain_domain = with_effects(domain, lambda effect: effect.target.name != TOTAL_COST)
+        problem = replace(problem, domain=plain_domain, metric=None, maximize=False)
     simple = all(_is_simple(problem, e) for a in problem.domain.actions for e in a.effects)
     simple = simple and exact and not clash
     binary = with_binary_sums(guarded(problem))
@@ -191,72 +191,74 @@ def _is_simple(problem: Problem, effect: Effect) -> bool:
     """Return whether h-max is known to be admissible: numbers grow or shrink by constants."""
     if effect.value is None or effect.condition != TRUE:
         return effect.condition == TRUE
-    fixed = all(f.name not in problem.domain.changed_functions for f in functions_in(effect.value))
-    return fixed and effect.kind in ("increase", "decrease")
+    is_constant = all(
+        f.name not in problem.domain.changed_functions for f in functions_in(effect.value)
+    )
+    return is_constant and effect.kind in ("increase", "decrease")
 
 
-def _attempt(request: Request, given: _Input, search: tuple[str, ...], time_s: float) -> Answer:
+def _attempt(request: Request, texts: _Input, search: tuple[str, ...], time_s: float) -> Answer:
     java, jar = find_java(), _inside("up_enhsp", _JAR)
     heap = max(64 << 20, request.memory_bytes - _JVM_BYTES)
     with TemporaryDirectory(prefix="hrcplan-") as folder:
         cwd = Path(folder)
-        (cwd / "domain.pddl").write_text(given.domain)
-        (cwd / "problem.pddl").write_text(given.problem)
+        (cwd / "domain.pddl").write_text(texts.domain)
+        (cwd / "problem.pddl").write_text(texts.problem)
         argv = [str(java), "-XX:+UseSerialGC", f"-Xmx{heap >> 20}m", "-jar", str(jar)]
         argv += ["-o", "domain.pddl", "-f", "problem.pddl", "-sp", "plan", "-npm", *search]
-        finished = run(argv, cwd=cwd, limits=ProcessLimits(time_s, request.memory_bytes))
+        process = run(argv, cwd=cwd, limits=ProcessLimits(time_s, request.memory_bytes))
         plan = cwd / "plan"
         text = plan.read_text() if plan.exists() else None
-    return _answer(request, given, search, finished, text)
+    return _answer(request, texts, search, process, text)
 
 
 def _answer(
     request: Request,
-    given: _Input,
+    texts: _Input,
     search: tuple[str, ...],
-    finished: FinishedProcess,
+    process: FinishedProcess,
     text: str | None,
 ) -> Answer:
-    output = finished.stdout + finished.stderr
-    if finished.ended is not ProcessEnd.EXITED:
-        return Answer(Status.UNSOLVED, note=f"stopped: {finished.ended.value}")
+    output = process.stdout + process.stderr
+    if process.end is not ProcessEnd.EXITED:
+        return Answer(Status.UNSOLVED, note=f"stopped: {process.end.value}")
     if "OutOfMemoryError" in output:
         return Answer(Status.UNSOLVED, note="out of memory")
     if text is not None and "Problem Solved" in output:
-        return _solved(request, given, search == _PROOF, output, text)
+        return _solution(request, texts, search == _PROOF, output, text)
     faults = ("SEVERE", "Exception", "Grammar is violated", "Syntax Error", "mismatched input")
     fault = next((line for line in output.splitlines() if any(f in line for f in faults)), None)
-    if finished.code != 0 or fault is not None:
-        raise PlannerError(f"enhsp failed (exit code {finished.code}): {fault or output[-200:]}")
+    if process.code != 0 or fault is not None:
+        raise PlannerError(f"enhsp failed (exit code {process.code}): {fault or output[-200:]}")
     if re.search(r"(?i)unsolvable", output) is None:
         return Answer(Status.UNSOLVED, note="it ended without a plan and without a reason")
     if request.problem.domain.is_temporal:
         return Answer(Status.UNSOLVED, note=NO_SEQUENCE)
-    if not given.whole:
+    if not texts.whole:
         return Answer(Status.UNSOLVED, note="it says unsolvable, but cannot be sure of this task")
     return Answer(Status.UNSOLVABLE)
 
 
-def _solved(request: Request, given: _Input, proof: bool, output: str, text: str) -> Answer:
-    plan = parse_plan(text) if given.lowered is None else given.lowered.plan(text)
-    exact = given.costs if given.lowered is None else given.lowered.exact_for_metric
-    proven = proof and given.whole and exact and not request.problem.domain.is_temporal
+def _solution(request: Request, texts: _Input, proof: bool, output: str, text: str) -> Answer:
+    plan = parse_plan(text) if texts.lowering is None else texts.lowering.plan(text)
+    exact = texts.costs if texts.lowering is None else texts.lowering.exact_for_metric
+    is_optimal = proof and texts.whole and exact and not request.problem.domain.is_temporal
     value = objective(request.problem, validate(request.problem, plan))
-    if given.lowered is None:
-        proven = proven and prices_exactly(request.problem, _FLOAT_BITS, value or 0)
+    if texts.lowering is None:
+        is_optimal = is_optimal and prices_exactly(request.problem, _FLOAT_BITS, value or 0)
     else:
-        proven = proven and value is not None and given.lowered.fits(_FLOAT_BITS, value)
+        is_optimal = is_optimal and value is not None and texts.lowering.fits(_FLOAT_BITS, value)
     return Answer(
-        Status.OPTIMAL if proven else Status.SOLVED, plan, _objective(request, given, output)
+        Status.OPTIMAL if is_optimal else Status.SOLVED, plan, _objective(request, texts, output)
     )
 
 
-def _objective(request: Request, given: _Input, output: str) -> Number | None:
+def _objective(request: Request, texts: _Input, output: str) -> Number | None:
     """Return the metric that ENHSP prints, plus the cost there was at the start."""
     match = re.search(r"Metric \(Search\):\s*(\S+)", output)
     value = to_number(match[1].lower()) if match else None
-    if value is None or not given.costs:
+    if value is None or not texts.costs:
         return None
-    if given.lowered is not None:
-        return given.lowered.objective(Fraction(value))
+    if texts.lowering is not None:
+        return texts.lowering.objective(Fraction(value))
     return value + request.problem.values.get((TOTAL_COST,), 0)

@@ -29,7 +29,7 @@ def expected_retries(problem: Problem) -> Problem:
     if all(domain.success(action.name) == 1 for action in domain.actions):
         return problem
     actions = tuple(
-        _priced(action, Fraction(p))
+        _with_expected_price(action, Fraction(p))
         for action in domain.actions
         if (p := domain.success(action.name)) > 0
     )
@@ -52,7 +52,7 @@ def with_success(problem: Problem, probability: float | Number) -> Problem:
     return replace(problem, domain=replace(problem.domain, notes=notes))
 
 
-def _priced(action: Action, probability: Fraction) -> Action:
+def _with_expected_price(action: Action, probability: Fraction) -> Action:
     if probability == 1:
         return action
     effects = tuple(

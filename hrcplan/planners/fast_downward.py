@@ -83,10 +83,10 @@ class FastDownward:
         missing, binary = self.missing(), find_binary()
         if missing is not None or binary is None:
             raise MissingPlannerError(f"fast-downward cannot run here: {missing}")
-        given = downward_input(request)
-        if given.solved:
-            return _solved(request, given, "; cost = 0")
-        return _Search(request, given).run(binary)
+        texts = downward_input(request)
+        if texts.is_solved:
+            return _solution(request, texts, "; cost = 0")
+        return _DownwardSearch(request, texts).run(binary)
 
 
 def find_binary() -> Path | None:
@@ -98,29 +98,29 @@ def find_binary() -> Path | None:
     return None
 
 
-class _Search:
+class _DownwardSearch:
     """One run of the translator and a search, and the plans that it has written so far."""
 
-    def __init__(self, request: Request, given: DownwardInput) -> None:
-        self.request, self.given = request, given
+    def __init__(self, request: Request, texts: DownwardInput) -> None:
+        self.request, self.texts = request, texts
         self._folder = Path()
         self._n_plans = 0
 
     def run(self, binary: Path) -> Answer:
         """Return the answer; plans that are improved later are reported at once."""
-        request, given = self.request, self.given
+        request, texts = self.request, self.texts
         quick = _ANYTIME if request.improves else _FIRST
-        search = quick if request.any_plan else given.proof
+        search = quick if request.any_plan else texts.proof
         with TemporaryDirectory(prefix="hrcplan-") as folder:
             self._folder = Path(folder)
-            (self._folder / "domain.pddl").write_text(given.domain)
-            (self._folder / "problem.pddl").write_text(given.problem)
+            (self._folder / "domain.pddl").write_text(texts.domain)
+            (self._folder / "problem.pddl").write_text(texts.problem)
             limits = ProcessLimits(request.time_left_s, request.memory_bytes)
             argv = ["/bin/sh", "-c", _SCRIPT, sys.executable, str(binary), search]
-            finished = run(argv, cwd=self._folder, limits=limits, on_tick=self._look)
+            process = run(argv, cwd=self._folder, limits=limits, on_tick=self._look)
             plans = self._plans()
             text = plans[-1].read_text() if plans else None
-        return _answer(request, given, finished, text)
+        return _answer(request, texts, process, text)
 
     def _plans(self) -> list[Path]:
         """Return the files of complete plans, the best one last: a plan ends with its cost."""
@@ -130,20 +130,22 @@ class _Search:
     def _look(self) -> None:
         plans = self._plans()
         for file in plans[self._n_plans :]:
-            self.request.on_plan(self.given.plan(file.read_text()))
+            self.request.on_plan(self.texts.plan(file.read_text()))
         self._n_plans = len(plans)
 
 
 def _answer(
-    request: Request, given: DownwardInput, finished: FinishedProcess, text: str | None
+    request: Request, texts: DownwardInput, process: FinishedProcess, text: str | None
 ) -> Answer:
     """Return what the exit code means (fast-downward.org, "Exit codes")."""
-    if finished.ended is not ProcessEnd.EXITED:
-        note = f"stopped: {finished.ended.value}"
-        return Answer(Status.UNSOLVED, note=note) if text is None else _solved(request, given, text)
-    code = finished.code
+    if process.end is not ProcessEnd.EXITED:
+        note = f"stopped: {process.end.value}"
+        return (
+            Answer(Status.UNSOLVED, note=note) if text is None else _solution(request, texts, text)
+        )
+    code = process.code
     if text is not None and (code in (0, 1, 2, 3) or request.any_plan):
-        return _solved(request, given, text)
+        return _solution(request, texts, text)
     if code in (10, 11):
         if request.problem.domain.is_temporal:
             return Answer(Status.UNSOLVED, note=NO_SEQUENCE)
@@ -152,18 +154,18 @@ def _answer(
         return Answer(Status.UNSOLVED, note="the search was incomplete and found no plan")
     if code in (20, 21, 22, 23, 24):
         return Answer(Status.UNSOLVED, note=f"out of time or memory (exit code {code})")
-    lines = [line for line in (finished.stdout + finished.stderr).splitlines() if line.strip()]
+    lines = [line for line in (process.stdout + process.stderr).splitlines() if line.strip()]
     raise PlannerError(f"fast-downward ended with exit code {code}: {' / '.join(lines[-3:])}")
 
 
-def _solved(request: Request, given: DownwardInput, text: str) -> Answer:
+def _solution(request: Request, texts: DownwardInput, text: str) -> Answer:
     match = re.search(r"; cost = (\d+)", text)
     cost = int(match[1]) if match else None
-    proven = not request.any_plan and given.exact and cost is not None and given.is_safe(cost)
-    weighed = given.exact or not request.weighs_time
+    is_optimal = not request.any_plan and texts.exact and cost is not None and texts.is_safe(cost)
+    has_time = texts.exact or not request.weighs_time
     return Answer(
-        Status.OPTIMAL if proven else Status.SOLVED,
-        given.plan(text),
-        None if cost is None else given.objective(cost, request.problem),
-        "" if weighed else "cheapest sequence of actions, time not weighed",
+        Status.OPTIMAL if is_optimal else Status.SOLVED,
+        texts.plan(text),
+        None if cost is None else texts.objective(cost, request.problem),
+        "" if has_time else "cheapest sequence of actions, time not weighed",
     )

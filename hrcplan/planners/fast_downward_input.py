@@ -32,7 +32,7 @@ from hrcplan.pddl.model import (
 )
 from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.planners.contract import Request
-from hrcplan.planners.lowering import Lowered, lower
+from hrcplan.planners.lowering import Lowering, lower
 from hrcplan.plans import Plan, parse_plan
 
 _MAX_INT = 2**31
@@ -49,19 +49,19 @@ class DownwardInput:
 
     domain: str
     problem: str
-    lowered: Lowered | None
+    lowering: Lowering | None
     exact: bool
     proof: str
-    solved: bool = False
+    is_solved: bool = False
 
     def plan(self, text: str) -> Plan:
         """Return Fast Downward's plan in the names of the task."""
-        return parse_plan(text) if self.lowered is None else self.lowered.plan(text)
+        return parse_plan(text) if self.lowering is None else self.lowering.plan(text)
 
     def objective(self, cost: int, problem: Problem) -> Number | None:
         """Return the problem's metric of a plan with this cost; None where it is another thing."""
-        if self.lowered is not None:
-            return self.lowered.objective(cost)
+        if self.lowering is not None:
+            return self.lowering.objective(cost)
         return cost + problem.values.get((TOTAL_COST,), 0) if self.exact else None
 
     def is_safe(self, cost: int) -> bool:
@@ -69,7 +69,7 @@ class DownwardInput:
 
         No expanded node has a larger g, and no generated one is more than an action above it.
         """
-        most = max(self.lowered.costs, default=0) if self.lowered is not None else _MAX_PRICE
+        most = max(self.lowering.costs, default=0) if self.lowering is not None else _MAX_PRICE
         return cost + most < _MAX_INT
 
 
@@ -81,17 +81,17 @@ def downward_input(request: Request) -> DownwardInput:
         LimitError: if the task cannot be grounded within the limits, and has to be.
     """
     problem = request.problem
-    lifted = _lifted(guarded(problem))
+    lifted_input = _lifted_input(guarded(problem))
     if remaining(problem):
-        if lifted is None:
+        if lifted_input is None:
             raise UnsupportedError("fast-downward knows no numbers with derived predicates")
-        return lifted
-    if lifted is not None and lifted.exact:
-        return lifted
-    if lifted is not None and request.any_plan:
+        return lifted_input
+    if lifted_input is not None and lifted_input.exact:
+        return lifted_input
+    if lifted_input is not None and request.any_plan:
         request.lazy_task.begin(problem, time.monotonic() + request.time_left_s / 10)
         if not request.lazy_task.is_ready:
-            return lifted  # without costs, but without the wait
+            return lifted_input  # without costs, but without the wait
     return grounded_input(request)
 
 
@@ -103,22 +103,22 @@ def grounded_input(request: Request) -> DownwardInput:
         LimitError: if the task cannot be grounded within the limits.
     """
     task = request.task
-    lowered = lower(task)
-    if not lowered.fits_32_bits:
-        message = f"costs in whole numbers (times {abs(lowered.scale)}) exceed 32-bit integers"
+    lowering = lower(task)
+    if not lowering.fits_32_bits:
+        message = f"costs in whole numbers (times {abs(lowering.scale)}) exceed 32-bit integers"
         raise UnsupportedError(message, hint="round the function values, or use enhsp, kairos")
-    proof = "astar(hmax())" if lowered.conditional else "astar(lmcut())"
+    proof = "astar(hmax())" if lowering.conditional else "astar(lmcut())"
     if len(task.goal) > 1:  # becomes an axiom, with which no heuristic here is admissible
         proof = "astar(blind())"
-    exact = lowered.exact_for_metric and not request.problem.domain.is_temporal
+    exact = lowering.exact_for_metric and not request.problem.domain.is_temporal
     # An empty goal becomes an axiom in there.
-    solved = task.is_goal(task.initial)
+    is_solved = task.is_goal(task.initial)
     return DownwardInput(
-        lowered.domain_text, lowered.problem_text, lowered, exact, proof, solved
+        lowering.domain_text, lowering.problem_text, lowering, exact, proof, is_solved
     )  # fmt: skip
 
 
-def _lifted(problem: Problem) -> DownwardInput | None:
+def _lifted_input(problem: Problem) -> DownwardInput | None:
     """Return a task in its own files; None if it has numbers other than costs, or time."""
     domain = problem.domain
     if domain.is_temporal or any(_has_numbers(formula) for formula in _formulas(problem)):
@@ -185,10 +185,10 @@ def _costs_only(problem: Problem) -> Problem:
         for effect in action.effects:
             if effect.target.name == TOTAL_COST and isinstance(effect.value, Function):
                 names.add(effect.value.name)
-    kept = with_effects(domain, lambda e: e.value is None or e.target.name == TOTAL_COST)
+    with_costs = with_effects(domain, lambda e: e.value is None or e.target.name == TOTAL_COST)
     functions = {name: f for name, f in domain.functions.items() if name in names}
     values = {key: value for key, value in problem.values.items() if key[0] in names}
-    return replace(problem, domain=replace(kept, functions=functions), values=values)
+    return replace(problem, domain=replace(with_costs, functions=functions), values=values)
 
 
 def _proof(problem: Problem) -> str:

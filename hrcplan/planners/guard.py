@@ -191,13 +191,13 @@ def reap(dead: dict[int, int]) -> bool:
 def clear(grace_s: float) -> None:
     """End all descendants, by TERM and then KILL, and return when none is left."""
     kill_at = time.monotonic() + grace_s
-    terminated: set[int] = set()
+    term_groups: set[int] = set()
     while reap({}) and (now := time.monotonic()) < kill_at + PATIENCE_S:
         for group in groups():
             if now >= kill_at:
                 send(group, KILL)
-            elif group not in terminated:
-                terminated.add(group)
+            elif group not in term_groups:
+                term_groups.add(group)
                 send(group, TERM)
         time.sleep(0.005)
 

@@ -22,19 +22,19 @@ def unsure_changes(action: GroundAction) -> Iterator[BitEffect]:
     unsure = [c for c in action.at_start if c.tests != ALWAYS]
     adds, deletes = union(c.adds for c in sure), union(c.deletes for c in sure)
     maybe = union(c.adds for c in unsure)
-    touched = maybe | union(c.deletes for c in unsure)
+    change_mask = maybe | union(c.deletes for c in unsure)
     yield from unsure
     for change in action.at_end:
         always = change.tests == ALWAYS
         # One instant for both: an add of the start would win over a delete of the end.
         if change.deletes & (maybe if always else maybe | adds):
             raise UnsupportedError(f"the end of {action} undoes what its start may have done")
-        if any(mask & touched for mask, _ in change.tests):
+        if any(mask & change_mask for mask, _ in change.tests):
             raise UnsupportedError(f"the end of {action} depends on what its start may have done")
         tests = () if always else [_before(test, adds, deletes) for test in change.tests]
-        known = tuple(test for test in tests if test is not None)
-        if known:
-            yield BitEffect(change.adds, change.deletes, known)
+        tests_before = tuple(test for test in tests if test is not None)
+        if tests_before:
+            yield BitEffect(change.adds, change.deletes, tests_before)
 
 
 def _before(test: Test, adds: int, deletes: int) -> Test | None:
@@ -42,5 +42,5 @@ def _before(test: Test, adds: int, deletes: int) -> Test | None:
     mask, value = test
     if value & deletes or (mask & ~value) & adds:
         return None
-    known = adds | deletes
-    return mask & ~known, value & ~known
+    effects = adds | deletes
+    return mask & ~effects, value & ~effects

@@ -20,7 +20,7 @@ from hrcplan.pddl.guards import guarded
 from hrcplan.pddl.model import TOTAL_COST, Function
 from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
-from hrcplan.planners.lowering import Lowered, lower
+from hrcplan.planners.lowering import Lowering, lower
 from hrcplan.planners.number_range import decides_exactly, never_lowers_cost, prices_exactly
 from hrcplan.plans import Plan, parse_plan
 from hrcplan.validation import Report, objective
@@ -82,10 +82,10 @@ class _Portfolio:
 
     def __init__(self, request: Request) -> None:
         self.request = request
-        self.lowered = _lowered(request)
+        self.lowering = _lowering(request)
         self.best: tuple[Number, Plan, Number | None] | None = None
         self.invalid: Report | None = None
-        self.proven = False
+        self.is_proven = False
         self.failures: list[UnsupportedError | PlannerError] = []
         self.notes: list[str] = []
         self.last = ""
@@ -104,7 +104,7 @@ class _Portfolio:
             if result.status.name == "UNSOLVABLE":
                 return self._unsolvable()
             self._check(result)
-            if self.proven or (self.best and self.request.any_plan):
+            if self.is_proven or (self.best and self.request.any_plan):
                 break
         else:
             if last and self.best is None and self.request.time_left_s > 0:
@@ -114,8 +114,8 @@ class _Portfolio:
     def _parse(self) -> kairos.Problem:
         import kairos
 
-        if self.lowered is not None:
-            texts = self.lowered.domain_text, self.lowered.problem_text
+        if self.lowering is not None:
+            texts = self.lowering.domain_text, self.lowering.problem_text
         else:
             given = guarded(self.request.problem)
             texts = domain_text(given.domain), problem_text(given)
@@ -152,7 +152,7 @@ class _Portfolio:
         if text == self.last:
             return  # the search ends with the plan that it has shown before
         self.last = text
-        plan = self.lowered.plan(text) if self.lowered is not None else _parsed(text)
+        plan = self.lowering.plan(text) if self.lowering is not None else _plan_of(text)
         if self.request.problem.domain.is_continuous:
             self.best = 0, plan, None  # hrcplan cannot judge it
             return
@@ -183,7 +183,7 @@ class _Portfolio:
             kind = UnsupportedError if status == "UNSUPPORTED" else PlannerError
             self.failures.append(kind(f"kairos: {words}"))
         if result.stop_reason.name == "PROVEN_OPTIMAL":
-            self.proven = self._proves()
+            self.is_proven = self._proves()
 
     def _proves(self) -> bool:
         """Return whether kairos' proof is one for our metric.
@@ -194,9 +194,9 @@ class _Portfolio:
         problem = self.request.problem
         if problem.domain.is_temporal or self.best is None:
             return False
-        if self.lowered is not None:
-            small = self.lowered.fits(_FLOAT_BITS, self.best[0])
-            return self.lowered.exact_for_metric and small
+        if self.lowering is not None:
+            small = self.lowering.fits(_FLOAT_BITS, self.best[0])
+            return self.lowering.exact_for_metric and small
         exact = prices_exactly(problem, _FLOAT_BITS, self.best[0])
         if not (exact and decides_exactly(problem, _FLOAT_BITS) and never_lowers_cost(problem)):
             return False
@@ -210,13 +210,13 @@ class _Portfolio:
         if cost is None or problem.metric is None:
             return None
         value = Fraction(cost).limit_denominator(_DECIMALS)
-        if self.lowered is not None:
-            return self.lowered.objective(value)
+        if self.lowering is not None:
+            return self.lowering.objective(value)
         return int(value) if value.denominator == 1 else value
 
     def _answer(self) -> Answer:
         if self.best is not None:
-            status = Status.OPTIMAL if self.proven else Status.SOLVED
+            status = Status.OPTIMAL if self.is_proven else Status.SOLVED
             return Answer(status, self.best[1], self.best[2])
         if self.invalid is not None:
             message = f"kairos gave only invalid plans: {self.invalid.reason}"
@@ -230,18 +230,18 @@ class _Portfolio:
         """Return kairos' claim, if it has no plan, and counts nothing that it may have rounded."""
         if self.best is not None:
             return self._answer()
-        if self.lowered is None and not decides_exactly(self.request.problem, _FLOAT_BITS):
+        if self.lowering is None and not decides_exactly(self.request.problem, _FLOAT_BITS):
             note = "it says unsolvable, but counts in floating point"
             return Answer(Status.UNSOLVED, note=note)
         return Answer(Status.UNSOLVABLE)
 
 
-def _parsed(text: str) -> Plan:
+def _plan_of(text: str) -> Plan:
     """Return a plan; the line that says when a plan of PDDL+ ends is no action."""
     return parse_plan("\n".join(line for line in text.splitlines() if "@" not in line))
 
 
-def _lowered(request: Request) -> Lowered | None:
+def _lowering(request: Request) -> Lowering | None:
     """Return the lowered task where actions change costs: kairos' search ignores such metrics."""
     domain = request.problem.domain
     if domain.is_temporal or domain.changed_functions <= {TOTAL_COST}:

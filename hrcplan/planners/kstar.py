@@ -14,7 +14,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from hrcplan.errors import LimitError, MissingPlannerError, PlannerError, UnsupportedError
-from hrcplan.planners.lowering import Lowered
+from hrcplan.planners.lowering import Lowering
 from hrcplan.planners.process import FinishedProcess, ProcessEnd, ProcessLimits, run
 from hrcplan.task import GroundAction
 
@@ -46,12 +46,12 @@ def missing() -> str | None:
 
 
 def list_plans(
-    lowered: Lowered, limits: ProcessLimits, *, n: int | None = None, quality: float | None = 1.0
+    lowering: Lowering, limits: ProcessLimits, *, n: int | None = None, quality: float | None = 1.0
 ) -> Listed:
     """Return the cheapest plans of a lowered task.
 
     Args:
-        lowered: The task.
+        lowering: The task.
         limits: What the child process may use.
         n: How many plans; all within ``quality`` if None.
         quality: The largest multiple of the optimal cost; any cost if None.
@@ -68,11 +68,11 @@ def list_plans(
     spec = find_spec("kstar_planner")
     if spec is None or spec.origin is None:
         raise MissingPlannerError(f"plans cannot be listed: {missing()}")
-    if not lowered.fits_32_bits:
-        message = f"costs in whole numbers (times {lowered.scale}) exceed 32-bit integers"
+    if not lowering.fits_32_bits:
+        message = f"costs in whole numbers (times {lowering.scale}) exceed 32-bit integers"
         raise UnsupportedError(message, hint="--bank-cost steps")
     # An alternative goal becomes an axiom, with which only blind search is admissible.
-    plain = not lowered.conditional and "(or " not in lowered.problem_text
+    plain = not lowering.conditional and "(or " not in lowering.problem_text
     bounds = [f"k={n}"] if n is not None else []
     bounds += [f"q={quality}"] if quality is not None else []
     heuristic = "lmcut" if plain else "blind"
@@ -80,30 +80,30 @@ def list_plans(
     build = Path(spec.origin).parent / "builds" / "release" / "bin"
     with TemporaryDirectory(prefix="hrcplan-") as folder:
         cwd = Path(folder)
-        (cwd / "domain.pddl").write_text(lowered.domain_text)
-        (cwd / "problem.pddl").write_text(lowered.problem_text)
+        (cwd / "domain.pddl").write_text(lowering.domain_text)
+        (cwd / "problem.pddl").write_text(lowering.problem_text)
         argv = [sys.executable, "-P", "-m", "kstar_planner.driver.main", "--build", str(build),
                 "domain.pddl", "problem.pddl",
                 "--translate-options", "--invariant-generation-max-time", "0",
                 "--search-options", "--symmetries", _SYMMETRIES, "--search", search]  # fmt: skip
-        finished = run(argv, cwd=cwd, limits=limits)
-        plans = tuple(_plans(lowered, cwd / "plans.json", finished))
+        process = run(argv, cwd=cwd, limits=limits)
+        plans = tuple(_plans(lowering, cwd / "plans.json", process))
     return Listed(plans, n is None or len(plans) < n)
 
 
 def _plans(
-    lowered: Lowered, path: Path, finished: FinishedProcess
+    lowering: Lowering, path: Path, process: FinishedProcess
 ) -> Iterator[tuple[GroundAction, ...]]:
-    if finished.ended in (ProcessEnd.TIMEOUT, ProcessEnd.MEMORY, ProcessEnd.OUTPUT):
-        message = f"K* reached its limit ({finished.ended.value}) before it had listed the plans"
-        raise LimitError(message, code=finished.ended.value, hint="a smaller --sample")
-    if finished.code == _UNSOLVABLE:
+    if process.end in (ProcessEnd.TIMEOUT, ProcessEnd.MEMORY, ProcessEnd.OUTPUT):
+        message = f"K* reached its limit ({process.end.value}) before it had listed the plans"
+        raise LimitError(message, code=process.end.value, hint="a smaller --sample")
+    if process.code == _UNSOLVABLE:
         return
     if not path.is_file() or not path.stat().st_size:
-        last = (finished.stderr or finished.stdout).strip().splitlines()[-1:]
-        raise PlannerError(f"K* gave no answer (exit code {finished.code}): {' '.join(last)}")
+        last = (process.stderr or process.stdout).strip().splitlines()[-1:]
+        raise PlannerError(f"K* gave no answer (exit code {process.code}): {' '.join(last)}")
     try:
         for plan in json.loads(path.read_text())["plans"]:
-            yield tuple(lowered.actions[word.split()[0]] for word in plan["actions"])
+            yield tuple(lowering.actions[word.split()[0]] for word in plan["actions"])
     except (KeyError, ValueError) as error:
         raise PlannerError(f"K* answered what cannot be read: {error!r}") from None

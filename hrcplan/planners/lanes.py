@@ -45,7 +45,7 @@ def schedule(problem: Problem, plan: Plan) -> tuple[Plan, bool]:
     tails = _tails(jobs)
     ends: dict[int, Number] = {}
     free: dict[str, Number] = dict.fromkeys(problem.agents, 0)
-    placed: list[PlannedAction] = []
+    timeline: list[PlannedAction] = []
     while len(ends) < len(jobs):
         ready = [i for i, job in enumerate(jobs) if i not in ends and ends.keys() >= set(job.after)]
         offers = (_offer(i, jobs[i], ends, free, gap, tails) for i in ready)
@@ -53,10 +53,10 @@ def schedule(problem: Problem, plan: Plan) -> tuple[Plan, bool]:
         action, busy = jobs[i].options[option]
         ends[i] = start + jobs[i].duration
         free.update((agent, ends[i] + gap) for agent in busy)
-        placed.append(replace(action, start_s=start, duration_s=jobs[i].duration))
-    placed.sort(key=lambda a: (a.start_s, a.args))
+        timeline.append(replace(action, start_s=start, duration_s=jobs[i].duration))
+    timeline.sort(key=lambda a: (a.start_s, a.args))
     makespan = max(ends.values(), default=0)
-    return Plan(tuple(placed)), makespan - _bound(jobs, tails) <= gap * len(jobs)
+    return Plan(tuple(timeline)), makespan - _bound(jobs, tails) <= gap * len(jobs)
 
 
 def _offer(
@@ -74,7 +74,7 @@ def _offer(
 
 
 def _jobs(problem: Problem, plan: Plan) -> list[_Job]:
-    touches = [touched(problem, action) for action in plan.actions]
+    touches = [whole_access(problem, action) for action in plan.actions]
     options = _options(problem, plan)
     return [
         _Job(
@@ -133,7 +133,7 @@ def _binding(schema: Action, action: PlannedAction, problem: Problem) -> dict[st
     return dict(binding)
 
 
-def touched(problem: Problem, action: PlannedAction) -> Access:
+def whole_access(problem: Problem, action: PlannedAction) -> Access:
     """Return what a whole action reads and writes, but for the total-cost that it adds."""
     schema = problem.domain.action(action.name)
     binding = _binding(schema, action, problem)
@@ -153,13 +153,13 @@ def _options(problem: Problem, plan: Plan) -> list[tuple[_Option, ...]]:
     for ground in task.actions:
         by_step.setdefault(ground.step, []).append(ground.index)
     choices: list[tuple[_Option, ...]] = []
-    for action, kept in zip(plan.actions, own, strict=True):
+    for action, own_option in zip(plan.actions, own, strict=True):
         mine = task.find(action.name, action.args)
         alike = [
             i for i in by_step[task.actions[mine[0]].step] if task.costs[i] == task.costs[mine[0]]
         ] if mine else []  # fmt: skip
         others = [PlannedAction(task.actions[i].name, task.actions[i].args) for i in alike]
-        choices.append(tuple((o, occupied(o, problem)) for o in others) or kept)
+        choices.append(tuple((o, occupied(o, problem)) for o in others) or own_option)
     return choices
 
 
@@ -175,10 +175,10 @@ def _tails(jobs: Sequence[_Job]) -> list[Number]:
 def _bound(jobs: Sequence[_Job], tails: Sequence[Number]) -> Number:
     """Return a makespan that no schedule of these steps beats: chains, and work per agent."""
     agents = {agent for job in jobs for _, busy in job.options for agent in busy}
-    fixed = [
+    lane_times = [
         sum(job.duration for job in jobs if all(agent in busy for _, busy in job.options))
         for agent in agents
     ]
     work = sum(job.duration * min(len(busy) for _, busy in job.options) for job in jobs)
     spread = -(-work // len(agents)) if agents and isinstance(work, int) else 0
-    return max([0, *tails, *fixed, spread])
+    return max([0, *tails, *lane_times, spread])

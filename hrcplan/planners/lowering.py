@@ -38,7 +38,7 @@ _ODD = re.compile(r"[^a-z0-9_-]")
 
 
 @dataclass(frozen=True)
-class Lowered:
+class Lowering:
     """Lowered PDDL and the way back from it.
 
     Attributes:
@@ -71,10 +71,10 @@ class Lowered:
             PlanFormatError: if the text is no plan, or names an action that is not in the table.
         """
         actions: list[PlannedAction] = []
-        for lowered in parse_plan(text).actions:
-            action = self.actions.get(lowered.name)
-            if action is None or lowered.args:
-                raise PlanFormatError(f"{lowered} is no action of the lowered task")
+        for lowered_action in parse_plan(text).actions:
+            action = self.actions.get(lowered_action.name)
+            if action is None or lowered_action.args:
+                raise PlanFormatError(f"{lowered_action} is no action of the lowered task")
             actions.append(PlannedAction(action.name, action.args))
         return Plan(tuple(actions))
 
@@ -104,7 +104,7 @@ class Lowered:
         return sum(self.costs) < MAX_COST
 
 
-def lower(task: Task) -> Lowered:
+def lower(task: Task) -> Lowering:
     """Return a task as grounded classical PDDL, in its sequential reading.
 
     Functions that no action changes are folded into the costs; rational costs are scaled to
@@ -131,9 +131,9 @@ def lower(task: Task) -> Lowered:
     facts = [names.take(_fact_words(fact)) for fact in task.facts]
     actions = {names.take((a.name, *a.args)): a for a in task.actions}
     text = _Text(facts)
-    return Lowered(
-        domain_text=_joined(text.domain(task, actions, costs)),
-        problem_text=_joined(text.problem(task)),
+    return Lowering(
+        domain_text=_lines(text.domain(task, actions, costs)),
+        problem_text=_lines(text.problem(task)),
         actions=actions,
         costs=costs,
         scale=scale,
@@ -156,14 +156,14 @@ class _Metric:
 def _metric(task: Task) -> _Metric:
     problem = task.problem
     temporal = problem.domain.is_temporal
-    started = problem.values.get((TOTAL_COST,), 0)
+    initial_cost = problem.values.get((TOTAL_COST,), 0)
     if problem.metric is None:
-        return _Metric(_weighted(task, 1), started, not temporal)
+        return _Metric(_weigh(task, 1), initial_cost, not temporal)
     parts = linear(problem.metric, {})
     if parts is None:
         raise UnsupportedError(f"the metric {problem.metric} is not a weighted sum")
     weight = parts.get((TOTAL_COST,), 0)
-    offset = weight * started
+    offset = weight * initial_cost
     for key, factor in parts.items():
         if key in ((TOTAL_COST,), (TOTAL_TIME,)) or not factor:
             continue
@@ -175,12 +175,10 @@ def _metric(task: Task) -> _Metric:
     step = parts.get((TOTAL_TIME,), 0)
     if temporal and step and not weight:
         return _Metric([a.duration or 0 for a in task.actions], offset, False)
-    return _Metric(
-        _weighted(task, weight, 0 if temporal else step), offset, not (temporal and step)
-    )
+    return _Metric(_weigh(task, weight, 0 if temporal else step), offset, not (temporal and step))
 
 
-def _weighted(task: Task, weight: Number, step: Number = 0) -> Sequence[Number]:
+def _weigh(task: Task, weight: Number, step: Number = 0) -> Sequence[Number]:
     """Return what each action adds to the metric, with the sign that is to be minimized."""
     sign = -1 if task.problem.maximize else 1
     prices = [sign * (weight * cost + step) for cost in task.costs]
@@ -196,8 +194,8 @@ def _weighted(task: Task, weight: Number, step: Number = 0) -> Sequence[Number]:
 class _Names:
     """Readable PDDL names, each given once: fact and action names never clash."""
 
-    def __init__(self, *reserved: str) -> None:
-        self._taken = {"", *reserved}
+    def __init__(self, *reserved_names: str) -> None:
+        self._names = {"", *reserved_names}
 
     def take(self, words: Sequence[str]) -> str:
         """Return a new name made of words."""
@@ -205,10 +203,10 @@ class _Names:
         if not stem[:1].isalpha():
             stem = f"x-{stem}"
         name, count = stem, 1
-        while name in self._taken:
+        while name in self._names:
             count += 1
             name = f"{stem}--v{count}"
-        self._taken.add(name)
+        self._names.add(name)
         return name
 
 
@@ -216,7 +214,7 @@ def _fact_words(fact: Sequence[str]) -> Sequence[str]:
     return (*fact[1:-1], "is", fact[-1]) if fact[0] == "=" else fact
 
 
-def _joined(lines: Iterable[str]) -> str:
+def _lines(lines: Iterable[str]) -> str:
     return "".join(f"{line}\n" for line in lines)
 
 

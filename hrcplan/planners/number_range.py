@@ -97,26 +97,26 @@ def _pricing(problem: Problem) -> Iterator[Expr]:
 
 def _deciding(problem: Problem) -> Iterator[Expr]:
     """Yield the expressions that decide which actions can run, and whether the goal holds."""
-    yield from _compared(problem.goal)
+    yield from _comparisons(problem.goal)
     for action in problem.domain.actions:
         for condition in action.conditions:
-            yield from _compared(condition.formula)
+            yield from _comparisons(condition.formula)
         yield from (duration for _, duration in action.durations)
         for effect in action.effects:
-            yield from _compared(effect.condition)
+            yield from _comparisons(effect.condition)
             if effect.value is not None and effect.target.name != TOTAL_COST:
                 yield effect.value
 
 
-def _compared(formula: Formula) -> Iterator[Expr]:
+def _comparisons(formula: Formula) -> Iterator[Expr]:
     match formula:
         case Compare(_, left, right):
             yield from (left, right)
         case Not(body) | Quantified(_, _, body):
-            yield from _compared(body)
+            yield from _comparisons(body)
         case And(parts) | Or(parts):
             for part in parts:
-                yield from _compared(part)
+                yield from _comparisons(part)
 
 
 def _parts(expression: Expr) -> Iterator[Expr]:

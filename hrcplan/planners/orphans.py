@@ -33,7 +33,7 @@ class Family:
         """
         session, until = os.getsid(0), time.monotonic() + _PATIENCE_S
         while time.monotonic() < until:
-            orphans = [pid for pid in self._adopted() if _session(pid) not in (session, None)]
+            orphans = [pid for pid in self._orphans() if _session(pid) not in (session, None)]
             if not orphans:
                 return
             for pid in orphans:
@@ -43,7 +43,7 @@ class Family:
                 with suppress(ChildProcessError):
                     os.waitpid(pid, os.WNOHANG)
 
-    def _adopted(self) -> list[int]:
+    def _orphans(self) -> list[int]:
         with _lock:
             if len(_families) > 1:  # supervisors of other threads are new children, too
                 return []

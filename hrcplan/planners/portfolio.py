@@ -24,7 +24,7 @@ class Portfolio:
         self.request = request
         self.best: Result | None = None
         self.bound: Number | None = None
-        self._proven = False
+        self._is_proven = False
         self._claims: dict[str, Result] = {}
         self._unsolvable: Result | None = None
         self._attempts: list[Attempt] = []
@@ -36,7 +36,7 @@ class Portfolio:
         """Whether nothing that another planner says could change the result."""
         if self.best is None:
             return self._unsolvable is not None
-        return self._proven or self.request.any_plan
+        return self._is_proven or self.request.any_plan
 
     @property
     def confirms_unsolvable(self) -> bool:
@@ -51,13 +51,13 @@ class Portfolio:
         mine = self.best.objective if self.best else None
         proof = result.status is Status.OPTIMAL
         if self.best is None or is_better(problem, result.objective, mine):
-            refuted = self._proven and not self._within_gaps(result)
+            is_refuted = self._is_proven and not self._within_gaps(result)
             self.best = result
-            self._proven = proof or (self._proven and not refuted)
-            if refuted:
+            self._is_proven = proof or (self._is_proven and not is_refuted)
+            if is_refuted:
                 self.bound = None
-        elif proof and not self._proven and not self._is_beaten(result):
-            self.best, self._proven = result, True
+        elif proof and not self._is_proven and not self._is_beaten(result):
+            self.best, self._is_proven = result, True
 
     def take(self, result: Result) -> None:
         """Take what a planner said when it ended."""
@@ -102,11 +102,11 @@ class Portfolio:
         apart = abs(Fraction(result.objective - self.best.objective))
         return apart <= result.gaps or apart <= self.best.gaps
 
-    def _is_beaten(self, proven: Result) -> bool:
+    def _is_beaten(self, result: Result) -> bool:
         """Return whether a plan is known that a claimed optimum should not allow."""
         assert self.best is not None
-        better = is_better(self.request.problem, self.best.objective, proven.objective)
-        return better and not self._within_gaps(proven)
+        better = is_better(self.request.problem, self.best.objective, result.objective)
+        return better and not self._within_gaps(result)
 
     def only(self, planner: str) -> Result:
         """Return what the only planner that was asked said: its own words, not the portfolio's.
@@ -148,7 +148,7 @@ class Portfolio:
                 bound = None  # a plan refutes a bound
             elif apart <= best.gaps:
                 return replace(best, bound=bound, status=Status.OPTIMAL)
-        status = Status.OPTIMAL if self._proven else Status.SOLVED
+        status = Status.OPTIMAL if self._is_proven else Status.SOLVED
         return replace(best, bound=bound, status=status)
 
     def _worst_failure(self) -> HrcplanError:

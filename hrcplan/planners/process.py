@@ -70,14 +70,14 @@ class FinishedProcess:
     """How a program ended and what it wrote.
 
     Attributes:
-        ended: What ended it.
+        end: What ended it.
         code: Exit code, or minus the number of the signal that killed it; None unless ``EXITED``.
         stdout: Standard output as UTF-8, wrong bytes replaced. At a limit: what came before it.
         stderr: Standard error, in the same way; if ``MISSING``, the operating system's reason.
         wall_s: Wall-clock seconds of the whole call, clearing up included.
     """
 
-    ended: ProcessEnd
+    end: ProcessEnd
     code: int | None
     stdout: str
     stderr: str
@@ -110,19 +110,21 @@ def run(
     Example:
         >>> run(["echo", "found a plan"], cwd=Path("/"), limits=ProcessLimits(time_s=5)).stdout
         'found a plan\n'
-        >>> run(["sleep", "60"], cwd=Path("/"), limits=ProcessLimits(time_s=0.1)).ended
+        >>> run(["sleep", "60"], cwd=Path("/"), limits=ProcessLimits(time_s=0.1)).end
         <ProcessEnd.TIMEOUT: 'timeout'>
     """
     started_s = time.monotonic()
-    with orphans.adoption() as family, _guarded(_job(argv, limits, env), cwd) as (guard, report):
+    with orphans.adoption() as family, _guard(_job(argv, limits, env), cwd) as (guard, report):
         output, answer = _collect(guard, report, limits, on_tick)
         if not output.is_over and not answer:
             orphans.end_tree(guard.pid)
             guard.wait()
             family.end_orphans()
-    ended, code, message = _verdict(output, answer)
-    stdout, stderr = (bytes(kept).decode("utf-8", "replace") for kept in output.streams.values())
-    return FinishedProcess(ended, code, stdout, stderr + message, time.monotonic() - started_s)
+    end, code, message = _verdict(output, answer)
+    stdout, stderr = (
+        bytes(stream).decode("utf-8", "replace") for stream in output.streams.values()
+    )
+    return FinishedProcess(end, code, stdout, stderr + message, time.monotonic() - started_s)
 
 
 def _job(argv: Sequence[str], limits: ProcessLimits, env: Mapping[str, str] | None) -> bytes:
@@ -130,13 +132,13 @@ def _job(argv: Sequence[str], limits: ProcessLimits, env: Mapping[str, str] | No
     if not argv:
         raise ValueError("no program to run")
     variables = os.environ if env is None else env
-    encoded = {os.fsencode(name): os.fsencode(value) for name, value in variables.items()}
+    environment = {os.fsencode(name): os.fsencode(value) for name, value in variables.items()}
     words = [os.fsencode(word) for word in argv]
-    return marshal.dumps((words, encoded, os.getpid(), limits.time_s, limits.memory_bytes))
+    return marshal.dumps((words, environment, os.getpid(), limits.time_s, limits.memory_bytes))
 
 
 @contextlib.contextmanager
-def _guarded(job: bytes, cwd: Path) -> Iterator[tuple[subprocess.Popen[bytes], int]]:
+def _guard(job: bytes, cwd: Path) -> Iterator[tuple[subprocess.Popen[bytes], int]]:
     """Yield the guard at work on a job; on the way out cut its lifeline and await its end."""
     report, report_write = os.pipe()
     try:
@@ -190,10 +192,10 @@ class _Output:
         """Keep what can be read now; return whether more may come."""
         # One byte more than fits tells "exactly full" from "too much".
         piece = os.read(fd, min(_CHUNK, self.room + 1))
-        kept = piece[: self.room]
-        self.streams[fd] += kept
-        self.room -= len(kept)
-        self.is_over = self.is_over or len(kept) < len(piece)
+        head = piece[: self.room]
+        self.streams[fd] += head
+        self.room -= len(head)
+        self.is_over = self.is_over or len(head) < len(piece)
         return bool(piece) and not self.is_over
 
 

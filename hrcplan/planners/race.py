@@ -15,7 +15,7 @@ from hrcplan.errors import HrcplanError, LimitError, PlannerError
 from hrcplan.planners.choice import Job
 from hrcplan.planners.contract import Answer, Request, Status
 from hrcplan.planners.portfolio import Portfolio
-from hrcplan.planners.result import Result, ask, checked
+from hrcplan.planners.result import Result, ask, check_answer
 from hrcplan.planners.workers import Work, Worker, end
 from hrcplan.plans import Plan
 
@@ -56,7 +56,7 @@ class _Lane:
     job: Job
     worker: Worker[_Message]
     has_answered: bool = False
-    begun: float = field(default_factory=time.monotonic)
+    start_s: float = field(default_factory=time.monotonic)
 
 
 def race(request: Request, waiting: Sequence[Job], lanes: bool, on_better: OnBetter) -> Portfolio:
@@ -82,7 +82,7 @@ class _Race:
         self._ready = selectors.PollSelector()
         self._in_lanes = lanes
         self._on_better = on_better
-        self._begun = time.monotonic()
+        self._start_s = time.monotonic()
         most = min(len(waiting), self._slots + len(LATER))
         self._memory = request.memory_bytes // max(1, most)
 
@@ -102,9 +102,9 @@ class _Race:
 
     def _start(self) -> None:
         """Begin jobs as long as there is room and time for them."""
-        passed = time.monotonic() - self._begun
-        whole = self.request.deadline - self._begun
-        room = self._slots + sum(passed > part * whole for part in LATER)
+        elapsed_s = time.monotonic() - self._start_s
+        whole = self.request.deadline - self._start_s
+        room = self._slots + sum(elapsed_s > part * whole for part in LATER)
         while self._waiting and len(self._lanes) < room and self.request.time_left_s > 0:
             job = self._waiting.pop(0)
             request = replace(
@@ -144,7 +144,7 @@ class _Race:
                     self.portfolio.take_bound(result)
             case HrcplanError() as error if lane.job.finds_plans and not lane.has_answered:
                 lane.has_answered = True
-                wall_s = time.monotonic() - lane.begun
+                wall_s = time.monotonic() - lane.start_s
                 self.portfolio.take_failure(lane.job.name, error, wall_s)
         best = self.portfolio.best
         goes_on = len(self._lanes) > 1 or isinstance(message, _Improvement)
@@ -166,7 +166,11 @@ def _work(job: Job, request: Request, lanes: bool) -> Work[_Message]:
             answer = Answer(Status.SOLVED, plan)
             with contextlib.suppress(PlannerError):
                 card, problem = job.planner.card, request.problem
-                send(_Improvement(checked(card, problem, answer, lanes, job.why, request.replays)))
+                send(
+                    _Improvement(
+                        check_answer(card, problem, answer, lanes, job.why, request.replays)
+                    )
+                )
 
         try:
             send(ask(job.planner, replace(request, on_plan=on_plan), lanes, job.why))

@@ -68,23 +68,23 @@ class RelaxedBound:
 
 
 def _classical(task: Task) -> Answer:
-    lowered = lower(task)
-    cost = _least_cost(task, lowered.costs)
+    lowering = lower(task)
+    cost = _least_cost(task, lowering.costs)
     if cost is None:
         return Answer(Status.UNSOLVABLE)
-    return Answer(Status.UNSOLVED, note="", bound=lowered.objective(cost))
+    return Answer(Status.UNSOLVED, note="", bound=lowering.objective(cost))
 
 
 def _temporal(task: Task) -> Answer:
-    wanted = metric(task.problem)
-    prices = [Fraction(wanted.cost * cost) for cost in task.costs]
+    objective = metric(task.problem)
+    prices = [Fraction(objective.cost * cost) for cost in task.costs]
     if any(price < 0 for price in prices):
         raise UnsupportedError("an action has a negative cost")
     scale = lcm(*(price.denominator for price in prices))
     cost = _least_cost(task, [int(price * scale) for price in prices])
     if cost is None:
         return Answer(Status.UNSOLVABLE)
-    bound = Fraction(cost, scale) + wanted.time * _least_time(task) + wanted.constant
+    bound = Fraction(cost, scale) + objective.time * _least_time(task) + objective.constant
     return Answer(Status.UNSOLVED, bound=exact(bound))
 
 

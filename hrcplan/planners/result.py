@@ -116,10 +116,10 @@ def ask(planner: Planner, request: Request, lanes: bool, why: str) -> Result:
     if beyond:
         message = f"planner '{planner.card.name}' does not know {' and '.join(beyond)}"
         raise UnsupportedError(message, hint="kairos knows them" if planner.card.own else None)
-    begun = time.monotonic()
+    start_s = time.monotonic()
     answer = planner.solve(request)
-    result = checked(planner.card, request.problem, answer, lanes, why, request.replays)
-    wall_s = time.monotonic() - begun
+    result = check_answer(planner.card, request.problem, answer, lanes, why, request.replays)
+    wall_s = time.monotonic() - start_s
     notes = [note for note in (answer.note, result.mismatch) if note]
     attempts = tuple(Attempt(planner.card.name, note, wall_s) for note in notes)
     return replace(result, wall_s=wall_s, attempts=attempts)
@@ -132,7 +132,7 @@ def is_better(problem: Problem, one: Number | None, other: Number | None) -> boo
     return one > other if problem.metric is not None and problem.maximize else one < other
 
 
-def checked(
+def check_answer(
     card: Capabilities, problem: Problem, answer: Answer, lanes: bool, why: str,
     replay: Replay = validate,
 ) -> Result:  # fmt: skip
@@ -163,11 +163,11 @@ def checked(
         report = validate(problem, plan)
         _demand_valid(card, report)
     value = objective(problem, report)
-    proven = answer.status is Status.OPTIMAL and mismatch is None
-    bound = (value if answer.bound is None else answer.bound) if proven else answer.bound
+    is_optimal = answer.status is Status.OPTIMAL and mismatch is None
+    bound = (value if answer.bound is None else answer.bound) if is_optimal else answer.bound
     return replace(
         result, plan=plan, report=report, shortest=shortest, objective=value, bound=bound,
-        status=Status.OPTIMAL if proven else Status.SOLVED,
+        status=Status.OPTIMAL if is_optimal else Status.SOLVED,
         gaps=_gaps(problem, plan), mismatch=mismatch,
     )  # fmt: skip
 
@@ -229,12 +229,12 @@ def compare(results: Sequence[Result]) -> None:
                 _compare_values(result, other)
 
 
-def _compare_values(result: Result, proven: Result) -> None:
-    mine, theirs = result.objective, proven.objective
+def _compare_values(result: Result, best: Result) -> None:
+    mine, theirs = result.objective, best.objective
     if mine is None or theirs is None:
         return
-    if mine < theirs - proven.gaps and _differ(mine, theirs):
+    if mine < theirs - best.gaps and _differ(mine, theirs):
         raise CostGuardError(
-            f"'{proven.planner}' claims {number_text(theirs)} is optimal, but "
+            f"'{best.planner}' claims {number_text(theirs)} is optimal, but "
             f"'{result.planner}' has a plan for {number_text(mine)}"
         )

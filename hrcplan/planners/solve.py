@@ -53,17 +53,17 @@ def solve(
         PlannerError: if it crashed, or its plan is invalid.
         LimitError: if grounding ran out of bounds and no other planner was left.
     """
-    begun = time.monotonic()
-    request = Request(problem, begun + timeout_s, any_plan, memory_bytes, LazyTask(task))
+    start_s = time.monotonic()
+    request = Request(problem, start_s + timeout_s, any_plan, memory_bytes, LazyTask(task))
     if planner == AUTO:
         grounding_s = min(GROUNDING_S, timeout_s / 10)
         request.lazy_task.begin(problem, time.monotonic() + grounding_s)
         answer = _run(request, jobs(request), lanes, on_better).result()
     else:
-        chosen = registry.make(planner) if isinstance(planner, str) else planner
-        job = Job(chosen, any_plan, "it was asked for")
-        answer = _confirmed(_named(request, job, planner is not chosen, lanes, on_better), request)
-    return replace(answer, wall_s=time.monotonic() - begun)
+        one = registry.make(planner) if isinstance(planner, str) else planner
+        job = Job(one, any_plan, "it was asked for")
+        answer = _confirm(_ask_one(request, job, planner is not one, lanes, on_better), request)
+    return replace(answer, wall_s=time.monotonic() - start_s)
 
 
 def _run(request: Request, waiting: Sequence[Job], lanes: bool, on_better: OnBetter) -> Portfolio:
@@ -79,15 +79,17 @@ def in_turn(request: Request, waiting: Sequence[Job], lanes: bool) -> Portfolio:
     """
     portfolio = Portfolio(request)
     for position, job in enumerate(waiting):
-        begun = time.monotonic()
+        start_s = time.monotonic()
         left_s = request.time_left_s
         share_s = left_s if position == len(waiting) - 1 else left_s / 2
-        turn = replace(request, deadline=begun + share_s, any_plan=job.any_plan or request.any_plan)
+        turn = replace(
+            request, deadline=start_s + share_s, any_plan=job.any_plan or request.any_plan
+        )
         try:
             result = ask(job.planner, turn, lanes, job.why)
         except HrcplanError as error:
             if job.finds_plans:
-                portfolio.take_failure(job.name, error, time.monotonic() - begun)
+                portfolio.take_failure(job.name, error, time.monotonic() - start_s)
             continue
         if job.finds_plans:
             portfolio.take(result)
@@ -98,14 +100,16 @@ def in_turn(request: Request, waiting: Sequence[Job], lanes: bool) -> Portfolio:
     return portfolio
 
 
-def _named(request: Request, job: Job, is_named: bool, lanes: bool, on_better: OnBetter) -> Result:
+def _ask_one(
+    request: Request, job: Job, is_named: bool, lanes: bool, on_better: OnBetter
+) -> Result:
     """Return the answer of the one planner that was asked for; its failures are the caller's."""
     if not (is_named and can_race()):
         return ask(job.planner, request, lanes, job.why)
     return race(request, [job], lanes, on_better).only(job.name)
 
 
-def _confirmed(first: Result, request: Request) -> Result:
+def _confirm(first: Result, request: Request) -> Result:
     """Return a result; a claim that a task is unsolvable is checked with other planners."""
     if first.claim is not Status.UNSOLVABLE or first.status is Status.UNSOLVABLE:
         return first

@@ -88,24 +88,24 @@ class LiftedSpace:
         self._instances = reachable(problem, deadline)[0]
         self._counts_cost = _looks_at_cost(problem)
         self.has_negative_costs = not never_lowers_cost(problem)
-        values = {k: v for k, v in problem.values.items() if self._is_kept(k)}
+        values = {k: v for k, v in problem.values.items() if self._is_part(k)}
         self.initial: Hashable = (frozenset(problem.facts), frozenset(values.items()))
         self._cost = problem.values.get(_COST, 0)
 
-    def _is_kept(self, key: FluentKey) -> bool:
+    def _is_part(self, key: FluentKey) -> bool:
         return key != _COST or self._counts_cost
 
-    def _lifted(self, state: Hashable) -> LiftedState:
+    def _lifted_state(self, state: Hashable) -> LiftedState:
         assert isinstance(state, tuple)
         facts, values = state
-        known: dict[FluentKey, Number] = dict(values)
+        all_values: dict[FluentKey, Number] = dict(values)
         if TOTAL_COST in self._problem.domain.functions:
-            known.setdefault(_COST, self._cost)
-        return LiftedState(facts, known)
+            all_values.setdefault(_COST, self._cost)
+        return LiftedState(facts, all_values)
 
     def successors(self, state: Hashable) -> Iterator[tuple[PlannedAction, Number, Hashable]]:
         """Yield the actions that can run in a state, what each costs, and the state after it."""
-        before, problem = self._lifted(state), self._problem
+        before, problem = self._lifted_state(state), self._problem
         for action, args, binding in self._instances:
             try:
                 if not all(holds(c.formula, before, binding, problem) for c in action.conditions):
@@ -114,19 +114,19 @@ class LiftedSpace:
             except Undefined:
                 continue
             cost = after.values.get(_COST, 0) - before.values.get(_COST, 0)
-            values = frozenset((k, v) for k, v in after.values.items() if self._is_kept(k))
+            values = frozenset((k, v) for k, v in after.values.items() if self._is_part(k))
             yield PlannedAction(action.name, args), cost, (frozenset(after.facts), values)
 
     def is_goal(self, state: Hashable) -> bool:
         """Return whether the goal holds."""
         try:
-            return holds(self._problem.goal, self._lifted(state), {}, self._problem)
+            return holds(self._problem.goal, self._lifted_state(state), {}, self._problem)
         except Undefined:
             return False
 
     def value(self, state: Hashable) -> Number:
         """Return the problem's metric in a state, with no time passed and the initial cost."""
-        values = dict(self._lifted(state).values)
+        values = dict(self._lifted_state(state).values)
         return metric_of(self._problem, {**values, _COST: self._cost})
 
 
@@ -138,9 +138,9 @@ def metric_of(problem: Problem, values: dict[FluentKey, Number]) -> Number:
     """
     if problem.metric is None:
         return problem.values.get(_COST, 0) if TOTAL_COST in problem.domain.functions else 0
-    known = {**values, (TOTAL_TIME,): 0}
-    known.setdefault(_COST, 0)
-    return exact(evaluate(problem.metric, known, {}))
+    all_values = {**values, (TOTAL_TIME,): 0}
+    all_values.setdefault(_COST, 0)
+    return exact(evaluate(problem.metric, all_values, {}))
 
 
 def _looks_at_cost(problem: Problem) -> bool:

@@ -95,20 +95,20 @@ def path_metric(problem: Problem) -> PathMetric:
         return PathMetric(0 if counts else 1, 1 if counts else 0, 1, False)
     sign = -1 if problem.maximize else 1
     names = {function.name for function in functions_in(problem.metric)}
-    changed = names & problem.domain.changed_functions - {TOTAL_COST}
+    changing = names & problem.domain.changed_functions - {TOTAL_COST}
     parts = linear(problem.metric, {})
     if parts is None:
         if names & {TOTAL_COST, TOTAL_TIME}:
             raise UnsupportedError(f"the metric {problem.metric} is not a weighted sum")
         return PathMetric(0, 0, sign, True)
     cost, step = (sign * parts.get((name,), 0) for name in (TOTAL_COST, TOTAL_TIME))
-    return PathMetric(cost, step, sign, bool(changed))
+    return PathMetric(cost, step, sign, bool(changing))
 
 
-class _Reached(NamedTuple):
+class _BestPath(NamedTuple):
     """How a state was reached at best."""
 
-    spent: Number
+    cost: Number
     before: Hashable
     action: PlannedAction | None
 
@@ -118,7 +118,7 @@ class _Search:
 
     def __init__(self, space: StateSpace, metric: PathMetric, request: Request) -> None:
         self.space, self.metric, self.request = space, metric, request
-        self.reached: dict[Hashable, _Reached] = {}
+        self.best_paths: dict[Hashable, _BestPath] = {}
         self.best: tuple[Number, Hashable] | None = None
         self.negative = False
 
@@ -128,46 +128,46 @@ class _Search:
         if self.best is None:
             if bound is None:
                 return Answer(Status.UNSOLVABLE)
-            return Answer(Status.UNSOLVED, note=self._stopped(), bound=self._bound(bound))
+            return Answer(Status.UNSOLVED, note=self._reason(), bound=self._bound(bound))
         plan, value = Plan(tuple(self._path(self.best[1]))), self._outer(self.best[0])
         if bound is None:
             return Answer(Status.OPTIMAL, plan, value, bound=value)
-        note = "" if self.request.any_plan else self._stopped()
+        note = "" if self.request.any_plan else self._reason()
         return Answer(Status.SOLVED, plan, value, note, self._bound(bound))
 
     def _run(self) -> Number | None:
         """Search until nothing better can be found (None), or return how far it got."""
         start = self.space.initial
-        self.reached[start] = _Reached(0, None, None)
+        self.best_paths[start] = _BestPath(0, None, None)
         queue: list[tuple[Number, int, Hashable]] = [(0, 0, start)]
         ticket = itertools.count(1)  # of states that are equally far, the first one comes first
         while queue:
-            spent, _, state = heappop(queue)
-            if self.reached[state].spent != spent:
+            distance, _, state = heappop(queue)
+            if self.best_paths[state].cost != distance:
                 continue
-            if self._is_enough(spent, state):
+            if self._is_enough(distance, state):
                 return None
             if self._is_out_of_bounds():
-                return spent
+                return distance
             if self.request.any_plan and self.best is not None:
-                return spent
+                return distance
             for action, cost, after in self.space.successors(state):
                 price = self.metric.cost * cost + self.metric.step
-                known = self.reached.get(after)
-                if known is not None and known.spent <= spent + price:
+                old = self.best_paths.get(after)
+                if old is not None and old.cost <= distance + price:
                     continue
                 self.negative = self.negative or price < 0
-                if self.negative and known is not None:
+                if self.negative and old is not None:
                     self._refuse_cycle(state, after)
-                self.reached[after] = _Reached(spent + price, state, action)
-                heappush(queue, (spent + price, next(ticket), after))
+                self.best_paths[after] = _BestPath(distance + price, state, action)
+                heappush(queue, (distance + price, next(ticket), after))
         return None
 
-    def _is_enough(self, spent: Number, state: Hashable) -> bool:
+    def _is_enough(self, cost: Number, state: Hashable) -> bool:
         """Take ``state`` as a goal if it is one, and return whether no other can be better."""
         if not self.space.is_goal(state):
             return False
-        value = self._inner(spent, state)
+        value = self._inner(cost, state)
         if self.best is None or value < self.best[0]:
             self.best = value, state
         return self._is_monotonic()
@@ -178,11 +178,11 @@ class _Search:
         lowers = metric.step < 0 or metric.cost < 0 or (metric.cost and space.has_negative_costs)
         return not metric.on_state and not lowers
 
-    def _bound(self, spent: Number) -> Number | None:
-        """Return what no plan is better than, after all states nearer than ``spent``."""
+    def _bound(self, cost: Number) -> Number | None:
+        """Return what no plan is better than, after all states nearer than ``cost``."""
         if not self._is_monotonic():
             return None
-        return self._outer(self._inner(spent, self.space.initial))
+        return self._outer(self._inner(cost, self.space.initial))
 
     def _refuse_cycle(self, state: Hashable, after: Hashable) -> None:
         """Raise if a better way to ``after`` leads through ``after`` itself."""
@@ -190,24 +190,24 @@ class _Search:
         while place is not None:
             if place == after:
                 raise UnsupportedError("repeating some actions improves the metric without end")
-            place = self.reached[place].before
+            place = self.best_paths[place].before
 
     def _is_out_of_bounds(self) -> bool:
-        return len(self.reached) > MAX_STATES or time.monotonic() > self.request.deadline
+        return len(self.best_paths) > MAX_STATES or time.monotonic() > self.request.deadline
 
-    def _stopped(self) -> str:
-        return f"stopped after {len(self.reached):,} states"
+    def _reason(self) -> str:
+        return f"stopped after {len(self.best_paths):,} states"
 
-    def _inner(self, spent: Number, state: Hashable) -> Number:
+    def _inner(self, cost: Number, state: Hashable) -> Number:
         """Return the metric, with the sign that is minimized, of a path that ends in ``state``."""
-        return exact(spent + self.metric.sign * self.space.value(state))
+        return exact(cost + self.metric.sign * self.space.value(state))
 
     def _outer(self, inner: Number) -> Number:
         return exact(self.metric.sign * inner)
 
     def _path(self, state: Hashable) -> Iterator[PlannedAction]:
         actions: list[PlannedAction] = []
-        while (step := self.reached[state]).action is not None:
+        while (step := self.best_paths[state]).action is not None:
             actions.append(step.action)
             state = step.before
         yield from reversed(actions)

@@ -27,7 +27,7 @@ from hrcplan.pddl.guards import guarded
 from hrcplan.pddl.model import TOTAL_COST, Function, Problem
 from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
-from hrcplan.planners.lowering import Lowered, lower
+from hrcplan.planners.lowering import Lowering, lower
 from hrcplan.planners.process import FinishedProcess, ProcessEnd, ProcessLimits, run
 from hrcplan.planners.up_table import Build, UpTable, table
 from hrcplan.plans import parse_plan
@@ -82,20 +82,20 @@ class UnifiedPlanning:
         job: dict[str, Any] = {
             "engine": self._engine,
             "timeout_s": max(0.1, request.time_left_s - _MARGIN_S),
-            "forms": [form.given for form in forms],
+            "forms": [form.input for form in forms],
         }
-        finished, reply = _call(job, ProcessLimits(request.time_left_s, request.memory_bytes))
-        return self._answer(forms, finished, reply)
+        process, reply = _call(job, ProcessLimits(request.time_left_s, request.memory_bytes))
+        return self._answer(forms, process, reply)
 
     def _answer(
-        self, forms: list[_Form], finished: FinishedProcess, reply: Mapping[str, Any] | None
+        self, forms: list[_Form], process: FinishedProcess, reply: Mapping[str, Any] | None
     ) -> Answer:
         name = self.card.name
         if reply is None:
-            if finished.ended is not ProcessEnd.EXITED:
-                return Answer(Status.UNSOLVED, note=f"stopped: {finished.ended.value}")
-            last = " / ".join((finished.stdout + finished.stderr).strip().splitlines()[-3:])
-            raise PlannerError(f"{name} ended with exit code {finished.code}: {last[-300:]}")
+            if process.end is not ProcessEnd.EXITED:
+                return Answer(Status.UNSOLVED, note=f"stopped: {process.end.value}")
+            last = " / ".join((process.stdout + process.stderr).strip().splitlines()[-3:])
+            raise PlannerError(f"{name} ended with exit code {process.code}: {last[-300:]}")
         if "missing" in reply:
             raise MissingPlannerError(f"{name} cannot be loaded: {reply['missing']}")
         if "unsupported" in reply:
@@ -103,10 +103,10 @@ class UnifiedPlanning:
         form = forms[reply["form"]]
         status = reply["status"]
         if reply["plan"] is not None:
-            lowered = form.lowered
-            plan = parse_plan(reply["plan"]) if lowered is None else lowered.plan(reply["plan"])
-            proven = status == "SOLVED_OPTIMALLY" and form.exact
-            return Answer(Status.OPTIMAL if proven else Status.SOLVED, plan)
+            lowering = form.lowering
+            plan = parse_plan(reply["plan"]) if lowering is None else lowering.plan(reply["plan"])
+            is_optimal = status == "SOLVED_OPTIMALLY" and form.exact
+            return Answer(Status.OPTIMAL if is_optimal else Status.SOLVED, plan)
         if status == "UNSOLVABLE_PROVEN":
             return Answer(Status.UNSOLVABLE)
         if status in ("INTERNAL_ERROR", "UNSUPPORTED_PROBLEM"):
@@ -118,8 +118,8 @@ class UnifiedPlanning:
 class _Form:
     """One way to put the task. ``exact``: cheapest here means cheapest by the problem's metric."""
 
-    given: list[str] | UpTable
-    lowered: Lowered | None
+    input: list[str] | UpTable
+    lowering: Lowering | None
     exact: bool
 
 
@@ -130,19 +130,19 @@ def _forms(request: Request) -> Iterator[_Form]:
     free = guarded(problem)
     free = free if plain else _without_costs(free)
     texts = [domain_text(free.domain), problem_text(free)]
-    lifted = _Form(texts, None, plain and not temporal)
+    lifted_form = _Form(texts, None, plain and not temporal)
     if temporal:
-        yield lifted
+        yield lifted_form
     try:
-        lowered = lower(request.task)
+        lowering = lower(request.task)
     except (UnsupportedError, LimitError):
-        lowered = None
-    if lowered is not None:
-        exact = lowered.exact_for_metric and not temporal
-        yield _Form(table(request.task, lowered, costs=True), lowered, exact)
-        yield _Form(table(request.task, lowered, costs=False), lowered, False)
+        lowering = None
+    if lowering is not None:
+        exact = lowering.exact_for_metric and not temporal
+        yield _Form(table(request.task, lowering, costs=True), lowering, exact)
+        yield _Form(table(request.task, lowering, costs=False), lowering, False)
     if not temporal:
-        yield lifted
+        yield lifted_form
 
 
 def _without_costs(problem: Problem) -> Problem:
@@ -150,8 +150,8 @@ def _without_costs(problem: Problem) -> Problem:
 
     A cost without a metric would be a fluent that every action changes: no two could overlap.
     """
-    kept = with_effects(problem.domain, lambda effect: effect.target.name != TOTAL_COST)
-    return replace(problem, domain=kept, metric=None, maximize=False)
+    plain_domain = with_effects(problem.domain, lambda effect: effect.target.name != TOTAL_COST)
+    return replace(problem, domain=plain_domain, metric=None, maximize=False)
 
 
 def _call(
@@ -164,9 +164,9 @@ def _call(
         cwd = Path(folder)
         (cwd / "job.json").write_text(json.dumps(job))
         argv = [sys.executable, "-P", "-W", "ignore", "-c", _CODE]
-        finished = run(argv, cwd=cwd, limits=limits, env={**os.environ, "PYTHONPATH": path})
+        process = run(argv, cwd=cwd, limits=limits, env={**os.environ, "PYTHONPATH": path})
         reply = cwd / "reply.json"
-        return finished, json.loads(reply.read_text()) if reply.exists() else None
+        return process, json.loads(reply.read_text()) if reply.exists() else None
 
 
 def engines(timeout_s: float = 30) -> Mapping[str, str | None]:
@@ -177,9 +177,9 @@ def engines(timeout_s: float = 30) -> Mapping[str, str | None]:
     Raises:
         PlannerError: if unified-planning cannot be imported in time.
     """
-    finished, reply = _call({"list": True}, ProcessLimits(timeout_s))
+    process, reply = _call({"list": True}, ProcessLimits(timeout_s))
     if reply is None:
-        raise PlannerError(f"unified-planning does not start: {finished.stderr[-300:]}")
+        raise PlannerError(f"unified-planning does not start: {process.stderr[-300:]}")
     return dict(reply)
 
 
@@ -268,9 +268,9 @@ def _solve(job: Mapping[str, Any]) -> dict[str, Any]:
     if not engine.is_oneshot_planner():
         return {"unsupported": "it does not solve problems by itself"}
     faults: list[str] = []
-    for form, given in enumerate(job["forms"]):
+    for form, form_input in enumerate(job["forms"]):
         try:
-            problem = _build(given)
+            problem = _build(form_input)
         except Exception as error:  # noqa: BLE001 - pyparsing's and UP's own kinds
             faults.append(str(error))
             continue
@@ -280,10 +280,10 @@ def _solve(job: Mapping[str, Any]) -> dict[str, Any]:
     return {"unsupported": "; ".join(dict.fromkeys(faults))}
 
 
-def _build(given: list[str] | UpTable) -> Any:
+def _build(form_input: list[str] | UpTable) -> Any:
     from unified_planning import model
 
-    return _read(*given) if isinstance(given, list) else Build(model, given).problem
+    return _read(*form_input) if isinstance(form_input, list) else Build(model, form_input).problem
 
 
 def _run_engine(

@@ -10,18 +10,18 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, Protocol
 
 from hrcplan.planners.instantaneous import unsure_changes
-from hrcplan.planners.lowering import Lowered
+from hrcplan.planners.lowering import Lowering
 from hrcplan.task import BitEffect, GroundAction, Task
 from hrcplan.task.conditions import Test
 
 UpTable = Mapping[str, Any]
 
 
-def table(task: Task, lowered: Lowered, *, costs: bool) -> UpTable:
+def table(task: Task, lowering: Lowering, *, costs: bool) -> UpTable:
     """Return what ``build`` needs, as JSON can carry it; without costs for planners without."""
     return {
         "name": task.problem.name,
-        "facts": lowered.facts,
+        "facts": lowering.facts,
         "initial": task.initial,
         "goal": task.goal,
         "actions": [
@@ -34,7 +34,7 @@ def table(task: Task, lowered: Lowered, *, costs: bool) -> UpTable:
                 ],
                 "cost": cost if costs else None,
             }
-            for (name, action), cost in zip(lowered.actions.items(), lowered.costs, strict=True)
+            for (name, action), cost in zip(lowering.actions.items(), lowering.costs, strict=True)
         ],
     }
 
@@ -70,22 +70,22 @@ class _UpModel(Protocol):
 class Build:
     """Builds a problem out of a table with the classes of ``unified_planning.model``."""
 
-    def __init__(self, model: _UpModel, given: UpTable) -> None:
-        self._problem = model.Problem(given["name"])
+    def __init__(self, model: _UpModel, source: UpTable) -> None:
+        self._problem = model.Problem(source["name"])
         self._expressions = self._problem.environment.expression_manager
         fluents = [self._problem.add_fluent(name, default_initial_value=False)
-                   for name in given["facts"]]  # fmt: skip
+                   for name in source["facts"]]  # fmt: skip
         self._atoms = [self._expressions.FluentExp(fluent) for fluent in fluents]
-        for atom in self._of(given["initial"]):
+        for atom in self._of(source["initial"]):
             self._problem.set_initial_value(atom, True)
         prices = {}
-        for row in given["actions"]:
+        for row in source["actions"]:
             action = model.InstantaneousAction(row["name"])
             self._fill(action, row)
             self._problem.add_action(action)
             if row["cost"] is not None:
                 prices[action] = self._expressions.Int(row["cost"])
-        self._problem.add_goal(self._any(given["goal"]))
+        self._problem.add_goal(self._any(source["goal"]))
         if prices:
             self._problem.add_quality_metric(model.metrics.MinimizeActionCosts(prices))
 
@@ -98,11 +98,11 @@ class Build:
         for literal in self._parts(row["tests"]):
             action.add_precondition(literal)
         for tests, adds, deletes in row["changes"]:
-            given = self._any(tests)
+            condition = self._any(tests)
             for atom in self._of(adds):
-                action.add_effect(atom, True, given)
+                action.add_effect(atom, True, condition)
             for atom in self._of(deletes):
-                action.add_effect(atom, False, given)
+                action.add_effect(atom, False, condition)
 
     def _parts(self, tests: Sequence[Test]) -> Sequence[Any]:
         return self._literals(*tests[0]) if len(tests) == 1 else [self._any(tests)]

@@ -105,7 +105,7 @@ def end(workers: Sequence[Worker[Any]]) -> None:
         worker.close()
 
 
-class _Ended(BaseException):
+class _EndRequest(BaseException):
     """The worker was asked to end; not an Exception, so that nothing on the way handles it."""
 
 
@@ -131,11 +131,11 @@ def _become(work: Work[M], write: int, parent: int, mask: set[int]) -> NoReturn:
 
 
 def _raise(number: int, frame: FrameType | None) -> NoReturn:
-    raise _Ended
+    raise _EndRequest
 
 
 def _send(write: int, message: M) -> None:
     payload = pickle.dumps(message)
-    left = memoryview(len(payload).to_bytes(_LENGTH, "little") + payload)
-    while left:
-        left = left[os.write(write, left) :]
+    rest = memoryview(len(payload).to_bytes(_LENGTH, "little") + payload)
+    while rest:
+        rest = rest[os.write(write, rest) :]

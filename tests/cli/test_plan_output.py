@@ -11,7 +11,7 @@ from hrcplan.cli import output
 from hrcplan.cli.lanes import as_json, as_text
 from hrcplan.cli.main import main
 from hrcplan.planners.contract import Answer, Capabilities, Status
-from hrcplan.planners.result import checked
+from hrcplan.planners.result import check_answer
 from hrcplan.plans import parse_plan
 from tests.worlds import problem_from
 
@@ -27,14 +27,14 @@ TWO = """(define (problem p) (:domain jobs) (:objects a b) (:init (= (gain) 0))
 def test_every_action_is_in_the_table(text: str) -> None:
     problem = problem_from(JOBS, TWO)
     answer = Answer(Status.SOLVED, parse_plan(text))
-    found = checked(Capabilities("by hand", ""), problem, answer, False, "")
+    found = check_answer(Capabilities("by hand", ""), problem, answer, False, "")
     assert as_text(problem, found).count("do ") == text.count("do ")
 
 
 def test_the_sense_of_the_metric_is_its_own() -> None:
     problem = problem_from(JOBS, TWO)
     answer = Answer(Status.SOLVED, parse_plan("(do a) (do b)"), bound=8)
-    found = checked(Capabilities("by hand", ""), problem, answer, False, "")
+    found = check_answer(Capabilities("by hand", ""), problem, answer, False, "")
     document = as_json(problem, found)
     assert (document["sense"], document["bound"], document["gap"]) == ("maximize", 8, 0.5)
     text = as_text(problem, found)

@@ -16,7 +16,7 @@ from hrcplan.errors import PlanFormatError, UnsupportedError
 from hrcplan.pddl import library
 from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import TOTAL_COST, Arithmetic, Compare, Constant, Function, Problem
-from hrcplan.planners.lowering import Lowered, lower
+from hrcplan.planners.lowering import Lowering, lower
 from hrcplan.planners.process import ProcessEnd, ProcessLimits, run
 from hrcplan.task import Task
 from hrcplan.task.ground import ground
@@ -100,7 +100,7 @@ def optimum(task: Task) -> Fraction | float:
     return inf
 
 
-def check_same_walks(task: Task, folder: Path, seed: int = 0) -> Lowered:
+def check_same_walks(task: Task, folder: Path, seed: int = 0) -> Lowering:
     """Walk at random through task and lowered task side by side."""
     lowered = lower(task)
     other = Task(read(lowered.domain_text, lowered.problem_text))
@@ -255,7 +255,7 @@ SYMK = ["symk/fast-downward.py", "domain.pddl", "problem.pddl", "--search", "sym
 FD = ["downward/fast-downward.py", "domain.pddl", "problem.pddl", "--search", "astar(lmcut())"]
 
 
-def cheapest(planner: str, lowered: Lowered, folder: Path) -> int:
+def cheapest(planner: str, lowered: Lowering, folder: Path) -> int:
     """Return the lowered cost of the plan that a planner calls optimal."""
     (folder / "domain.pddl").write_text(lowered.domain_text)
     (folder / "problem.pddl").write_text(lowered.problem_text)
@@ -265,7 +265,7 @@ def cheapest(planner: str, lowered: Lowered, folder: Path) -> int:
         "kstar": [sys.executable, "-c", KSTAR_CODE],
     }[planner]
     finished = run(argv, cwd=folder, limits=ProcessLimits(60))
-    assert finished.ended is ProcessEnd.EXITED, finished.stderr
+    assert finished.end is ProcessEnd.EXITED, finished.stderr
     found = re.findall(r"Plan cost: (\d+)|'cost': (\d+)", finished.stdout)
     assert found, finished.stdout[-2000:] + finished.stderr[-2000:]
     return int(next(filter(None, found[0])))

@@ -100,14 +100,14 @@ def test_exit_code_and_both_outputs_come_back(tmp_path: Path) -> None:
     finished = run(
         ["sh", "-c", "pwd; echo bad >&2; exit 7"], cwd=tmp_path, limits=ProcessLimits(300)
     )
-    assert (finished.ended, finished.code) == (ProcessEnd.EXITED, 7)
+    assert (finished.end, finished.code) == (ProcessEnd.EXITED, 7)
     assert (finished.stdout, finished.stderr) == (f"{tmp_path.resolve()}\n", "bad\n")
     assert 0 < finished.wall_s < 30
 
 
 def test_death_by_signal_is_a_negative_code(tmp_path: Path) -> None:
     finished = run(["sh", "-c", "kill -SEGV $$"], cwd=tmp_path, limits=ProcessLimits(300))
-    assert (finished.ended, finished.code) == (ProcessEnd.EXITED, -signal.SIGSEGV)
+    assert (finished.end, finished.code) == (ProcessEnd.EXITED, -signal.SIGSEGV)
 
 
 def test_broken_utf8_is_replaced(tmp_path: Path) -> None:
@@ -117,7 +117,7 @@ def test_broken_utf8_is_replaced(tmp_path: Path) -> None:
 
 def test_standard_input_is_empty(tmp_path: Path) -> None:
     finished = run(["cat"], cwd=tmp_path, limits=ProcessLimits(30))
-    assert (finished.ended, finished.code, finished.stdout) == (ProcessEnd.EXITED, 0, "")
+    assert (finished.end, finished.code, finished.stdout) == (ProcessEnd.EXITED, 0, "")
 
 
 def test_environment_is_the_given_one(tmp_path: Path) -> None:
@@ -151,7 +151,7 @@ def test_program_has_no_foreign_files_open_and_default_signals(tmp_path: Path) -
 def test_program_that_cannot_run_is_missing(tmp_path: Path, name: str) -> None:
     (tmp_path / "plain").write_text("not executable")
     finished = run([name], cwd=tmp_path, limits=ProcessLimits(30))
-    assert (finished.ended, finished.code, finished.stdout) == (ProcessEnd.MISSING, None, "")
+    assert (finished.end, finished.code, finished.stdout) == (ProcessEnd.MISSING, None, "")
     assert finished.stderr in {"No such file or directory", "Permission denied"}
 
 
@@ -167,7 +167,7 @@ def test_wrong_arguments_are_refused(tmp_path: Path) -> None:
 
 def test_program_that_hangs_times_out_with_its_plan(call: Call) -> None:
     finished = call("hang.py", time_s=1.5)
-    assert (finished.ended, finished.code, finished.stdout) == (
+    assert (finished.end, finished.code, finished.stdout) == (
         ProcessEnd.TIMEOUT,
         None,
         "plan 1\n",
@@ -176,29 +176,29 @@ def test_program_that_hangs_times_out_with_its_plan(call: Call) -> None:
 
 
 def test_no_time_at_all_is_a_timeout(call: Call) -> None:
-    assert call("hang.py", time_s=-1.0).ended is ProcessEnd.TIMEOUT
+    assert call("hang.py", time_s=-1.0).end is ProcessEnd.TIMEOUT
 
 
 def test_program_that_ignores_signals_is_killed(call: Call) -> None:
     finished = call("stubborn.py", time_s=1.5)
-    assert (finished.ended, finished.stdout) == (ProcessEnd.TIMEOUT, "not listening\n")
+    assert (finished.end, finished.stdout) == (ProcessEnd.TIMEOUT, "not listening\n")
     assert 1.8 <= finished.wall_s < 30
 
 
 def test_last_words_after_the_time_limit_are_kept(call: Call) -> None:
     finished = call("polite.py", time_s=1.5)
-    assert (finished.ended, finished.stderr) == (ProcessEnd.TIMEOUT, "last plan\n")
+    assert (finished.end, finished.stderr) == (ProcessEnd.TIMEOUT, "last plan\n")
 
 
 def test_background_child_goes_when_the_program_exits(call: Call) -> None:
     finished = call("abandon.sh")
-    assert (finished.ended, finished.code, finished.stdout) == (ProcessEnd.EXITED, 0, "done\n")
+    assert (finished.end, finished.code, finished.stdout) == (ProcessEnd.EXITED, 0, "done\n")
     assert finished.wall_s < 25
 
 
 def test_daemon_goes_when_the_program_exits(call: Call) -> None:
     finished = call("daemon.py")
-    assert (finished.ended, finished.code, finished.stdout) == (
+    assert (finished.end, finished.code, finished.stdout) == (
         ProcessEnd.EXITED,
         0,
         "daemon runs\n",
@@ -206,19 +206,19 @@ def test_daemon_goes_when_the_program_exits(call: Call) -> None:
 
 
 def test_daemon_goes_at_the_time_limit(call: Call) -> None:
-    assert call("daemon.py", "hang", time_s=1.5).ended is ProcessEnd.TIMEOUT
+    assert call("daemon.py", "hang", time_s=1.5).end is ProcessEnd.TIMEOUT
 
 
 def test_process_that_keeps_changing_is_caught(call: Call) -> None:
     finished = call("relay.py")
-    assert (finished.ended, finished.code) == (ProcessEnd.EXITED, 0)
+    assert (finished.end, finished.code) == (ProcessEnd.EXITED, 0)
     assert finished.wall_s < 25
 
 
 @pytest.mark.parametrize("stream", [1, 2])
 def test_flood_is_cut(call: Call, stream: int) -> None:
     finished = call("flood.py", stream, output_bytes=1_000_000)
-    assert (finished.ended, finished.code) == (ProcessEnd.OUTPUT, None)
+    assert (finished.end, finished.code) == (ProcessEnd.OUTPUT, None)
     outputs = [finished.stdout, finished.stderr]
     assert outputs.pop(stream - 1) == "x" * 1_000_000
     assert outputs == [""]
@@ -229,7 +229,7 @@ def test_flood_is_cut(call: Call, stream: int) -> None:
 def test_output_limit_is_exact(tmp_path: Path, room: int, ended: ProcessEnd) -> None:
     limits = ProcessLimits(30, output_bytes=room)
     finished = run(["sh", "-c", "printf abc; printf de >&2"], cwd=tmp_path, limits=limits)
-    assert finished.ended is ended
+    assert finished.end is ended
     assert len(finished.stdout + finished.stderr) == room
 
 
@@ -241,7 +241,7 @@ def test_large_output_is_complete(tmp_path: Path) -> None:
 @pytest.mark.parametrize("generations", [0, 1, 2])
 def test_memory_counts_in_every_generation(call: Call, generations: int) -> None:
     finished = call("eat.py", 200, generations, memory_bytes=100 << 20)
-    assert (finished.ended, finished.code) == (ProcessEnd.MEMORY, None)
+    assert (finished.end, finished.code) == (ProcessEnd.MEMORY, None)
     assert finished.wall_s < 25
 
 
@@ -249,28 +249,28 @@ def test_memory_of_several_processes_adds_up(marker: str, tmp_path: Path) -> Non
     eat = f"{' '.join(PYTHON)} {HOSTILE / 'eat.py'} 40 0 {marker}"
     limits = ProcessLimits(30, memory_bytes=100 << 20)
     finished = run(["sh", "-c", f"{eat} & {eat} & {eat} & wait"], cwd=tmp_path, limits=limits)
-    assert finished.ended is ProcessEnd.MEMORY
+    assert finished.end is ProcessEnd.MEMORY
 
 
 def test_memory_below_the_limit_is_left_alone(call: Call) -> None:
     finished = call("eat.py", 40, 0, time_s=1.5, memory_bytes=100 << 20)
-    assert (finished.ended, finished.stdout) == (ProcessEnd.TIMEOUT, "full\n")
+    assert (finished.end, finished.stdout) == (ProcessEnd.TIMEOUT, "full\n")
 
 
 def test_shared_and_reserved_memory_is_not_counted(call: Call) -> None:
     finished = call("share.py", 60, 4, memory_bytes=150 << 20)
-    assert (finished.ended, finished.code) == (ProcessEnd.EXITED, 0)
+    assert (finished.end, finished.code) == (ProcessEnd.EXITED, 0)
 
 
 def test_program_that_closes_its_outputs_is_awaited(call: Call) -> None:
     finished = call("quiet.py")
-    assert (finished.ended, finished.code) == (ProcessEnd.EXITED, 3)
+    assert (finished.end, finished.code) == (ProcessEnd.EXITED, 3)
     assert finished.wall_s >= 0.2
 
 
 def test_program_dies_with_its_guard(call: Call, marker: str) -> None:
     finished = call("regicide.py")
-    assert (finished.ended, finished.code) == (ProcessEnd.EXITED, -signal.SIGKILL)
+    assert (finished.end, finished.code) == (ProcessEnd.EXITED, -signal.SIGKILL)
     assert "supervisor process was lost" in finished.stderr
     await_that(lambda: not processes(marker))  # the one case in which nobody can wait for it
 
@@ -280,7 +280,7 @@ def test_guard_that_never_works_is_lost(tmp_path: Path, monkeypatch: pytest.Monk
     monkeypatch.setattr(sys, "executable", false)
     env = {"LARGE": "x" * 1_000_000}
     finished = run(["true"], cwd=tmp_path, limits=ProcessLimits(30), env=env)
-    assert (finished.ended, finished.code) == (ProcessEnd.EXITED, -signal.SIGKILL)
+    assert (finished.end, finished.code) == (ProcessEnd.EXITED, -signal.SIGKILL)
 
 
 def test_guard_is_not_ended_by_the_program(tmp_path: Path) -> None:
@@ -310,9 +310,9 @@ def test_two_at_once_from_threads(call: Call) -> None:
     with ThreadPoolExecutor() as pool:
         slow = pool.submit(call, "hang.py", time_s=0.8)
         quick = pool.submit(call, "daemon.py")
-        assert quick.result().ended is ProcessEnd.EXITED
+        assert quick.result().end is ProcessEnd.EXITED
         assert not slow.done()
-        assert slow.result().ended is ProcessEnd.TIMEOUT
+        assert slow.result().end is ProcessEnd.TIMEOUT
 
 
 def test_many_calls_leave_nothing(marker: str, tmp_path: Path) -> None:
@@ -435,6 +435,6 @@ def test_a_stopped_supervisor_does_not_hang_the_caller(
     monkeypatch.setattr(process, "_PATIENCE_S", 0.5)
     script = f"(sleep 300; : {marker}) & kill -STOP $(ps -o ppid= -p $PPID) $PPID; sleep 300"
     finished = run(["sh", "-c", script, marker], cwd=tmp_path, limits=ProcessLimits(0.5))
-    assert (finished.ended, finished.code) == (ProcessEnd.EXITED, -signal.SIGKILL)
+    assert (finished.end, finished.code) == (ProcessEnd.EXITED, -signal.SIGKILL)
     assert "supervisor process was lost" in finished.stderr
     assert processes(marker) == []
