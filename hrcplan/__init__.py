@@ -40,8 +40,9 @@ if TYPE_CHECKING:
         UnsupportedError,
         UsageError,
     )
-    from hrcplan.execution import Outcome
+    from hrcplan.execution import FactChange, Nature, NatureSource, Outcome, StateChange
     from hrcplan.execution.execute import execute
+    from hrcplan.execution.natures import NATURES as natures  # noqa: N811
     from hrcplan.execution.worlds import EventWorld
     from hrcplan.execution.worlds.registry import EVENT_WORLDS as event_worlds  # noqa: N811
     from hrcplan.inference import Belief, Inference, infer
@@ -70,11 +71,14 @@ __all__ = [
     "Domain",
     "EpisodeHuman",
     "EventWorld",
+    "FactChange",
     "HrcplanError",
     "Inference",
     "InputError",
     "LimitError",
     "MissingPlannerError",
+    "Nature",
+    "NatureSource",
     "Outcome",
     "PddlError",
     "Plan",
@@ -86,6 +90,7 @@ __all__ = [
     "Report",
     "Request",
     "Result",
+    "StateChange",
     "Status",
     "StepChoice",
     "Task",
@@ -101,6 +106,7 @@ __all__ = [
     "humans",
     "infer",
     "load_bank",
+    "natures",
     "plan",
     "planners",
     "play",
@@ -120,8 +126,9 @@ _HOMES = {
         "MissingPlannerError", "PddlError", "PlanFormatError", "PlannerError", "UnsupportedError",
         "UsageError",
     ),
-    "hrcplan.execution": ("Outcome",),
+    "hrcplan.execution": ("FactChange", "Nature", "NatureSource", "Outcome", "StateChange"),
     "hrcplan.execution.execute": ("execute",),
+    "hrcplan.execution.natures": ("natures=NATURES",),
     "hrcplan.episodes.worlds": ("worlds=WORLDS",),
     "hrcplan.execution.worlds": ("EventWorld",),
     "hrcplan.execution.worlds.registry": ("event_worlds=EVENT_WORLDS",),

@@ -134,7 +134,8 @@ def run(
     if output.JSON:
         output.document({"study": name, "folder": str(folder), "n_new": n_new})
     else:
-        output.result(f"{n_new} new rows in {folder}; next: hrcplan study report {folder}")
+        own = f" --study {name}" if ":" in name else ""  # rows alone cannot load a user's code
+        output.result(f"{n_new} new rows in {folder}; next: hrcplan study report {folder}{own}")
     return 0
 
 

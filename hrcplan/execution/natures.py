@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Protocol, runtime_checkable
@@ -11,6 +12,7 @@ from hrcplan.core.registry import Registry
 from hrcplan.core.text import nearest, type_text
 from hrcplan.errors import UsageError
 from hrcplan.execution.changes import WorldChange, checked_changes
+from hrcplan.execution.model import ExecutionModel
 from hrcplan.execution.simulate import RANDOM, Engine, Spec, nature_of
 from hrcplan.execution.worlds.simulated import DRAWS, SENSED, FactChange, Nature, StateChange
 from hrcplan.pddl.model import Problem
@@ -18,6 +20,7 @@ from hrcplan.pddl.model import Problem
 STEADY = "steady"
 CASES = {STEADY: 0, "uncooperative": 1, "partly-cooperative": 2}
 OLD_NAMES = {"case1": "uncooperative", "case2": "partly-cooperative"}
+_CODE = "bad-nature"
 WORDS = (*CASES, RANDOM, *DRAWS, *SENSED)
 
 
@@ -79,23 +82,54 @@ def nature_for(
         changes: More changes, as text or objects (see ``changes.py``).
 
     Raises:
-        UsageError: if there is no such human, or a change is unknown or out of range.
+        UsageError: if there is no such human, or a change or what a class returns is out of range.
         TypeError: if an argument is of a wrong type.
     """
     if isinstance(human, NatureSource):
-        nature = human.nature(engine.model.problem, spec.seed)
+        nature = checked_nature(human.nature(engine.model.problem, spec.seed), engine.model)
     elif not isinstance(human, str):
         raise TypeError(
             "human is a text, or an object with a method nature(problem, seed), "
             f"not {type_text(human)}"
         )
     elif ":" in human or human in NATURES.names():
-        nature = NATURES.make(human).nature(engine.model.problem, spec.seed)
+        source = NATURES.make(human)
+        nature = checked_nature(source.nature(engine.model.problem, spec.seed), engine.model)
     else:
         nature = nature_of(parse_human(human, spec), engine)
-    more = checked_changes(changes, engine.model)
-    states = tuple(c for c in more if isinstance(c, StateChange))
-    accidents = tuple(c for c in more if isinstance(c, FactChange))
+    states, accidents = _by_kind(checked_changes(changes, engine.model))
     return replace(
         nature, changes=(*nature.changes, *states), accidents=(*nature.accidents, *accidents)
     )
+
+
+def checked_nature(nature: Nature, model: ExecutionModel) -> Nature:
+    """Return a nature that a class has made, its values exact, if the problem can have it.
+
+    Raises:
+        UsageError: naming the first field that is unknown or out of range.
+        TypeError: if it is no `Nature`, or a change of it is none.
+    """
+    if not isinstance(nature, Nature):
+        raise TypeError(f"nature() returns a Nature, not {type_text(nature)}")
+    for name, word, words in (
+        ("sensed", nature.sensed, SENSED),
+        ("draws", nature.draws, DRAWS),
+        *(("can_fail", action, model.problem.domain.schemas) for action in nature.can_fail or ()),
+    ):
+        if word not in words:
+            message = f"{name} of a nature is one of {', '.join(words)}, not {word!r}"
+            raise UsageError(message, code=_CODE)
+    least, most = nature.stretch
+    if not 0 < least <= most < math.inf:
+        message = f"stretch of a nature is two factors above 0, not {nature.stretch}"
+        raise UsageError(message, code=_CODE)
+    states, accidents = _by_kind(checked_changes((*nature.changes, *nature.accidents), model))
+    return replace(nature, changes=states, accidents=accidents)
+
+
+def _by_kind(
+    changes: Sequence[WorldChange],
+) -> tuple[tuple[StateChange, ...], tuple[FactChange, ...]]:
+    states = tuple(c for c in changes if isinstance(c, StateChange))
+    return states, tuple(c for c in changes if isinstance(c, FactChange))

@@ -41,7 +41,7 @@ def report_study(folder: str | Path, study_name: str | None = None) -> dict[str,
         options = {**study.options, **given_options}  # earlier versions had fewer
         rows = {t.name: study.present_rows(t, store.rows(t)) for t in study.tables}
     with _rows_of(folder):
-        document, findings = _document(study, about, options, rows)
+        document, findings = report_document(study, about, options, rows)
     text = json.dumps(document, indent=2, ensure_ascii=False) + "\n"
     write_atomically(folder / JSON_FILE, text)
     text = page.html(study.title, about, document["n_rows"], findings)
@@ -60,10 +60,17 @@ def _rows_of(folder: Path) -> Iterator[None]:
         raise InputError(message, code="bad-rows", path=str(folder / FILE)) from error
 
 
-def _document(
+def report_document(
     study: Study, about: dict[str, Any], options: StudyOptions, rows: dict[str, list[StudyRow]]
 ) -> tuple[dict[str, Any], Findings]:
-    """Return the report as a JSON object, and the findings in it."""
+    """Return the report of rows as a JSON object, and the findings in it.
+
+    Args:
+        study: The study.
+        about: What the rows depend on: options, seed, version.
+        options: The options, by the names of this version.
+        rows: The rows of each table.
+    """
     main = study.tables[0]
     findings = study.findings(options, rows)
     by_cell = cells_of(rows[main.name], main.keys, main.cells(options))
