@@ -197,8 +197,8 @@ class BeliefAssistant(ValueAssistant[AssistantState[S]], Generic[S]):
         if self._shares_progress and isinstance(belief, HasProgress):
             return belief.progress
         tracker = self.tracker
-        followed = tracker.wait(progress) if step is None else tracker.follow(progress, step)
-        return progress if followed is None else followed[0]
+        move = tracker.wait(progress) if step is None else tracker.follow(progress, step)
+        return progress if move is None else move[0]
 
     def posterior(self, state: AssistantState[S]) -> Floats:
         """Return the probability of each goal, in order."""
@@ -206,7 +206,7 @@ class BeliefAssistant(ValueAssistant[AssistantState[S]], Generic[S]):
 
 
 @runtime_checkable
-class _Told(Protocol[S]):
+class _HasToldMethod(Protocol[S]):
     """`KnowsGoal` as it was called in earlier versions."""
 
     def told(self, state: S, goal: int) -> S: ...
@@ -218,12 +218,12 @@ def inform(assistant: Assistant[S], state: S, goal: int) -> S:
     The goal changes nothing for an assistant that does not know it (`KnowsGoal`).
     """
     if isinstance(assistant, KnowsGoal):
-        informed: S = assistant.inform(state, goal)
-        return informed
-    if isinstance(assistant, _Told):
+        new_state: S = assistant.inform(state, goal)
+        return new_state
+    if isinstance(assistant, _HasToldMethod):
         warn_old_name(f"method of {type(assistant).__name__}", "told", "inform")
-        informed = assistant.told(state, goal)
-        return informed  # noqa: RET504  (typed above)
+        new_state = assistant.told(state, goal)
+        return new_state  # noqa: RET504  (typed above)
     return state
 
 

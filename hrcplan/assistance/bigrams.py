@@ -51,8 +51,11 @@ class Bigrams:
         self._goal, self._after, self._times = rows[:, 0], rows[:, 2], rows[:, 3]
         self._first = np.searchsorted(rows[:, 1], np.arange(self.n_labels + 1))
         self._n_goals = len(bank.names)
-        self._weighted: tuple[tuple[int, ...], Ids] = (), np.zeros(self._n_goals, dtype=np.int64)
-        self._remembered: dict[tuple[int, tuple[int, ...]], list[int]] = {}
+        self._last_weights: tuple[tuple[int, ...], Ids] = (
+            (),
+            np.zeros(self._n_goals, dtype=np.int64),
+        )
+        self._memo: dict[tuple[int, tuple[int, ...]], list[int]] = {}
 
     def _count(self, goal: int, plans: Ids) -> Ids:
         """Return rows of goal, label, label after it, and how often."""
@@ -87,19 +90,19 @@ class Bigrams:
         """
         goals = tuple(goals)
         key = (label, goals)
-        known = self._remembered.get(key)
-        if known is None:
-            if len(self._remembered) >= MAX_REMEMBERED:
-                self._remembered.clear()
+        labels = self._memo.get(key)
+        if labels is None:
+            if len(self._memo) >= MAX_REMEMBERED:
+                self._memo.clear()
             times = self.times(label, self._weights(goals) if goals else None)
             order = np.argsort(-times, kind="stable")
-            known = self._remembered[key] = order[: np.count_nonzero(times)].tolist()
-        return known
+            labels = self._memo[key] = order[: np.count_nonzero(times)].tolist()
+        return labels
 
     def _weights(self, goals: tuple[int, ...]) -> Ids:
-        if goals != self._weighted[0]:  # one look ahead asks for the same ones again and again
+        if goals != self._last_weights[0]:  # one look ahead asks for the same ones again and again
             weights = np.zeros(self._n_goals, dtype=np.int64)
             for mask in goals:
                 weights[list(positions(mask))] += 1
-            self._weighted = goals, weights
-        return self._weighted[1]
+            self._last_weights = goals, weights
+        return self._last_weights[1]

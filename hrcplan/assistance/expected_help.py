@@ -80,10 +80,10 @@ class ExpectedHelp(BeliefAssistant[Any]):
             return self._in_turn(choices, state)
         next_steps = self.step_values.next_steps(state.progress)
         steps = self.step_values.candidates(state.progress, next_steps)
-        saved, needed = self.step_values.expected_saving(
+        savings, needs = self.step_values.expected_saving(
             state.progress, next_steps, steps, self.posterior(state)
         )
-        worth = saved - self.waste_price * (1 - needed)
+        worth = savings - self.waste_price * (1 - needs)
         return StepChoice(tuple(steps), tuple(worth.tolist()))
 
     def _in_turn(self, choices: TeamChoices, state: AssistantState[Any]) -> StepChoice:
@@ -93,11 +93,11 @@ class ExpectedHelp(BeliefAssistant[Any]):
         counts.
         """
         posterior, steps = self.posterior(state), tuple(choices.steps.tolist())
-        saved = np.nan_to_num(choices.savings.clip(-DEAD_END, DEAD_END))
-        worth = posterior @ saved - self.waste_price * (1 - posterior @ choices.is_next)
+        savings = np.nan_to_num(choices.savings.clip(-DEAD_END, DEAD_END))
+        worth = posterior @ savings - self.waste_price * (1 - posterior @ choices.is_next)
         if steps and worth.max() <= 0 and self._humans_wait(state.progress):
             # Of the goals that a step helps, which a goal that is reached already is not.
-            worth = saved[int(np.where(saved.max(axis=1) > 0, posterior, -1.0).argmax())]
+            worth = savings[int(np.where(savings.max(axis=1) > 0, posterior, -1.0).argmax())]
         return StepChoice(steps, tuple(worth.tolist()))
 
     def _humans_wait(self, progress: Progress) -> bool:

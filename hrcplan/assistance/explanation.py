@@ -73,17 +73,17 @@ def explanation_of(
     table, names = step_values.bank.table, step_values.bank.names
 
     def likeliest(goals: Iterable[int]) -> tuple[tuple[str, float], ...]:
-        chosen = sorted(goals, key=lambda goal: -posterior[goal])[:n_goals]
-        return tuple((names[goal], float(posterior[goal])) for goal in chosen)
+        best_goals = sorted(goals, key=lambda goal: -posterior[goal])[:n_goals]
+        return tuple((names[goal], float(posterior[goal])) for goal in best_goals)
 
     following = step_values.next_steps(progress)
-    saved, _ = step_values.expected_saving(progress, following, choice.steps, posterior)
+    savings, _ = step_values.expected_saving(progress, following, choice.steps, posterior)
     order = sorted(range(len(choice.steps)), key=lambda i: -round(choice.values[i], TIES))
     candidates = tuple(
         StepCandidate(
             str(table[choice.steps[i]]),
             choice.values[i],
-            float(saved[i]),
+            float(savings[i]),
             likeliest(following.goals[following.steps == choice.steps[i]].tolist()),
         )
         for i in order[:n_steps]

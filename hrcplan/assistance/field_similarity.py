@@ -39,13 +39,13 @@ class FieldSimilarity(BeliefAssistant[Any]):
 
     def __init__(self, bank: Bank, belief: Belief[Any] | None = None) -> None:
         super().__init__(bank, RecursiveBelief(bank) if belief is None else belief)
-        combined = self.tracker.combined
-        self._fields = np.where(combined.needs, 1.0, -1.0)
-        self._used = sorted(set(combined.step_of.tolist()))
+        graph = self.tracker.combined_graph
+        self._fields = np.where(graph.needs, 1.0, -1.0)
+        self._used = sorted(set(graph.step_of.tolist()))
 
     def options(self, state: AssistantState[Any]) -> StepChoice:
         """Return the steps that some goal needs, and how like the human's last action each is."""
-        label, progress = self.tracker.combined.label, state.progress
+        label, progress = self.tracker.combined_graph.label, state.progress
         steps = tuple(self.bank.table.able(progress.world, self._used, self.step_values.agents))
         values = np.zeros(len(steps))
         if state.last is not None:

@@ -31,7 +31,7 @@ class ImaginedSteps:
     def __init__(self, step_values: StepValues) -> None:
         self.step_values, self.tracker = step_values, step_values.tracker
         self.bank = step_values.bank
-        self._offsets: list[int] = self.tracker.combined.offsets.tolist()
+        self._offsets: list[int] = self.tracker.combined_graph.offsets.tolist()
         self._relevant = [graph.relevant_facts for graph in self.bank.graphs]
 
     def begin(self, progress: Progress) -> Progress:
@@ -55,22 +55,22 @@ class ImaginedSteps:
 
     def after(self, progress: Progress, step: int) -> Progress:
         """Return the goals' progress after an applicable step."""
-        combined, before = self.tracker.combined, progress.world
+        graph, before = self.tracker.combined_graph, progress.world
         world = self.bank.table.successor(before, step)
         if world is None or world == before:
             return progress
         if self.tracker.moves is not None:
-            moved = self.tracker.after_turn(self.tracker.moves, progress, step)
-            return replace(moved, off=self._off(progress, step, world))
-        goals = combined.concerned(step, before ^ world)
-        hit, places = combined.edges(progress.nodes.take(goals), step)
+            next_progress = self.tracker.after_turn(self.tracker.moves, progress, step)
+            return replace(next_progress, off=self._off(progress, step, world))
+        goals = graph.concerned(step, before ^ world)
+        hit, places = graph.edges(progress.nodes.take(goals), step)
         nodes = progress.nodes.copy()
-        nodes[goals[hit]] = combined.targets.take(places[hit])
+        nodes[goals[hit]] = graph.targets.take(places[hit])
         if not hit.all():
             for goal in goals[~hit].tolist():
                 if (before ^ world) & self._relevant[goal]:
                     node = self.bank.graphs[goal].node_of(world)
-                    nodes[goal] = combined.off if node is None else self._offsets[goal] + node
+                    nodes[goal] = graph.off if node is None else self._offsets[goal] + node
         return Progress(world, nodes, progress.doable, self._off(progress, step, world))
 
     def _off(self, progress: Progress, step: int, world: int) -> dict[int, OffGraph]:
@@ -106,11 +106,11 @@ class Branching:
         if branching < 1:
             raise UsageError(f"a tree {branching} steps wide has no branches")
         self.bigrams, self.branching = bigrams, branching
-        self.label = step_values.tracker.combined.label
+        self.label = step_values.tracker.combined_graph.label
         self._able = step_values.bank.table.able
-        self._called: dict[int, list[int]] = {}
+        self._steps_by_label: dict[int, list[int]] = {}
         for step, label in enumerate(self.label):
-            self._called.setdefault(label, []).append(step)
+            self._steps_by_label.setdefault(label, []).append(step)
 
     def expand(
         self, progress: Progress, next_steps: NextSteps, last: int | None, agents: Set[str],
@@ -131,21 +131,21 @@ class Branching:
         """
         is_open = np.zeros(len(self.label), dtype=np.bool_)
         is_open[next_steps.steps] = True
-        steps = self._seen(progress, is_open.tolist(), last, agents, plausible)
+        steps = self._frequent(progress, is_open.tolist(), last, agents, plausible)
         room = self.branching - len(steps)
         if not room:
             return steps
-        left = [s for s in np.flatnonzero(is_open).tolist() if s not in steps]
-        left = list(self._able(progress.world, left, agents))
-        if len(left) > room:
+        more = [s for s in np.flatnonzero(is_open).tolist() if s not in steps]
+        more = list(self._able(progress.world, more, agents))
+        if len(more) > room:
             weights = np.bincount(
                 next_steps.steps, belief().take(next_steps.goals), len(self.label)
             )
             weights = weights.round(TIES)
-            left.sort(key=lambda step: -weights[step])
-        return steps + left[:room]
+            more.sort(key=lambda step: -weights[step])
+        return steps + more[:room]
 
-    def _seen(
+    def _frequent(
         self, progress: Progress, is_open: Sequence[bool], last: int | None, agents: Set[str],
         plausible: Sequence[int],
     ) -> list[int]:  # fmt: skip
@@ -153,5 +153,7 @@ class Branching:
         if last is None or self.bigrams is None:
             return []
         labels = self.bigrams.followers(self.label[last], plausible)
-        seen = (step for label in labels for step in self._called[label] if is_open[step])
-        return list(islice(self._able(progress.world, seen, agents), self.branching))
+        candidates = (
+            step for label in labels for step in self._steps_by_label[label] if is_open[step]
+        )
+        return list(islice(self._able(progress.world, candidates, agents), self.branching))

@@ -36,7 +36,7 @@ class TreePosition:
     progress: Progress
     next_steps: NextSteps
     last: int | None
-    reached: dict[int, tuple[Progress, NextSteps]] = field(default_factory=dict)
+    positions: dict[int, tuple[Progress, NextSteps]] = field(default_factory=dict)
 
 
 def shares(position: TreePosition, belief: Floats) -> Floats:
@@ -62,24 +62,24 @@ class Lookahead:
         self, step_values: StepValues, bigrams: Bigrams | None = None, width: int = BRANCHING
     ) -> None:
         self._agents, self._humans = step_values.agents, people(step_values.bank.goals.problem)
-        self._imagined, self._branching = (
+        self._future, self._branching = (
             ImaginedSteps(step_values),
             Branching(step_values, bigrams, width),
         )
 
     def root(self, state: AssistantState[S]) -> TreePosition:
         """Return the position of an assistant."""
-        progress = self._imagined.begin(state.progress)
-        return TreePosition(progress, self._imagined.next_steps(progress), state.last)
+        progress = self._future.begin(state.progress)
+        return TreePosition(progress, self._future.next_steps(progress), state.last)
 
     def after(self, position: TreePosition, step: int) -> TreePosition:
         """Return the position after an applicable step."""
-        world = self._imagined.bank.table.successor(position.progress.world, step)
+        world = self._future.bank.table.successor(position.progress.world, step)
         key = position.progress.world if world is None else world
-        if key not in position.reached:
-            progress = self._imagined.after(position.progress, step)
-            position.reached[key] = progress, self._imagined.next_steps(progress)
-        return TreePosition(*position.reached[key], step, position.reached)
+        if key not in position.positions:
+            progress = self._future.after(position.progress, step)
+            position.positions[key] = progress, self._future.next_steps(progress)
+        return TreePosition(*position.positions[key], step, position.positions)
 
     def steps(self, position: TreePosition, belief: Floats) -> list[int]:
         """Return the likeliest steps that the robot can do at a position, likeliest first."""

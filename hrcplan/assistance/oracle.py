@@ -50,15 +50,15 @@ class Oracle(BankAssistant[OracleState]):
 
     def observe(self, state: OracleState, step: int, *, robot: bool = False) -> OracleState:
         """Return the state after one more step."""
-        followed = self.tracker.follow(state.progress, step)
-        if followed is None:
+        move = self.tracker.follow(state.progress, step)
+        if move is None:
             return replace(state, ignored=IMPOSSIBLE)
-        return replace(state, progress=followed[0], ignored=None)
+        return replace(state, progress=move[0], ignored=None)
 
     def observe_wait(self, state: OracleState) -> OracleState:
         """Return the state after a wait of the agent whose turn it is, where agents take turns."""
-        followed = self.tracker.wait(state.progress)
-        return state if followed is None else replace(state, progress=followed[0])
+        move = self.tracker.wait(state.progress)
+        return state if move is None else replace(state, progress=move[0])
 
     def posterior(self, state: OracleState) -> Floats:
         """Return certainty of the goal."""

@@ -40,17 +40,17 @@ class StepValues:
         self._all_goals = np.arange(len(self.bank.names))
         self._matters = [self.bank.relevant_facts(g) | graph.relevant_facts
                          for g, graph in enumerate(self.bank.graphs)]  # fmt: skip
-        self._known: dict[tuple[int, int], float] = {}
+        self._distances: dict[tuple[int, int], float] = {}
 
     def next_steps(self, progress: Progress) -> NextSteps:
         """Return the steps that can come next in the plans of each goal, by any agent."""
-        combined = self.tracker.combined
-        begins = combined.first.take(progress.nodes)
-        lengths = combined.first.take(progress.nodes + 1) - begins
+        all_graphs = self.tracker.combined_graph
+        begins = all_graphs.first.take(progress.nodes)
+        lengths = all_graphs.first.take(progress.nodes + 1) - begins
         goals = self._all_goals.repeat(lengths)
         ends = lengths.cumsum()
         places = np.arange(len(goals)) + (begins - ends + lengths).take(goals)
-        steps = combined.step_of.take(places)
+        steps = all_graphs.step_of.take(places)
         for goal, place in progress.off.items():
             graph, node = self.tracker.graph_of(goal, place)
             more = list(graph.next(node)) if graph.n_nodes else []
@@ -72,7 +72,7 @@ class StepValues:
     def candidates(self, progress: Progress, next_steps: NextSteps) -> list[int]:
         """Return the next steps that one of the agents can do, in order."""
         steps = np.flatnonzero(
-            np.bincount(next_steps.steps, minlength=self.tracker.combined.n_steps)
+            np.bincount(next_steps.steps, minlength=self.tracker.combined_graph.n_steps)
         )
         return list(self.bank.table.able(progress.world, steps.tolist(), self.agents))
 
@@ -90,28 +90,28 @@ class StepValues:
             steps: Applicable steps.
             weights: A weight for each goal, such as its probability.
         """
-        n_steps = self.tracker.combined.n_steps
-        weighted = np.bincount(next_steps.steps, weights.take(next_steps.goals), n_steps)
-        shares: Floats = weighted.astype(np.float64).take(steps)
+        n_steps = self.tracker.combined_graph.n_steps
+        sums = np.bincount(next_steps.steps, weights.take(next_steps.goals), n_steps)
+        shares: Floats = sums.astype(np.float64).take(steps)
         n_goals = np.bincount(next_steps.steps, minlength=n_steps).take(steps)
-        saved = shares.copy()
+        savings = shares.copy()
         for place, (step, n) in enumerate(zip(steps, n_goals.tolist(), strict=True)):
-            touched = self._touched(progress, step)
-            if len(touched) > n:
+            goals_of_step = self._goals_of(progress, step)
+            if len(goals_of_step) > n:
                 owners = next_steps.goals[next_steps.steps == step]
-                for goal in np.setdiff1d(touched, owners).tolist():
+                for goal in np.setdiff1d(goals_of_step, owners).tolist():
                     if weights[goal] > 0:
-                        saved[place] += weights[goal] * self._change(progress, goal, step)
-        return saved, shares
+                        savings[place] += weights[goal] * self._change(progress, goal, step)
+        return savings, shares
 
     wanted = Renamed("next_steps")
     help = Renamed("expected_saving")
     to_go = Renamed("steps_to_go")
 
-    def _touched(self, progress: Progress, step: int) -> Ids:
+    def _goals_of(self, progress: Progress, step: int) -> Ids:
         """Return the goals whose progress a step may change."""
         world = self.bank.table.successor(progress.world, step)
-        return self.tracker.combined.concerned(step, progress.world ^ (world or 0))
+        return self.tracker.combined_graph.concerned(step, progress.world ^ (world or 0))
 
     def _change(self, progress: Progress, goal: int, step: int) -> float:
         """Return by how many steps a step that is not next in any plan brings a goal nearer."""
@@ -119,7 +119,7 @@ class StepValues:
         if world is None or not (progress.world ^ world) & self.bank.graphs[goal].relevant_facts:
             return 0.0
         key = goal, world & self._matters[goal]
-        if key not in self._known and self._still_works(goal, progress, world):
+        if key not in self._distances and self._still_works(goal, progress, world):
             return 0.0
         return max(-DEAD_END, self.steps_to_go(goal, progress) - self._to_go_from(key, world))
 
@@ -138,24 +138,24 @@ class StepValues:
 
     def steps_to_go(self, goal: int, progress: Progress) -> float:
         """Return the length of the shortest rest of a goal's plans."""
-        return _left(*self._place(goal, progress))
+        return _distance(*self._place(goal, progress))
 
     def _place(self, goal: int, progress: Progress) -> tuple[PlanGraph, int]:
         """Return the graph and the node of a goal."""
-        combined, node = self.tracker.combined, int(progress.nodes[goal])
-        if node != combined.off:
-            return self.bank.graphs[goal], node - int(combined.offsets[goal])
+        graph, node = self.tracker.combined_graph, int(progress.nodes[goal])
+        if node != graph.off:
+            return self.bank.graphs[goal], node - int(graph.offsets[goal])
         return self.tracker.graph_of(goal, progress.off.get(goal) or OffGraph(progress.world))
 
     def _to_go_from(self, key: tuple[int, int], world: int) -> float:
         """Return the length of the shortest rest of a goal's plans, from a state."""
-        known = self._known.get(key)
-        if known is None:
+        distance = self._distances.get(key)
+        if distance is None:
             graph, node = self.bank.locate(key[0], world)
-            known = self._known[key] = DEAD_END if node is None else _left(graph, node)
-        return known
+            distance = self._distances[key] = DEAD_END if node is None else _distance(graph, node)
+        return distance
 
 
-def _left(graph: PlanGraph, node: int) -> float:
+def _distance(graph: PlanGraph, node: int) -> float:
     """Return the number of steps from a node to the nearest goal node."""
     return float(graph.steps_left[node]) if graph.n_nodes else DEAD_END

@@ -76,8 +76,8 @@ class ProgressTracker:
 
     def __init__(self, bank: Bank) -> None:
         self.bank = bank
-        self.combined = combined_graph_of(bank)
-        self._doable = ApplicableSteps(self.combined)
+        self.combined_graph = combined_graph_of(bank)
+        self._doable = ApplicableSteps(self.combined_graph)
         self._relevant = [graph.relevant_facts for graph in bank.graphs]
         self._roots: dict[tuple[int, int], int] = {}
         self._matters: dict[int, int] = {}
@@ -85,7 +85,7 @@ class ProgressTracker:
         self.moves = team_moves(bank)
         moment = None if self.moves is None else Moment()
         doable = self._doable.of(world)
-        self.start = Progress(world, self.combined.roots, doable, moment=moment)
+        self.start = Progress(world, self.combined_graph.roots, doable, moment=moment)
 
     def follow(self, progress: Progress, step: int) -> tuple[Progress, Evidence] | None:
         """Return the progress and the evidence after a step; None if no agent can do it.
@@ -93,7 +93,7 @@ class ProgressTracker:
         What it says, it says about the moment before. A step that changes nothing is progress on no
         plan, so no goal explains it, also where another agent's step of the same name would be.
         """
-        graph = self.combined
+        graph = self.combined_graph
         before, world = progress.world, self.bank.table.successor(progress.world, step)
         if world is None:
             return None
@@ -168,7 +168,7 @@ class ProgressTracker:
     def _in_turn(self, progress: Progress, world: int, moment: Moment) -> Progress:
         """Return the progress in a state, in a turn."""
         places = [self.bank.node(goal, world, moment.turn) for goal in range(len(self.bank.names))]
-        graph = self.combined
+        graph = self.combined_graph
         nodes = np.array(
             [graph.off if node is None else int(offset) + node
              for offset, node in zip(graph.offsets[:-1], places, strict=True)], dtype=np.int64,
@@ -180,7 +180,7 @@ class ProgressTracker:
         return Progress(world, nodes, doable, off or _NOWHERE, moment)
 
     def _look_off(self, progress: Progress, step: int, evidence: Evidence) -> Evidence:
-        label, n_next = self.combined.label, evidence.n_next
+        label, n_next = self.combined_graph.label, evidence.n_next
         more: list[tuple[int, float]] = []
         for goal, place in progress.off.items():
             graph, node = self.graph_of(goal, place)
@@ -233,18 +233,18 @@ class ProgressTracker:
         off: dict[int, OffGraph],
     ) -> int:
         """Return the node of a goal after a step that is no edge; ``off`` notes it has none."""
-        if node != self.combined.off:
+        if node != self.combined_graph.off:
             change = (progress.world ^ world) & self._relevant[goal]
             if not change:
                 return node
             root = self._roots.get((node, change))
             if root is None:
                 root = self._roots[node, change] = self._find(goal, world)
-            if root == self.combined.off:
+            if root == self.combined_graph.off:
                 off[goal] = OffGraph(world)
             return root
         node_after = self._find(goal, world)
-        if node_after != self.combined.off:
+        if node_after != self.combined_graph.off:
             off.pop(goal, None)
             return node_after
         off[goal] = self._follow_off(goal, off.get(goal) or OffGraph(progress.world), step, world)
@@ -252,7 +252,11 @@ class ProgressTracker:
 
     def _find(self, goal: int, world: int) -> int:
         node = self.bank.node(goal, world)
-        return self.combined.off if node is None else int(self.combined.offsets[goal]) + node
+        return (
+            self.combined_graph.off
+            if node is None
+            else int(self.combined_graph.offsets[goal]) + node
+        )
 
     def _follow_off(self, goal: int, place: OffGraph, step: int, world: int) -> OffGraph:
         graph = place.graph

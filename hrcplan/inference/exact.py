@@ -52,7 +52,7 @@ class ExactBelief:
         self.tracker = ProgressTracker(bank)
         self.mistake_rate = mistake_rate
         self._right, self._wrong = math.log1p(-mistake_rate), math.log(mistake_rate)
-        n_most = self.tracker.combined.n_labels
+        n_most = self.tracker.combined_graph.n_labels
         # By the number of steps that would be mistakes; the observed one is at least one of them.
         self._mistakes = self._wrong - np.log(np.maximum(1, np.arange(n_most + 1)))
 

@@ -37,10 +37,10 @@ class Needed:
 
     def __call__(self, tracker: ProgressTracker, step: int, evidence: Evidence) -> Floats:
         """Return the likelihood by goal."""
-        needs = tracker.combined.needs
+        needs = tracker.combined_graph.needs
         sizes = needs.sum(axis=1)
-        rest = np.maximum(1, tracker.combined.n_labels - sizes)
-        helps = needs[:, tracker.combined.label[step]]
+        rest = np.maximum(1, tracker.combined_graph.n_labels - sizes)
+        helps = needs[:, tracker.combined_graph.label[step]]
         likelihood: Floats = np.where(
             helps, (1 - self.epsilon) / np.maximum(1, sizes), self.epsilon / rest
         )
@@ -55,9 +55,9 @@ class Attractor:
 
     def __call__(self, tracker: ProgressTracker, step: int, evidence: Evidence) -> Floats:
         """Return the likelihood by goal."""
-        needs = tracker.combined.needs
+        needs = tracker.combined_graph.needs
         weights = np.where(needs, self.ratio, 1.0)
-        likelihood: Floats = weights[:, tracker.combined.label[step]] / weights.sum(axis=1)
+        likelihood: Floats = weights[:, tracker.combined_graph.label[step]] / weights.sum(axis=1)
         return likelihood
 
 

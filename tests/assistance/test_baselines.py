@@ -103,8 +103,8 @@ def test_who_did_it_does_not_matter_to_a_field(hall):
     hers = [step for step in range(len(table)) if table[step].words[1] == "ann"]
     can = table.applicable(robot.start().world)
     state = robot.observe(robot.start(), next(step for step in hers if step in can))
-    needs = robot.tracker.combined.needs
-    label = robot.tracker.combined.label
+    needs = robot.tracker.combined_graph.needs
+    label = robot.tracker.combined_graph.label
     mine = np.where(needs[:, label[state.last]], 1, -1)
     options = robot.options(state)
     for step, value in zip(options.steps, options.values, strict=True):
@@ -169,7 +169,7 @@ def test_no_plans_are_made_for_what_may_never_happen(workshop, monkeypatch):
     look = Lookahead(robot.step_values)
     monkeypatch.setattr(Bank, "graph_from", None)
     place = look.after(look.root(state), workshop.table.find(("seal", "red")))
-    lost = set(np.flatnonzero(place.progress.nodes == robot.tracker.combined.off).tolist())
+    lost = set(np.flatnonzero(place.progress.nodes == robot.tracker.combined_graph.off).tolist())
     assert lost
     assert not lost & set(place.next_steps.goals.tolist())
     again = look.after(place, workshop.table.find(("cut", "wire")))
@@ -189,7 +189,7 @@ class Quick(Plain):
 
     def __init__(self, forest):
         super().__init__(forest)
-        self.label, self.n_branches = ProgressTracker(forest.bank).combined.label, 0
+        self.label, self.n_branches = ProgressTracker(forest.bank).combined_graph.label, 0
 
     def posteriors_after(self, state, sequences):
         self.n_branches += len(sequences)

@@ -279,7 +279,7 @@ def _in_full(tree, root):
 def test_costs_are_those_of_trees_in_full(data, rhp):
     state, _ = data.draw(_turns(rhp, 5))
     n_trees = data.draw(st.integers(1, 3))
-    width = max(rhp.tracker.combined.label) + 1
+    width = max(rhp.tracker.combined_graph.label) + 1
     field = st.lists(st.integers(0, 3), min_size=width, max_size=width)
     fields = tuple(data.draw(field) for _ in range(n_trees))
     root = TreeRoot(state.progress, state.last, fields, (), lambda: rhp.posterior(state))
@@ -315,10 +315,10 @@ def test_looking_ahead_is_what_would_follow(data, rhp):
         step = data.draw(st.sampled_from(can))
         progress, real = ahead.after(progress, step), rhp.tracker.follow(real, step)[0]
         assert progress.world == real.world
-        on_graph = progress.nodes != rhp.tracker.combined.off
+        on_graph = progress.nodes != rhp.tracker.combined_graph.off
         assert (progress.nodes[on_graph] == real.nodes[on_graph]).all()
         lost = set(np.flatnonzero(~on_graph).tolist())
-        assert lost == set(np.flatnonzero(real.nodes == rhp.tracker.combined.off).tolist())
+        assert lost == set(np.flatnonzero(real.nodes == rhp.tracker.combined_graph.off).tolist())
 
 
 def test_early_attraction_comes_first(of_meals):

@@ -59,12 +59,12 @@ def listed(request):
 def test_beliefs_about_a_bank_share_its_graphs_as_long_as_there_is_one(workshop):
     bank = build(workshop.goals.only(["rope-red", "wire-red"]))
     first, second = ExactBelief(bank), RecursiveBelief(bank)
-    assert first.tracker.combined is second.tracker.combined
-    assert ExactBelief(build(bank.goals)).tracker.combined is not first.tracker.combined
-    shared = ref(first.tracker.combined)
+    assert first.tracker.combined_graph is second.tracker.combined_graph
+    assert ExactBelief(build(bank.goals)).tracker.combined_graph is not first.tracker.combined_graph
+    shared = ref(first.tracker.combined_graph)
     del first
     gc.collect()
-    assert shared() is second.tracker.combined
+    assert shared() is second.tracker.combined_graph
     del second
     gc.collect()
     assert shared() is None

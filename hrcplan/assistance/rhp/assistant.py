@@ -108,8 +108,8 @@ class RecedingHorizonPlanner(ValueAssistant[RhpState]):
         if bigrams not in (BANK, PLAUSIBLE):
             raise UsageError(f"there are no 2-grams '{bigrams}'", hint=f"{BANK} or {PLAUSIBLE}")
         self.belief = _belief(bank, belief, seed)
-        shared = self.belief.tracker if isinstance(self.belief, TracksProgress) else None
-        super().__init__(bank, shared)
+        tracker = self.belief.tracker if isinstance(self.belief, TracksProgress) else None
+        super().__init__(bank, tracker)
         self.n_sequences = n_sequences
         self.consistency = _consistency(bank, consistency, n_sampled, seed)
         grams = Bigrams(bank, n_sampled, seed)
@@ -117,11 +117,11 @@ class RecedingHorizonPlanner(ValueAssistant[RhpState]):
             self.step_values, grams, people(bank.goals.problem), branching, depth
         )
         self._by_plausible = bigrams == PLAUSIBLE
-        self._label = self.tracker.combined.label
+        self._label = self.tracker.combined_graph.label
         # How many goals have a step in their plans: its generality (III-D1).
-        self.generality: list[int] = self.tracker.combined.needs.sum(axis=0).tolist()
+        self.generality: list[int] = self.tracker.combined_graph.needs.sum(axis=0).tolist()
         self._fields: dict[int, Field] = {}
-        self._predicted: dict[bytes, Floats] = {}
+        self._predictions: dict[bytes, Floats] = {}
 
     def start(self) -> RhpState:
         """Return the state before anything was done: one empty sequence, any goal."""
@@ -130,16 +130,16 @@ class RecedingHorizonPlanner(ValueAssistant[RhpState]):
 
     def observe(self, state: RhpState, step: int, *, robot: bool = False) -> RhpState:
         """Return the state after one more step, done by the human or by the robot."""
-        followed = self.tracker.follow(state.progress, step)
-        if followed is None:
+        move = self.tracker.follow(state.progress, step)
+        if move is None:
             return replace(state, ignored=IMPOSSIBLE)
         belief = state.belief
         if not isinstance(self.belief, SetBelief):
             belief = self.belief.observe(belief, step, robot=robot)
-        moved = replace(state, progress=followed[0], belief=belief, ignored=None)
+        next_state = replace(state, progress=move[0], belief=belief, ignored=None)
         if robot:
-            return replace(moved, robot=(*state.robot, step))
-        return self._watch(moved, step)
+            return replace(next_state, robot=(*state.robot, step))
+        return self._watch(next_state, step)
 
     def _watch(self, state: RhpState, step: int) -> RhpState:
         """Return the state after a human step: it is added to all sequences (III-C).
@@ -148,9 +148,9 @@ class RecedingHorizonPlanner(ValueAssistant[RhpState]):
         """
         human = (*state.human, step)
         longer = [(*sequence, step) for sequence in state.sequences]
-        kept = [(s, goals) for s in longer if (goals := self.consistency.goals(s))]
-        if kept:
-            sequences, plausible = zip(*kept, strict=True)
+        consistent = [(s, goals) for s in longer if (goals := self.consistency.goals(s))]
+        if consistent:
+            sequences, plausible = zip(*consistent, strict=True)
             return replace(state, human=human, sequences=sequences, plausible=plausible)
         sequences, plausible = self._afresh(state.human, step)
         return replace(
@@ -183,14 +183,14 @@ class RecedingHorizonPlanner(ValueAssistant[RhpState]):
     def _predict(self, belief: SetBelief, rows: Rows) -> Floats:
         """Return the posterior of each row; those of earlier calls are remembered."""
         keys = [row.tobytes() for row in rows]
-        new = [i for i, key in enumerate(keys) if key not in self._predicted]
+        new = [i for i, key in enumerate(keys) if key not in self._predictions]
         if new:
-            if len(self._predicted) >= MAX_REMEMBERED:
-                self._predicted.clear()
+            if len(self._predictions) >= MAX_REMEMBERED:
+                self._predictions.clear()
                 new = list(range(len(rows)))
             for i, posterior in zip(new, belief.posteriors(rows[new]), strict=True):
-                self._predicted[keys[i]] = posterior
-        return np.stack([self._predicted[key] for key in keys])
+                self._predictions[keys[i]] = posterior
+        return np.stack([self._predictions[key] for key in keys])
 
     def options(self, state: RhpState) -> StepChoice:
         """Return the steps that the robot could do now; the worth of one is its branch's cost."""
@@ -208,13 +208,13 @@ class RecedingHorizonPlanner(ValueAssistant[RhpState]):
 
     def field(self, goals: int) -> Field:
         """Return the sum of the attractor fields of goals, given as bits (III-B2)."""
-        known = self._fields.get(goals)
-        if known is None:
+        field = self._fields.get(goals)
+        if field is None:
             if len(self._fields) >= MAX_REMEMBERED:
                 self._fields.clear()
-            known = self.tracker.combined.needs[list(positions(goals))].sum(axis=0).tolist()
-            self._fields[goals] = known
-        return known
+            field = self.tracker.combined_graph.needs[list(positions(goals))].sum(axis=0).tolist()
+            self._fields[goals] = field
+        return field
 
 
 def _consistency(bank: Bank, kind: str | Consistency, n_plans: int, seed: int) -> Consistency:
@@ -226,8 +226,8 @@ def _consistency(bank: Bank, kind: str | Consistency, n_plans: int, seed: int) -
         "sampled": lambda: Sampled(bank, n_plans, seed),
     }
     if kind not in makers:
-        known = ", ".join(makers)
-        raise UsageError(f"there is no consistency '{kind}'", hint=f"one of {known}")
+        names = ", ".join(makers)
+        raise UsageError(f"there is no consistency '{kind}'", hint=f"one of {names}")
     return makers[kind]()
 
 

@@ -61,12 +61,12 @@ class Subset:
 
     def __init__(self, bank: Bank) -> None:
         self.bank, self.label = bank, bank.table.labels
-        self.graphs = [named(graph, self.label) for graph in bank.graphs]
+        self.graphs = [relabel(graph, self.label) for graph in bank.graphs]
         self.everything = sum(1 << g for g, graph in enumerate(self.graphs) if graph.n_nodes)
         self._spans: list[tuple[int, int, int]] = []
         self._large: list[int] = []
         self._number_kinds()
-        self._remembered: dict[tuple[int, tuple[int, ...]], bool] = {}
+        self._memo: dict[tuple[int, tuple[int, ...]], bool] = {}
 
     def _number_kinds(self) -> None:
         owners: dict[tuple[int, int], list[int]] = {}
@@ -92,13 +92,13 @@ class Subset:
 
     def goals(self, steps: Sequence[int]) -> int:
         """Return the goals of which some plan has all these steps, as bits."""
-        done = [self.label[step] for step in steps]
+        labels = [self.label[step] for step in steps]
         kinds = self._all_kinds
-        for occurrence in _occurrences(done):
+        for occurrence in _occurrences(labels):
             kinds &= self._kinds.get(occurrence, 0)
         goals = self._goals_of(kinds)
         for goal in self._large:
-            if self._may_fit(goal, tuple(sorted(done))):
+            if self._may_fit(goal, tuple(sorted(labels))):
                 goals |= 1 << goal
         return goals
 
@@ -107,14 +107,14 @@ class Subset:
             return kinds
         return sum(1 << goal for start, span, goal in self._spans if kinds >> start & span)
 
-    def _may_fit(self, goal: int, done: tuple[int, ...]) -> bool:
-        known = self._remembered.get((goal, done))
-        if known is None:
-            if len(self._remembered) >= MAX_REMEMBERED:
-                self._remembered.clear()
-            known = multisets.is_subset(self.graphs[goal], done) is not False
-            self._remembered[goal, done] = known
-        return known
+    def _may_fit(self, goal: int, labels: tuple[int, ...]) -> bool:
+        fits = self._memo.get((goal, labels))
+        if fits is None:
+            if len(self._memo) >= MAX_REMEMBERED:
+                self._memo.clear()
+            fits = multisets.is_subset(self.graphs[goal], labels) is not False
+            self._memo[goal, labels] = fits
+        return fits
 
     def largest(
         self, earlier: Sequence[int], latest: int, worth: Sequence[int], n: int
@@ -128,9 +128,9 @@ class Subset:
 
         Every part that is consistent, with the latest step, is a part of one of them.
         """
-        last, done = self.label[latest], [self.label[step] for step in earlier]
+        last, labels = self.label[latest], [self.label[step] for step in earlier]
         parts = [(0, self._kinds.get((last, 1), 0))]
-        for place, label in enumerate(done):
+        for place, label in enumerate(labels):
             has = self._kinds.get((label, 2 if label == last else 1), 0)
             parts = [
                 (part | bit, kinds)
@@ -145,21 +145,21 @@ class Subset:
         for goal in self._large:
             used = self.graphs[goal].used_steps
             if last in used:
-                yield sum(1 << i for i, label in enumerate(done) if label in used), 1 << goal
+                yield sum(1 << i for i, label in enumerate(labels) if label in used), 1 << goal
 
 
-def named(graph: PlanGraph, label: Sequence[int]) -> PlanGraph:
+def relabel(graph: PlanGraph, label: Sequence[int]) -> PlanGraph:
     """Return a graph whose steps are labels; then several edges of a node may read alike."""
     if all(step == label[step] for step in graph.used_steps):
         return graph
     return replace(graph, steps=np.array(label, dtype=np.int32)[graph.steps])
 
 
-def _occurrences(done: Sequence[int]) -> Iterable[tuple[int, int]]:
+def _occurrences(labels: Sequence[int]) -> Iterable[tuple[int, int]]:
     """Return each label with its number of occurrences: who has the last one has them all."""
-    if len(set(done)) == len(done):
-        return ((label, 1) for label in done)
-    return Counter(done).items()
+    if len(set(labels)) == len(labels):
+        return ((label, 1) for label in labels)
+    return Counter(labels).items()
 
 
 def _mask(numbers: Sequence[int], n: int) -> int:

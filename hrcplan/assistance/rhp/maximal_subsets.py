@@ -29,8 +29,8 @@ def largest_first(
         n: How many to return.
         fits: Whether a sequence fits.
     """
-    seen = set(covers)
-    waiting = [(-m.bit_count(), -sum(worth[i] for i in positions(m)), -m) for m in seen]
+    covers_so_far = set(covers)
+    waiting = [(-m.bit_count(), -sum(worth[i] for i in positions(m)), -m) for m in covers_so_far]
     heapify(waiting)
     sequences: dict[tuple[int, ...], None] = {}
     while waiting and len(sequences) < n:
@@ -42,7 +42,7 @@ def largest_first(
             sequences[sequence] = None
         for i in places:
             smaller = part ^ 1 << i
-            if smaller not in seen:
-                seen.add(smaller)
+            if smaller not in covers_so_far:
+                covers_so_far.add(smaller)
                 heappush(waiting, (size + 1, total + worth[i], -smaller))
     return list(sequences)

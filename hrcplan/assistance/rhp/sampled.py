@@ -37,24 +37,24 @@ class Sampled(Ordered):
         super().__init__(bank)
         rng = np.random.default_rng(seed)
         self.plans = {
-            goal: Plans(_labeled(bank.sampler(goal).draw(n_plans, rng), self.label))
+            goal: Plans(_as_labels(bank.sampler(goal).draw(n_plans, rng), self.label))
             for goal in positions(self.everything)
         }
 
-    def _fits(self, goal: int, done: tuple[int, ...]) -> bool:
-        return self.plans[goal].hold(done)
+    def _fits(self, goal: int, labels: tuple[int, ...]) -> bool:
+        return self.plans[goal].hold(labels)
 
     def largest(
         self, earlier: Sequence[int], latest: int, worth: Sequence[int], n: int
     ) -> list[tuple[int, ...]]:
         """Return the first ``n`` parts of a history that are consistent with a goal."""
-        done, last = [self.label[step] for step in earlier], self.label[latest]
-        bounds = sorted(self._bounds(done, last, worth), reverse=True)
+        labels, last = [self.label[step] for step in earlier], self.label[latest]
+        bounds = sorted(self._bounds(labels, last, worth), reverse=True)
         best: list[tuple[int, int, int]] = []
         for bound, goal in bounds:
             if len(best) >= n and bound < best[n - 1]:
                 break
-            more = self.plans[goal].best(done, last, worth, bound[2], n)
+            more = self.plans[goal].best(labels, last, worth, bound[2], n)
             if more is None or len(set(earlier)) < len(earlier):  # parts that read alike
                 covers = {cover for (_, _, cover), _ in bounds}
                 return largest_first(
@@ -64,13 +64,13 @@ class Sampled(Ordered):
         return [(*(earlier[i] for i in positions(part)), latest) for _, _, part in best[:n]]
 
     def _bounds(
-        self, done: Sequence[int], last: int, worth: Sequence[int]
+        self, labels: Sequence[int], last: int, worth: Sequence[int]
     ) -> Iterator[tuple[tuple[int, int, int], int]]:
         for goal, plans in self.plans.items():
             if last in plans.places:
-                kept = [i for i, label in enumerate(done) if label in plans.places]
-                part = sum(1 << i for i in kept)
-                yield (len(kept), sum(worth[i] for i in kept), part), goal
+                places = [i for i, label in enumerate(labels) if label in plans.places]
+                part = sum(1 << i for i in places)
+                yield (len(places), sum(worth[i] for i in places), part), goal
 
 
 class Plans:
@@ -85,11 +85,11 @@ class Plans:
         for label in np.unique(plans[plans >= 0]).tolist():
             self.places[label] = list(_occurrences(plans == label))
 
-    def hold(self, done: Sequence[int]) -> bool:
+    def hold(self, labels: Sequence[int]) -> bool:
         """Return whether one of the plans has these labels in this order."""
         rows: Ids | None = None
         now: Places | None = None
-        for label in done:
+        for label in labels:
             columns = self.places.get(label, [])
             if not columns:
                 return False
@@ -100,15 +100,15 @@ class Plans:
             after = columns[-1]
             for column in reversed(columns[:-1]):  # the first one that is still ahead
                 after = np.where(column > now, column, after)
-            kept = np.flatnonzero(after > now)
-            if not len(kept):
+            rows_that_fit = np.flatnonzero(after > now)
+            if not len(rows_that_fit):
                 return False
-            rows = kept if rows is None else rows.take(kept)
-            now = after.take(kept)
+            rows = rows_that_fit if rows is None else rows.take(rows_that_fit)
+            now = after.take(rows_that_fit)
         return True
 
     def best(
-        self, done: Sequence[int], last: int, worth: Sequence[int], part: int, n: int
+        self, labels: Sequence[int], last: int, worth: Sequence[int], part: int, n: int
     ) -> list[tuple[int, int, int]] | None:
         """Return the ``n`` best parts of a history that some plan has, with ``last`` behind them.
 
@@ -116,7 +116,7 @@ class Plans:
         None if numbers of 64 bits cannot hold these three.
 
         Args:
-            done: The labels of the history.
+            labels: The labels of the history.
             last: The latest label.
             worth: What each is worth.
             part: The places that are looked at; all labels there occur in plans.
@@ -128,52 +128,54 @@ class Plans:
         if shift + len(places).bit_length() > _KEY_BITS:
             return None
         keys = [(1 << shift) + (worth[i] << len(places)) + (1 << k) for k, i in enumerate(places)]
-        columns = [self.places[done[i]] for i in places]
+        columns = [self.places[labels[i]] for i in places]
         end = np.max(self.places[last], axis=0)
         tops = _tops(columns, keys, end)
         best_keys: set[int] = set()
-        looked: set[tuple[int, ...]] = set()
+        tried: set[tuple[int, ...]] = set()
         for row in np.argsort(-tops, kind="stable").tolist():
             least = min(best_keys) if len(best_keys) >= n else -1
             if tops[row] < 0 or tops[row] < least:
                 break
             own = [[int(c[row]) for c in column] for column in columns]
             order = _order(own, int(end[row]))
-            if order not in looked:
-                looked.add(order)
+            if order not in tried:
+                tried.add(order)
                 best_keys = set(nlargest(n, best_keys | _best_of(own, keys, int(end[row]), n)))
-        return [_unpacked(key, places, worth) for key in sorted(best_keys, reverse=True)]
+        return [_unpack(key, places, worth) for key in sorted(best_keys, reverse=True)]
 
 
 def _tops(columns: Sequence[Sequence[Places]], keys: Sequence[int], end: Places) -> Ids:
     """Return for each plan the largest sum of keys of labels that it has in their order."""
-    seen: list[tuple[Places, Ids]] = []
+    columns_before: list[tuple[Places, Ids]] = []
     for column, key in zip(columns, keys, strict=True):
-        now = [(place, _extended(seen, place) + key) for place in column]
-        seen += [(place, np.where(place >= 0, sums, -1)) for place, sums in now]
-    sums_at_end = _extended(seen, end)
+        now = [(place, _extend(columns_before, place) + key) for place in column]
+        columns_before += [(place, np.where(place >= 0, sums, -1)) for place, sums in now]
+    sums_at_end = _extend(columns_before, end)
     return np.where(end >= 0, sums_at_end, -1)
 
 
-def _extended(seen: Sequence[tuple[Places, Ids]], end: Places) -> Ids:
+def _extend(columns_before: Sequence[tuple[Places, Ids]], end: Places) -> Ids:
     """Return for each plan the largest of the sums that stand before a place, at least 0."""
     best_sums = np.zeros(len(end), dtype=np.int64)
-    for place, sums in seen:
+    for place, sums in columns_before:
         np.maximum(best_sums, np.where(place < end, sums, 0), out=best_sums)
     return best_sums
 
 
 def _best_of(own: Sequence[Sequence[int]], keys: Sequence[int], end: int, n: int) -> set[int]:
     """Return the ``n`` largest sums of keys of labels that one plan has in their order."""
-    seen: list[tuple[int, list[int]]] = []
+    columns_before: list[tuple[int, list[int]]] = []
     for places, key in zip(own, keys, strict=True):
-        now = [(p, [key + s for s in _largest_before(seen, p, n)]) for p in places if p >= 0]
-        seen += now
-    return set(_largest_before(seen, end, n))
+        now = [
+            (p, [key + s for s in _largest_before(columns_before, p, n)]) for p in places if p >= 0
+        ]
+        columns_before += now
+    return set(_largest_before(columns_before, end, n))
 
 
-def _largest_before(seen: Sequence[tuple[int, list[int]]], end: int, n: int) -> list[int]:
-    return nlargest(n, {0, *(s for place, sums in seen if place < end for s in sums)})
+def _largest_before(columns_before: Sequence[tuple[int, list[int]]], end: int, n: int) -> list[int]:
+    return nlargest(n, {0, *(s for place, sums in columns_before if place < end for s in sums)})
 
 
 def _order(own: Sequence[Sequence[int]], end: int) -> tuple[int, ...]:
@@ -183,22 +185,22 @@ def _order(own: Sequence[Sequence[int]], end: int) -> tuple[int, ...]:
     return tuple(ranks[p] for p in flat)
 
 
-def _unpacked(key: int, places: Sequence[int], worth: Sequence[int]) -> tuple[int, int, int]:
-    chosen = [i for k, i in enumerate(places) if key >> k & 1]
-    return len(chosen), sum(worth[i] for i in chosen), sum(1 << i for i in chosen)
+def _unpack(key: int, places: Sequence[int], worth: Sequence[int]) -> tuple[int, int, int]:
+    places_used = [i for k, i in enumerate(places) if key >> k & 1]
+    return len(places_used), sum(worth[i] for i in places_used), sum(1 << i for i in places_used)
 
 
-def _labeled(plans: SmallIds, label: Sequence[int]) -> SmallIds:
+def _as_labels(plans: SmallIds, label: Sequence[int]) -> SmallIds:
     labels: SmallIds = np.array([*label, -1], dtype=np.int32)[plans]
     return labels
 
 
 def _occurrences(here: Bools) -> Iterator[Places]:
     """Yield the position of the first, second, ... true value of each row, -1 if there is none."""
-    left = here.copy()
-    rows = np.arange(len(left))
-    while left.any():
-        place = left.argmax(axis=1)
-        has = left[rows, place]
+    rest = here.copy()
+    rows = np.arange(len(rest))
+    while rest.any():
+        place = rest.argmax(axis=1)
+        has = rest[rows, place]
         yield np.where(has, place, -1).astype(np.int16)
-        left[rows, place] = False
+        rest[rows, place] = False

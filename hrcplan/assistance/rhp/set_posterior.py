@@ -68,10 +68,10 @@ class SetPosterior:
     def __init__(self, bank: Bank, error: float = ERROR) -> None:
         self.bank, self.error, self._ceiling = bank, error, PrefixPosterior(bank)
         self._label = bank.table.labels
-        self._called: dict[int, list[int]] = {}
+        self._steps_by_label: dict[int, list[int]] = {}
         for step, label in enumerate(self._label):
-            self._called.setdefault(label, []).append(step)
-        self._uses = np.zeros((len(bank.graphs), len(self._called)), dtype=np.int64)
+            self._steps_by_label.setdefault(label, []).append(step)
+        self._uses = np.zeros((len(bank.graphs), len(self._steps_by_label)), dtype=np.int64)
         for goal, graph in enumerate(bank.graphs):
             self._uses[goal, [self._label[step] for step in graph.used_steps]] = 1
         self._sizes = [
@@ -94,12 +94,12 @@ class SetPosterior:
         return posteriors
 
     def _weights(self, row: NDArray[np.uint8]) -> Floats:
-        done = np.flatnonzero(row)
+        labels = np.flatnonzero(row)
         n_used = self._uses @ row
-        prefixes = self._ceiling.beginnings(self._world(done.tolist()), n_used.tolist())
+        prefixes = self._ceiling.beginnings(self._world(labels.tolist()), n_used.tolist())
         prefixes = np.where(prefixes, prefixes, self._alike[np.arange(len(prefixes)), n_used])
-        errors = np.array([self.error**n for n in range(len(done) + 1)])
-        weights: Floats = np.where(self._has_plan, prefixes * errors[len(done) - n_used], 0.0)
+        errors = np.array([self.error**n for n in range(len(labels) + 1)])
+        weights: Floats = np.where(self._has_plan, prefixes * errors[len(labels) - n_used], 0.0)
         return weights
 
     def _any_order(self) -> Floats:
@@ -111,21 +111,23 @@ class SetPosterior:
         }
         return np.array([rows[size] for size in self._sizes]).reshape(-1, most + 1)
 
-    def _world(self, done: Sequence[int]) -> int:
+    def _world(self, labels: Sequence[int]) -> int:
         """Return the state after steps in an order in which they can be done, if there is one."""
-        world, waiting = self.bank.initial, list(done)
+        world, waiting = self.bank.initial, list(labels)
         while waiting:
-            left = []
+            rest = []
             for label in waiting:
-                successors = (self.bank.table.successor(world, s) for s in self._called[label])
+                successors = (
+                    self.bank.table.successor(world, s) for s in self._steps_by_label[label]
+                )
                 after = next((w for w in successors if w is not None), None)
                 if after is None:
-                    left.append(label)
+                    rest.append(label)
                 else:
                     world = after
-            if len(left) == len(waiting):
+            if len(rest) == len(waiting):
                 break
-            waiting = left
+            waiting = rest
         return world
 
 

@@ -22,24 +22,24 @@ class Ordered(ABC):
     def __init__(self, bank: Bank) -> None:
         self.subset = Subset(bank)
         self.label, self.everything = self.subset.label, self.subset.everything
-        self._remembered: dict[tuple[int, ...], int] = {}
+        self._memo: dict[tuple[int, ...], int] = {}
 
     def goals(self, steps: Sequence[int]) -> int:
         """Return the goals of which some plan has these steps in this order, as bits."""
-        done = tuple(self.label[step] for step in steps)
-        known = self._remembered.get(done)
-        if known is None:
-            if len(self._remembered) >= MAX_REMEMBERED:
-                self._remembered.clear()
+        labels = tuple(self.label[step] for step in steps)
+        fits = self._memo.get(labels)
+        if fits is None:
+            if len(self._memo) >= MAX_REMEMBERED:
+                self._memo.clear()
             # What does not fit without its last step does not fit with it.
-            before = self._remembered.get(done[:-1], self.everything)
+            before = self._memo.get(labels[:-1], self.everything)
             goals = self.subset.goals(steps) & before
-            known = sum(1 << goal for goal in positions(goals) if self._fits(goal, done))
-            self._remembered[done] = known
-        return known
+            fits = sum(1 << goal for goal in positions(goals) if self._fits(goal, labels))
+            self._memo[labels] = fits
+        return fits
 
     @abstractmethod
-    def _fits(self, goal: int, done: tuple[int, ...]) -> bool:
+    def _fits(self, goal: int, labels: tuple[int, ...]) -> bool:
         """Return whether some plan of a goal has these labels in this order."""
 
 
@@ -50,12 +50,12 @@ class Subsequence(Ordered):
         super().__init__(bank)
         self._orders = lru_cache(maxsize=None)(lambda goal: _orders(self.subset.graphs[goal]))
 
-    def _fits(self, goal: int, done: tuple[int, ...]) -> bool:
+    def _fits(self, goal: int, labels: tuple[int, ...]) -> bool:
         orders = self._orders(goal)
-        for place, label in enumerate(done):
-            if _set_of(done[:place]) & ~orders[label]:
+        for place, label in enumerate(labels):
+            if _set_of(labels[:place]) & ~orders[label]:
                 return False
-        return walk.is_subsequence(self.subset.graphs[goal], done)
+        return walk.is_subsequence(self.subset.graphs[goal], labels)
 
     def largest(
         self, earlier: Sequence[int], latest: int, worth: Sequence[int], n: int
@@ -66,12 +66,12 @@ class Subsequence(Ordered):
 
     def _covers(self, earlier: Sequence[int], latest: int) -> Iterator[int]:
         """Yield parts of a history of which any two steps have the order that some plan has."""
-        done, last = [self.label[step] for step in earlier], self.label[latest]
+        labels, last = [self.label[step] for step in earlier], self.label[latest]
         for cover, goals in self.subset.covers(earlier, latest):
             for goal in positions(goals):
                 orders = self._orders(goal)
-                kept = sum(1 << i for i in positions(cover) if orders[last] >> done[i] & 1)
-                yield from _without_conflicts(kept, done, orders)
+                part = sum(1 << i for i in positions(cover) if orders[last] >> labels[i] & 1)
+                yield from _without_conflicts(part, labels, orders)
 
 
 def _set_of(labels: Sequence[int]) -> int:
@@ -86,33 +86,33 @@ def _orders(graph: PlanGraph) -> dict[int, int]:
     used = sorted(graph.used_steps)
     column = {label: i for i, label in enumerate(used)}
     width = len(used)
-    met = np.zeros((graph.n_nodes, width), dtype=np.bool_)
+    earlier = np.zeros((graph.n_nodes, width), dtype=np.bool_)
     before = np.zeros((width, width), dtype=np.bool_)
     lookup = np.zeros(max(used, default=0) + 1, dtype=np.int64)
     lookup[used] = np.arange(width)
     for edges, sources in graph.edges_by_layer():
         own = lookup[graph.steps[edges]]
-        so_far = met[sources]
+        so_far = earlier[sources]
         np.logical_or.at(before, own, so_far)
         so_far[np.arange(len(own)), own] = True
-        np.logical_or.at(met, graph.targets[edges], so_far)
+        np.logical_or.at(earlier, graph.targets[edges], so_far)
     return {label: _set_of([used[i] for i in np.flatnonzero(before[row])])
             for label, row in column.items()}  # fmt: skip
 
 
-def _without_conflicts(part: int, done: Sequence[int], orders: dict[int, int]) -> Iterator[int]:
+def _without_conflicts(part: int, labels: Sequence[int], orders: dict[int, int]) -> Iterator[int]:
     """Yield the parts that are left when one step of each impossible pair is dropped."""
-    waiting, seen = [part], {part}
+    waiting, parts = [part], {part}
     while waiting:
-        kept = waiting.pop()
-        places = list(positions(kept))
+        rest = waiting.pop()
+        places = list(positions(rest))
         pairs = ((a, b) for k, b in enumerate(places) for a in places[:k])
-        conflict = next(((a, b) for a, b in pairs if not orders[done[b]] >> done[a] & 1), None)
+        conflict = next(((a, b) for a, b in pairs if not orders[labels[b]] >> labels[a] & 1), None)
         if conflict is None:
-            yield kept
+            yield rest
             continue
         for place in conflict:
-            less = kept ^ 1 << place
-            if less not in seen:
-                seen.add(less)
+            less = rest ^ 1 << place
+            if less not in parts:
+                parts.add(less)
                 waiting.append(less)

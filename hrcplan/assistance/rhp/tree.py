@@ -71,7 +71,10 @@ class RecedingHorizonTree:
             Branching(step_values, bigrams, branching),
             (depth + 1) // 2,
         )
-        self.imagined, self.label = ImaginedSteps(step_values), step_values.tracker.combined.label
+        self.imagined_steps, self.label = (
+            ImaginedSteps(step_values),
+            step_values.tracker.combined_graph.label,
+        )
 
     def costs(self, root: TreeRoot) -> dict[int, int]:
         """Return for each step that the robot may do first the cost of its cheapest branch.
@@ -81,8 +84,8 @@ class RecedingHorizonTree:
         the robot's before; one that is nowhere among them is final and need not be grown.
         """
         lowest: dict[int, int] = {}
-        ended: list[TreeBranch] = []
-        now = self.imagined.begin(root.progress)
+        leaves: list[TreeBranch] = []
+        now = self.imagined_steps.begin(root.progress)
         level = [
             TreeBranch(s, now, s, tuple(-field[self.label[s]] for field in root.fields))
             for s in self.next_steps(root, now, root.last, self.step_values.agents)
@@ -90,46 +93,46 @@ class RecedingHorizonTree:
         for _ in range(1, self.n_levels):
             if not level:
                 break
-            least = [min(costs) for costs in zip(*(b.costs for b in level + ended), strict=True)]
-            grown: list[TreeBranch] = []
+            least = [min(costs) for costs in zip(*(b.costs for b in level + leaves), strict=True)]
+            next_level: list[TreeBranch] = []
             for branch in level:
                 lowers = [cost == low for cost, low in zip(branch.costs, least, strict=True)]
                 if not any(lowers):
                     _note(lowest, branch)
                 else:
-                    self._grow(root, branch, lowers, grown, ended)
-            level = grown
-        for branch in level + ended:
+                    self._grow(root, branch, lowers, next_level, leaves)
+            level = next_level
+        for branch in level + leaves:
             _note(lowest, branch)
         return lowest
 
     def _grow(
-        self, root: TreeRoot, branch: TreeBranch, lowers: Sequence[bool], grown: list[TreeBranch],
-        ended: list[TreeBranch],
+        self, root: TreeRoot, branch: TreeBranch, lowers: Sequence[bool], next_level: list[TreeBranch],
+        leaves: list[TreeBranch],
     ) -> None:  # fmt: skip
         """Add a human and a robot step to a branch, in all ways; where there is none, it ends."""
-        after = self.imagined.after(branch.progress, branch.step)
+        after = self.imagined_steps.after(branch.progress, branch.step)
         answers = self.next_steps(root, after, branch.step, self.people)
         if not answers:
-            ended.append(branch)
+            leaves.append(branch)
         for answer in answers:
-            progress = self.imagined.after(after, answer)
+            progress = self.imagined_steps.after(after, answer)
             steps = self.next_steps(root, progress, answer, self.step_values.agents)
             if not steps:
-                ended.append(branch)
+                leaves.append(branch)
             for step in steps:
                 label = self.label[step]
                 costs = tuple(
                     cost - field[label] if lower else cost
                     for cost, field, lower in zip(branch.costs, root.fields, lowers, strict=True)
                 )
-                grown.append(TreeBranch(branch.first, progress, step, costs))
+                next_level.append(TreeBranch(branch.first, progress, step, costs))
 
     def next_steps(
         self, root: TreeRoot, progress: Progress, last: int | None, agents: Set[str]
     ) -> list[int]:
         """Return the steps that are tried after a step, the likeliest first."""
-        next_steps = self.imagined.next_steps(progress)
+        next_steps = self.imagined_steps.next_steps(progress)
         return self._branching.expand(
             progress, next_steps, last, agents, root.belief, root.plausible
         )
