@@ -30,7 +30,7 @@ StepSequence = tuple[int, ...]
 class TreePosition:
     """A position in the tree: the goals' progress and next steps, and the step that led there.
 
-    ``reached`` is shared by the whole tree: steps in another order lead to the same states.
+    ``positions`` is shared by the whole tree: steps in another order lead to the same states.
     """
 
     progress: Progress

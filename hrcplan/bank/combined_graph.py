@@ -155,7 +155,7 @@ class ApplicableSteps:
             self._odd[label].append(index)
         else:
             self._rules[label].extend(action.rules)
-        for position in positions(action.mentioned):
+        for position in positions(action.footprint):
             self._mentions.setdefault(position, set()).add(label)
 
     def _part(self, labels: Iterable[int]) -> _Part:

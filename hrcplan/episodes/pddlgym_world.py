@@ -36,7 +36,7 @@ class PddlgymWorld:
 
     def __init__(self, bank: Bank) -> None:
         self._task = bank.goals.task
-        if self._task.reached:
+        if self._task.value_sets:
             raise UnsupportedError("pddlgym has no numbers, and an action changes one")
         self._core = _core()
         self._env = environment(replace(bank.goals.problem, goal=TRUE))

@@ -70,7 +70,7 @@ class BitSpace:
         assert isinstance(state, int)
         problem = self._task.problem
         values = dict(problem.values)
-        if self._task.reached:
+        if self._task.value_sets:
             for fact in self._task.facts_of(state):
                 if fact[0] == "=":
                     values[fact[1:-1]] = exact(Fraction(fact[-1]))

@@ -85,7 +85,7 @@ class Distances:
         self.relaxation = Relaxation(ops, goals)
         self.clock.spent_s += time.monotonic() - began
         self.prover = prover if all(op.is_simple for op in ops) else None
-        self._known: dict[tuple[int, int], Way | None] = {}
+        self._ways_by_key: dict[tuple[int, int], Way | None] = {}
 
     def estimates(self, states: Sequence[int]) -> list[list[float | None]]:
         """Return for each state and goal the cost of a relaxed plan; None if there is none."""
@@ -106,7 +106,7 @@ class Distances:
         )
 
     def next(
-        self, places: Sequence[GoalDistance], after: int, done: Sequence[int],
+        self, places: Sequence[GoalDistance], after: int, ops: Sequence[int],
         estimates: Sequence[float | None], order: Sequence[int], n_observed: int,
     ) -> tuple[GoalDistance, ...]:  # fmt: skip
         """Return the places in a later state.
@@ -114,7 +114,7 @@ class Distances:
         Args:
             places: The places before.
             after: The later state.
-            done: The ops that led to it.
+            ops: The ops that led to it.
             estimates: The relaxed distances from it.
             order: Goals, the most important first, in case time runs short.
             n_observed: How many observations there were.
@@ -122,20 +122,20 @@ class Distances:
         ways: dict[int, Way | None] = {}
         for goal, place in enumerate(places):
             if place.way is not None:
-                ways[goal] = self._shortened(goal, place.way, done, after)
-        wanted = [
+                ways[goal] = self._rest_of(goal, place.way, ops, after)
+        open_goals = [
             g for g in order
             if places[g].is_proven and ways.get(g) is None and estimates[g] is not None
         ]  # fmt: skip
-        ways.update(self._ways(after, wanted, n_observed))
+        ways.update(self._ways(after, open_goals, n_observed))
         return tuple(
-            _moved(place, estimates[goal], ways.get(goal)) for goal, place in enumerate(places)
+            _next_place(place, estimates[goal], ways.get(goal)) for goal, place in enumerate(places)
         )
 
-    def _shortened(self, goal: int, way: Way, done: Sequence[int], after: int) -> Way | None:
+    def _rest_of(self, goal: int, way: Way, ops: Sequence[int], after: int) -> Way | None:
         """Return the rest of a cheapest way if what was done can stand at its beginning."""
         rest = list(way.ops)
-        for op in done:
+        for op in ops:
             if op not in rest:
                 return None
             rest.remove(op)
@@ -146,7 +146,7 @@ class Distances:
             state = self.ops[op].apply(state)
         if not any(state & mask == value for mask, value in self.goals[goal]):
             return None
-        return Way(way.cost - sum(self.ops[op].cost for op in done), tuple(rest))
+        return Way(way.cost - sum(self.ops[op].cost for op in ops), tuple(rest))
 
     def _ways(self, state: int, goals: Sequence[int], n_observed: int) -> dict[int, Way | None]:
         """Return cheapest ways to goals, where they are found in time."""
@@ -155,15 +155,15 @@ class Distances:
         began = time.monotonic()
         tests = {goal: self.goals[goal][0] for goal in goals if len(self.goals[goal]) == 1}
         keys = {g: (g, state & self.prover.relevant_facts(test)) for g, test in tests.items()}
-        new = [goal for goal in tests if keys[goal] not in self._known]
+        new = [goal for goal in tests if keys[goal] not in self._ways_by_key]
         left_s = self.clock.left_s(n_observed)
         if new and left_s > MIN_S:
             limit_s = max(MIN_S, min(MAX_S, 2 * left_s / len(new)))
             searches = [(state, tests[goal]) for goal in new]
             ways = self.prover.cheapest_ways(searches, limit_s, left_s)
-            self._known.update((keys[goal], way) for goal, way in zip(new, ways, strict=True))
+            self._ways_by_key.update((keys[goal], way) for goal, way in zip(new, ways, strict=True))
         self.clock.spent_s += time.monotonic() - began
-        return {goal: self._known.get(key) for goal, key in keys.items()}
+        return {goal: self._ways_by_key.get(key) for goal, key in keys.items()}
 
     def bridge(self, state: int, tests: Sequence[Test], limit_s: float = 1.0) -> Way | None:
         """Return a cheapest way to where one of several tests holds; None if none is found."""
@@ -174,7 +174,7 @@ class Distances:
         return min((way for way in ways if way), key=lambda way: way.cost, default=None)
 
 
-def _moved(place: GoalDistance, estimate: float | None, way: Way | None) -> GoalDistance:
+def _next_place(place: GoalDistance, estimate: float | None, way: Way | None) -> GoalDistance:
     if estimate is None:
         return GoalDistance(None, None, None, place.is_proven)
     if place.is_proven and way is not None:

@@ -64,8 +64,10 @@ class _Relaxation:
         self.costs = [*(op.cost for op in ops), 0]
         rules = list(relaxed_rules(ops, admissible=True))
         goals = [literals(test) for test in goal]
-        named = [x for rule in rules for x in (*rule.needs, *rule.gives)]
-        n_literals = max([2 * state.bit_length(), *(x + 2 & ~1 for x in (*named, *sum(goals, ())))])
+        literals_in_rules = [x for rule in rules for x in (*rule.needs, *rule.gives)]
+        n_literals = max(
+            [2 * state.bit_length(), *(x + 2 & ~1 for x in (*literals_in_rules, *sum(goals, ())))]
+        )
         self.goal, self.true = n_literals, n_literals + 1
         rules += [RelaxedRule(len(ops), needs, (self.goal,)) for needs in goals]
         # What needs nothing needs the literal that is always true, so that it has a supporter.
@@ -98,11 +100,11 @@ class _Relaxation:
                 if waiting[i]:
                     continue
                 self.supporter[i] = literal  # the last to come is the most expensive
-                reached = value + self.costs[self.rules[i].op]
-                for given in self.rules[i].gives:
-                    if reached < values[given]:
-                        values[given] = reached
-                        heapq.heappush(queue, (reached, given))
+                cost = value + self.costs[self.rules[i].op]
+                for effect in self.rules[i].gives:
+                    if cost < values[effect]:
+                        values[effect] = cost
+                        heapq.heappush(queue, (cost, effect))
         return values
 
     def cut(self, values: list[float]) -> Landmark:
@@ -126,10 +128,10 @@ class _Relaxation:
         while waiting:
             literal = waiting.pop()
             for i in self.makers[literal]:
-                needed = self.supporter[i]
-                if needed >= 0 and needed not in zone and not self.costs[self.rules[i].op]:
-                    zone.add(needed)
-                    waiting.append(needed)
+                need = self.supporter[i]
+                if need >= 0 and need not in zone and not self.costs[self.rules[i].op]:
+                    zone.add(need)
+                    waiting.append(need)
         return zone
 
     def _before(self, zone: set[int]) -> set[int]:
@@ -142,10 +144,10 @@ class _Relaxation:
                 if self.supporter[i] != literal:
                     continue
                 gives = self.rules[i].gives
-                if any(given in zone for given in gives):
+                if any(effect in zone for effect in gives):
                     continue
-                for given in gives:
-                    if given not in literals:
-                        literals.add(given)
-                        waiting.append(given)
+                for effect in gives:
+                    if effect not in literals:
+                        literals.add(effect)
+                        waiting.append(effect)
         return literals

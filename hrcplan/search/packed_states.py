@@ -73,11 +73,8 @@ class FactPacking:
         n_bytes = -(-(max(self.positions, default=0) + 1) // 8)
         wide = np.zeros((len(rows), 8 * n_bytes), dtype=np.uint8)
         wide[:, list(self.positions)] = bits[:, : len(self.positions)]
-        packed = np.packbits(wide, axis=1, bitorder="little").tobytes()
-        return [
-            int.from_bytes(packed[i : i + n_bytes], "little")
-            for i in range(0, len(packed), n_bytes)
-        ]
+        raw = np.packbits(wide, axis=1, bitorder="little").tobytes()
+        return [int.from_bytes(raw[i : i + n_bytes], "little") for i in range(0, len(raw), n_bytes)]
 
 
 class PackedRules:
@@ -97,7 +94,7 @@ class PackedRules:
         self._masks = packing.rows([rule.mask for rule in rules.values()])
         self._values = packing.rows([rule.value for rule in rules.values()])
         self._adds = packing.rows([rule.adds for rule in rules.values()])
-        self._keeps = ~packing.rows([rule.touched for rule in rules.values()])
+        self._keeps = ~packing.rows([rule.writes for rule in rules.values()])
 
     def expand(self, states: Words) -> Iterator[tuple[Ids, SmallIds, Words]]:
         """Yield (row, op, successor) arrays for all changes that can be made to ``states``."""
@@ -118,17 +115,17 @@ class PackedRules:
         rows, rules = np.divmod(np.flatnonzero(fits), max(1, len(self._simple)))
         before = states[rows]
         after = before & self._keeps[rules] | self._adds[rules]
-        moved = (after != before).any(axis=1)
-        return rows[moved], self._simple[rules[moved]], after[moved]
+        is_change = (after != before).any(axis=1)
+        return rows[is_change], self._simple[rules[is_change]], after[is_change]
 
     def _expand_complex(self, states: Words, index: int) -> tuple[Ids, SmallIds, Words]:
         op = self.ops[index]
         rows = np.flatnonzero(self.meets(states, op.tests))
         before = states[rows]
         after = self._apply(self._apply(before, op.at_start), op.at_end)
-        moved = (after != before).any(axis=1)
-        ops = np.full(int(moved.sum()), index, dtype=np.int32)
-        return rows[moved], ops, after[moved]
+        is_change = (after != before).any(axis=1)
+        ops = np.full(int(is_change.sum()), index, dtype=np.int32)
+        return rows[is_change], ops, after[is_change]
 
     def meets(self, states: Words, tests: Tests) -> Bools:
         """Return for each row whether any of the tests holds."""

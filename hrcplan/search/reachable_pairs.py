@@ -44,15 +44,15 @@ class ReachablePairs:
         self._shift = masks.n_facts
         n_actions = len(masks.adds)
         self._with = [0] * (masks.n_facts + n_actions)
-        self._reached = 0
-        self._seen = [0] * (2 * n_actions)
+        self._possible_facts = 0
+        self._contexts = [0] * (2 * n_actions)
         deleters = holders(masks.over_needs, masks.n_facts)
         self._stops = [union(deleters[p] for p in positions(d & ~late)) << self._shift
                        for d, late in zip(masks.deletes, masks.late, strict=True)]  # fmt: skip
 
     def admit(self, initial: int) -> None:
         """Take in an initial state and all that can follow it."""
-        self._reached |= initial
+        self._possible_facts |= initial
         for position in positions(initial):
             self._with[position] |= initial
         while sum(self._start(a) + self._end(a) for a in range(len(self.masks.adds))):
@@ -60,7 +60,7 @@ class ReachablePairs:
 
     def running_at_start(self, action: int) -> int:
         """Return, as bits, the actions that can run when ``action`` starts."""
-        return self._seen[2 * action] >> self._shift
+        return self._contexts[2 * action] >> self._shift
 
     def running_beside(self, action: int) -> int:
         """Return, as bits, the other actions that can ever run together with ``action``."""
@@ -68,30 +68,30 @@ class ReachablePairs:
 
     def _start(self, action: int) -> bool:
         masks = self.masks
-        context = self._reached
+        context = self._possible_facts
         needs = masks.needs[action]
         for position in positions(needs):
             context &= self._with[position]
         if needs & ~context:
             return False
-        gone = masks.deletes[action] & ~masks.late[action]
-        context &= ~(masks.avoids[action] | gone | self._stops[action])
+        start_deletes = masks.deletes[action] & ~masks.late[action]
+        context &= ~(masks.avoids[action] | start_deletes | self._stops[action])
         return self._happen(2 * action, context, 1 << self._shift + action)
 
     def _end(self, action: int) -> bool:
         running = 1 << self._shift + action
         context = self._with[self._shift + action] & ~running
-        if not self._reached & running:
+        if not self._possible_facts & running:
             return False
         return self._happen(2 * action + 1, context, self.masks.adds[action])
 
     def _happen(self, event: int, context: int, adds: int) -> bool:
         """Note that all of ``adds`` can hold with each other and with all of ``context``."""
-        if adds & ~self._reached == 0 and context & ~self._seen[event] == 0:
+        if adds & ~self._possible_facts == 0 and context & ~self._contexts[event] == 0:
             return False
-        new = context & ~self._seen[event]
-        self._seen[event] |= context
-        self._reached |= adds
+        new = context & ~self._contexts[event]
+        self._contexts[event] |= context
+        self._possible_facts |= adds
         for position in positions(adds):
             self._with[position] |= context | adds
         for position in positions(new):

@@ -48,17 +48,17 @@ class Relaxation:
         for i, rule in enumerate(rules):
             for literal in rule.gives:
                 makers.setdefault(literal, []).append(i)
-        chosen: set[int] = set()
-        waiting, seen = list(self._ids), set(self._ids)
+        rule_ids: set[int] = set()
+        waiting, needs = list(self._ids), set(self._ids)
         while waiting:
             for i in makers.get(waiting.pop(), ()):
-                if i not in chosen:
-                    chosen.add(i)
-                    new = [x for x in rules[i].needs if x not in seen]
-                    seen.update(new)
+                if i not in rule_ids:
+                    rule_ids.add(i)
+                    new = [x for x in rules[i].needs if x not in needs]
+                    needs.update(new)
                     waiting += new
                     self._number(rules[i].needs)
-        return [rules[i] for i in sorted(chosen)]
+        return [rules[i] for i in sorted(rule_ids)]
 
     def _lay_out(self, rules: Sequence[RelaxedRule]) -> None:
         """Lay needs and makers out in tables for numpy."""
@@ -73,9 +73,9 @@ class Relaxation:
                       for x in rule.gives if x in self._ids)  # fmt: skip
         literals = np.array([literal for literal, _ in makers], dtype=np.int64)
         self._makers = np.array([i for _, i in makers], dtype=np.int64)
-        self._made, self._first = np.unique(literals, return_index=True)
+        self._literals, self._first = np.unique(literals, return_index=True)
         self._segment = np.repeat(
-            np.arange(len(self._made)), np.diff([*self._first.tolist(), len(makers)])
+            np.arange(len(self._literals)), np.diff([*self._first.tolist(), len(makers)])
         )
         order = np.array(list(self._ids), dtype=np.int64)
         self._fact, self._is_true = order >> 1, order & 1 == 0
@@ -100,21 +100,21 @@ class Relaxation:
         holds = self._holding(states)
         n = len(self._ids)
         rule_of = np.where(holds, HOLDS, NEVER)
-        if not len(self._made):
+        if not len(self._literals):
             return rule_of
         values = np.full((n + 1, len(states)), INFINITE)
         values[:n][holds] = values[n] = 0
         while True:
             offers = self._offers(values)
             best = np.minimum.reduceat(offers, self._first, axis=0)
-            now = values[self._made]
+            now = values[self._literals]
             if (best >= now).all():
                 break
-            values[self._made] = np.minimum(now, best)
+            values[self._literals] = np.minimum(now, best)
         rank = np.where(offers == best[self._segment], np.arange(len(offers))[:, None], len(offers))
         cheapest = np.minimum.reduceat(rank, self._first, axis=0)
         rules = self._makers[np.minimum(cheapest, len(offers) - 1)]
-        rule_of[self._made] = np.where(np.isfinite(values[self._made]), rules, NEVER)
+        rule_of[self._literals] = np.where(np.isfinite(values[self._literals]), rules, NEVER)
         rule_of[holds] = HOLDS
         return rule_of
 
@@ -127,41 +127,43 @@ class Relaxation:
         return offers
 
     def _costs(self, supporter: list[int]) -> list[float | None]:
-        known: dict[int, int] = {}
+        ops_of: dict[int, int] = {}
         costs: list[float | None] = []
         for tests in self._goals:
             least: float | None = None
             for needs in tests:
                 if all(supporter[literal] != NEVER for literal in needs):
-                    cost = self._cost(self._ops_for(needs, supporter, known))
+                    cost = self._cost(self._ops_for(needs, supporter, ops_of))
                     least = cost if least is None else min(least, cost)
             costs.append(least)
         return costs
 
-    def _ops_for(self, literals: Sequence[int], supporter: list[int], known: dict[int, int]) -> int:
+    def _ops_for(
+        self, literals: Sequence[int], supporter: list[int], ops_of: dict[int, int]
+    ) -> int:
         """Return the ops of a relaxed plan for some literals, as bits.
 
-        ``known`` has those of single literals, and is added to. No recursion: chains may be long.
+        ``ops_of`` has those of single literals, and is added to. No recursion: chains may be long.
         """
         needs, op_bits = self._needs, self._op_bits
         waiting = [literal for literal in literals if supporter[literal] != HOLDS]
         while waiting:
             literal = waiting[-1]
             rule = supporter[literal]
-            if literal not in known:
-                known[literal] = op_bits[rule]
-                before = [n for n in needs[rule] if n not in known and supporter[n] != HOLDS]
+            if literal not in ops_of:
+                ops_of[literal] = op_bits[rule]
+                before = [n for n in needs[rule] if n not in ops_of and supporter[n] != HOLDS]
                 if before:
                     waiting += before
                     continue
             waiting.pop()
             for need in needs[rule]:
                 if supporter[need] != HOLDS:
-                    known[literal] |= known[need]
+                    ops_of[literal] |= ops_of[need]
         ops = 0
         for literal in literals:
             if supporter[literal] != HOLDS:
-                ops |= known[literal]
+                ops |= ops_of[literal]
         return ops
 
     def _cost(self, ops: int) -> float:

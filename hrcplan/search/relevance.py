@@ -51,28 +51,28 @@ class Literals:
 
 def relevant(ops: Sequence[Operator], goal: Tests) -> tuple[tuple[Operator, ...], Literals]:
     """Return the ops that can help to reach a goal, in order, and the literals that matter."""
-    needed = Literals()
-    needed.add_tests(goal)
+    literals = Literals()
+    literals.add_tests(goal)
     useful: set[int] = set()
     before = (-1, -1)
-    while before != (needed.true, needed.false):
-        before = (needed.true, needed.false)
+    while before != (literals.true, literals.false):
+        before = (literals.true, literals.false)
         for i, op in enumerate(ops):
-            if i in useful or any(needed.helped_by(effect) for effect in op.effects):
+            if i in useful or any(literals.helped_by(effect) for effect in op.effects):
                 useful.add(i)
-                _add_operator(needed, op)
-    return tuple(op for i, op in enumerate(ops) if i in useful), needed
+                _add_operator(literals, op)
+    return tuple(op for i, op in enumerate(ops) if i in useful), literals
 
 
-def _add_operator(needed: Literals, op: Operator) -> None:
-    needed.add_tests(op.tests)
+def _add_operator(literals: Literals, op: Operator) -> None:
+    literals.add_tests(op.tests)
     for effect in op.effects:
         if effect.tests == ALWAYS:
             continue
-        if needed.helped_by(effect):
-            needed.add_tests(effect.tests)
-        if needed.hurt_by(effect):
-            needed.add_negated_tests(effect.tests)
+        if literals.helped_by(effect):
+            literals.add_tests(effect.tests)
+        if literals.hurt_by(effect):
+            literals.add_negated_tests(effect.tests)
 
 
 def read_by(ops: Iterable[Operator], goal: Tests) -> int:
@@ -95,5 +95,5 @@ def overwritten_facts(ops: Sequence[Operator]) -> int:
     facts = -1
     for op in ops:
         sure = (effect for effect in op.effects if effect.tests == ALWAYS)
-        facts &= reduce(or_, (effect.touched for effect in sure), 0)
+        facts &= reduce(or_, (effect.writes for effect in sure), 0)
     return facts & ~read_by(ops, ()) if ops else 0

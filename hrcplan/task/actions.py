@@ -10,9 +10,16 @@ from hrcplan.core.numbers import Number
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.model import DURATION, TOTAL_COST, TRUE, Constant, Expr, FluentKey, functions_in
 from hrcplan.pddl.semantics import Undefined, Values, evaluate, ground_key, instances
-from hrcplan.task.changing import Reached, combinations, keys_read, moves, timed, value_fact
+from hrcplan.task.changing import (
+    ValueSets,
+    combinations,
+    keys_read,
+    moves,
+    value_fact,
+    with_duration,
+)
 from hrcplan.task.conditions import ALWAYS, Grounder, Tests, all_of, any_of, negation
-from hrcplan.task.numbers import grounded
+from hrcplan.task.numbers import ground_expression
 from hrcplan.task.reachable import SchemaInstance
 from hrcplan.task.transitions import BitEffect, Effects, Transition, net_effect
 
@@ -56,19 +63,19 @@ class GroundAction(Transition):
 
 
 def ground_actions(
-    grounder: Grounder, instances: Iterable[SchemaInstance], reached: Reached
+    grounder: Grounder, instances: Iterable[SchemaInstance], value_sets: ValueSets
 ) -> tuple[GroundAction, ...]:
     """Return the ground actions of instances: those that can run and change something.
 
     Raises:
         UnsupportedError: if a condition or an effect cannot be held in bits.
     """
-    builder = _Builder(grounder, reached)
+    builder = _Builder(grounder, value_sets)
     actions: list[GroundAction] = []
     for instance in instances:
-        for chosen in combinations(keys_read(grounder, instance, reached), reached):
+        for choice in combinations(keys_read(grounder, instance, value_sets), value_sets):
             try:
-                action = builder.build(len(actions), instance, chosen)
+                action = builder.build(len(actions), instance, choice)
             except Undefined:
                 continue  # what it needs has no value, so it can never run
             if action is not None:
@@ -81,15 +88,15 @@ class _Builder:
     """Turns instances into ground actions over one set of fluents."""
 
     grounder: Grounder
-    reached: Reached
+    value_sets: ValueSets
 
     def build(
-        self, index: int, instance: SchemaInstance, chosen: Mapping[FluentKey, Number]
+        self, index: int, instance: SchemaInstance, choice: Mapping[FluentKey, Number]
     ) -> GroundAction | None:
         """Return the ground action, or None if it can never run or never changes anything."""
-        values = timed(instance, {**self.grounder.problem.values, **chosen} if chosen
+        values = with_duration(instance, {**self.grounder.problem.values, **choice} if choice
                        else self.grounder.problem.values)  # fmt: skip
-        start = self._conditions(instance, "start", values, chosen)
+        start = self._conditions(instance, "start", values, choice)
         if not start:
             return None
         at_start, later = self._changes(instance, "start", values)
@@ -118,7 +125,7 @@ class _Builder:
             at_start=at_start,
             at_end=at_end,
             conditional=any(c.tests != ALWAYS for c in (*at_start, *at_end)),
-            values=chosen,
+            values=choice,
         )
 
     def _who(self, instance: SchemaInstance) -> tuple[str | None, tuple[str, ...]]:
@@ -135,13 +142,13 @@ class _Builder:
         instance: SchemaInstance,
         when: str,
         values: Values,
-        given: Mapping[FluentKey, Number] = {},
+        choice: Mapping[FluentKey, Number] = {},
     ) -> Tests:
         """Return the conditions of one phase, and that changing functions have these values."""
         tests = self.grounder.conditions(instance.action, when, instance.binding, values)
-        if not self.reached:
+        if not self.value_sets:
             return tests
-        keys = given or keys_read(self.grounder, instance, self.reached, when)
+        keys = choice or keys_read(self.grounder, instance, self.value_sets, when)
         bits = (self.grounder.bit(value_fact(key, values[key])) for key in keys)
         return all_of([tests, *(((bit, bit),) for bit in bits)])
 
@@ -156,15 +163,15 @@ class _Builder:
                 continue
             for inner in instances(effect.params, instance.binding, self.grounder.problem):
                 bit = self.grounder.bit(ground_key(effect.target, inner))
-                added, deleted = (bit, 0) if effect.kind == "add" else (0, bit)
+                add_bit, delete_bit = (bit, 0) if effect.kind == "add" else (0, bit)
                 tests = ALWAYS if effect.condition == TRUE else self.grounder.tests(
                     effect.condition, inner, values)  # fmt: skip
                 if tests == ALWAYS:
-                    adds, deletes = adds | added, deletes | deleted
+                    adds, deletes = adds | add_bit, deletes | delete_bit
                 elif tests and bit:
-                    conditional.append(BitEffect(added, deleted, tests))
+                    conditional.append(BitEffect(add_bit, delete_bit, tests))
         after = dict[FluentKey, Number]()
-        for move in moves(self.grounder, instance, when, values) if self.reached else ():
+        for move in moves(self.grounder, instance, when, values) if self.value_sets else ():
             after[move.key] = move.value
             new = self.grounder.bit(value_fact(move.key, move.value))
             old = self._values_of(move.key) & ~new
@@ -177,7 +184,7 @@ class _Builder:
 
     def _values_of(self, key: FluentKey) -> int:
         """Return the bits of all values of a changing function."""
-        return sum(self.grounder.bit(value_fact(key, value)) for value in self.reached[key])
+        return sum(self.grounder.bit(value_fact(key, value)) for value in self.value_sets[key])
 
     def _costs(self, instance: SchemaInstance, values: Values, later: Values) -> tuple[Expr, ...]:
         """Return what the action adds to total-cost, over ground functions that never change.
@@ -191,15 +198,17 @@ class _Builder:
         if TOTAL_COST not in self.grounder.problem.domain.functions:
             return _UNIT_COST
         first, last = self._constants(values), self._constants(later)
-        fixed = instance.action.fixed_duration
-        if fixed is not None:
-            first[DURATION,] = last[DURATION,] = grounded(fixed, instance.binding, first)
+        duration = instance.action.fixed_duration
+        if duration is not None:
+            first[DURATION,] = last[DURATION,] = ground_expression(
+                duration, instance.binding, first
+            )
         costs: list[Expr] = []
         for effect in instance.action.effects:
             if effect.target.name != TOTAL_COST or effect.value is None:
                 continue
-            known = first if effect.when == "start" else last
-            costs.append(grounded(effect.value, instance.binding, known))
+            constants = first if effect.when == "start" else last
+            costs.append(ground_expression(effect.value, instance.binding, constants))
         if any(f.name == DURATION for cost in costs for f in functions_in(cost)):
             raise UnsupportedError(f"the cost of '{instance.action.name}' needs a fixed duration")
         for cost in costs:
@@ -208,29 +217,29 @@ class _Builder:
 
     def _constants(self, values: Values) -> dict[FluentKey, Expr]:
         """Return the values of the changing functions, as expressions."""
-        return {key: Constant(values[key]) for key in self.reached if key in values}
+        return {key: Constant(values[key]) for key in self.value_sets if key in values}
 
 
 def _before(tests: Tests, changes: Sequence[BitEffect]) -> Tests:
     """Return what must hold before changes of one instant for ``tests`` to hold after them."""
-    touched = 0
+    writes = 0
     for change in changes:
-        touched |= change.touched
-    if not any(mask & touched for mask, _ in tests):
+        writes |= change.writes
+    if not any(mask & writes for mask, _ in tests):
         return tests
     return any_of(
         all_of([
-            ((mask & ~touched, value & ~touched),),
-            *(_bit_before(bit, bool(bit & value), changes) for bit in single_bits(mask & touched)),
+            ((mask & ~writes, value & ~writes),),
+            *(_bit_before(bit, bool(bit & value), changes) for bit in single_bits(mask & writes)),
         ])
         for mask, value in tests
     )  # fmt: skip
 
 
-def _bit_before(bit: int, wanted: bool, changes: Sequence[BitEffect]) -> Tests:
+def _bit_before(bit: int, value: bool, changes: Sequence[BitEffect]) -> Tests:
     """Return what must hold before changes for one fact to hold, or not to hold, after them."""
-    added = any_of(change.tests for change in changes if change.adds & bit)
-    deleted = any_of(change.tests for change in changes if change.deletes & bit)
-    if wanted:
-        return any_of([added, all_of([((bit, bit),), negation(deleted)])])
-    return all_of([negation(added), any_of([((bit, 0),), deleted])])
+    add_tests = any_of(change.tests for change in changes if change.adds & bit)
+    delete_tests = any_of(change.tests for change in changes if change.deletes & bit)
+    if value:
+        return any_of([add_tests, all_of([((bit, bit),), negation(delete_tests)])])
+    return all_of([negation(add_tests), any_of([((bit, 0),), delete_tests])])

@@ -25,7 +25,7 @@ from hrcplan.task.numbers import numeric_effects
 from hrcplan.task.reachable import SchemaInstance
 
 MAX_VALUES = 16
-Reached = Mapping[FluentKey, Collection[Number]]
+ValueSets = Mapping[FluentKey, Collection[Number]]
 """The functions that actions change, with the values that they can reach."""
 
 
@@ -71,19 +71,19 @@ def moves(
     return list(value_moves.values())
 
 
-def timed(instance: SchemaInstance, values: Values) -> Values:
+def with_duration(instance: SchemaInstance, values: Values) -> Values:
     """Return function values, with the instance's ``?duration`` if that is fixed.
 
     Raises:
         Undefined: if the duration needs a function without a value.
     """
-    fixed = instance.action.fixed_duration
-    if fixed is None:
+    duration = instance.action.fixed_duration
+    if duration is None:
         return values
-    return {**values, (DURATION,): evaluate(fixed, values, instance.binding)}
+    return {**values, (DURATION,): evaluate(duration, values, instance.binding)}
 
 
-def reached_values(grounder: Grounder, schema_instances: Sequence[SchemaInstance]) -> Reached:
+def reached_values(grounder: Grounder, schema_instances: Sequence[SchemaInstance]) -> ValueSets:
     """Return every value that each function which an instance changes can reach.
 
     Raises:
@@ -96,29 +96,32 @@ def reached_values(grounder: Grounder, schema_instances: Sequence[SchemaInstance
         for effect in numeric_effects(i.action)
         for inner in instances(effect.params, i.binding, grounder.problem)
     }
-    given = grounder.problem.values
-    reached = {key: {given[key]} if key in given else set[Number]() for key in sorted(keys)}
-    while sum(_spread(grounder, mover, reached) for mover in movers):
-        for key, values in reached.items():
+    initial_values = grounder.problem.values
+    value_sets = {
+        key: {initial_values[key]} if key in initial_values else set[Number]()
+        for key in sorted(keys)
+    }
+    while sum(_spread(grounder, mover, value_sets) for mover in movers):
+        for key, values in value_sets.items():
             if len(values) > MAX_VALUES:
                 message = f"({' '.join(key)}) takes more than {MAX_VALUES} values"
                 raise UnsupportedError(message, hint="enhsp and kairos plan with such numbers")
-    return {key: tuple(sorted(values)) for key, values in reached.items()}
+    return {key: tuple(sorted(values)) for key, values in value_sets.items()}
 
 
 def _spread(
-    grounder: Grounder, mover: SchemaInstance, reached: dict[FluentKey, set[Number]]
+    grounder: Grounder, mover: SchemaInstance, value_sets: dict[FluentKey, set[Number]]
 ) -> bool:
     """Add the values that one instance leads to; return whether any is new."""
-    size = sum(map(len, reached.values()))
-    for chosen in list(combinations(keys_read(grounder, mover, reached), reached)):
+    size = sum(map(len, value_sets.values()))
+    for choice in list(combinations(keys_read(grounder, mover, value_sets), value_sets)):
         try:
-            values = timed(mover, {**grounder.problem.values, **chosen})
+            values = with_duration(mover, {**grounder.problem.values, **choice})
             for move in _possible_moves(grounder, mover, values):
-                reached[move.key].add(move.value)
+                value_sets[move.key].add(move.value)
         except Undefined:
             continue
-    return sum(map(len, reached.values())) > size
+    return sum(map(len, value_sets.values())) > size
 
 
 def _possible_moves(
@@ -135,37 +138,37 @@ def _possible_moves(
 
 
 def combinations(
-    keys: Collection[FluentKey], reached: Reached
+    keys: Collection[FluentKey], value_sets: ValueSets
 ) -> Iterator[dict[FluentKey, Number]]:
     """Yield every combination of reached values of the changing functions ``keys``."""
     moving = sorted(keys)
-    for chosen in product(*(sorted(reached[key]) for key in moving)):
-        yield dict(zip(moving, chosen, strict=True))
+    for choice in product(*(sorted(value_sets[key]) for key in moving)):
+        yield dict(zip(moving, choice, strict=True))
 
 
 def keys_read(
-    grounder: Grounder, instance: SchemaInstance, reached: Reached, phase: str | None = None
+    grounder: Grounder, instance: SchemaInstance, value_sets: ValueSets, phase: str | None = None
 ) -> frozenset[FluentKey]:
     """Return the changing functions that an instance looks at, in one phase or in any.
 
     A function that is increased or decreased is looked at, one that is assigned is not.
     """
-    if not reached:
+    if not value_sets:
         return frozenset()
     keys = set(_keys(grounder, instance.action, instance.binding, phase))
-    return frozenset(keys & reached.keys())
+    return frozenset(keys & value_sets.keys())
 
 
 def _keys(
     grounder: Grounder, action: Action, binding: Binding, phase: str | None
 ) -> Iterator[FluentKey]:
-    def named(formula: Formula, bound: Binding) -> Iterator[FluentKey]:
+    def keys_in(formula: Formula, bound: Binding) -> Iterator[FluentKey]:
         looked_at = mentions(formula, bound, grounder.problem)
         return (key for is_fact, key in looked_at if not is_fact)
 
     for condition in action.conditions:
         if phase in (None, condition.when):
-            yield from named(condition.formula, binding)
+            yield from keys_in(condition.formula, binding)
     if phase in (None, "start"):
         for _, duration in action.durations:
             yield from (ground_key(f, binding) for f in functions_in(duration))
@@ -173,7 +176,7 @@ def _keys(
         if phase not in (None, effect.when):
             continue
         for inner in instances(effect.params, binding, grounder.problem):
-            yield from named(effect.condition, inner)
+            yield from keys_in(effect.condition, inner)
             yield from (ground_key(f, inner) for f in functions_in(effect.value))
             if effect.kind not in ("assign", "add", "delete"):
                 yield ground_key(effect.target, inner)

@@ -84,7 +84,7 @@ class Grounder:
                 return (
                     ((bit, bit if positive else 0),)
                     if bit
-                    else _known((fact in self.fixed) == positive)
+                    else _constant_tests((fact in self.fixed) == positive)
                 )
             case And(parts) | Or(parts):
                 inner = (self.tests(part, binding, values, positive) for part in parts)
@@ -93,7 +93,7 @@ class Grounder:
                 return self.tests(body, binding, values, not positive)
             case Equal() | Compare():
                 state = LiftedState(frozenset(), values)
-                return _known(holds(formula, state, binding, self.problem, positive))
+                return _constant_tests(holds(formula, state, binding, self.problem, positive))
             case Quantified(universal, params, body):
                 inner = (
                     self.tests(body, bound, values, positive)
@@ -102,7 +102,7 @@ class Grounder:
                 return all_of(inner) if universal == positive else any_of(inner)
 
 
-def _known(truth: bool) -> Tests:
+def _constant_tests(truth: bool) -> Tests:
     return ALWAYS if truth else NEVER
 
 
@@ -118,7 +118,7 @@ def any_of(parts: Iterable[Tests]) -> Tests:
         alternatives.update(dict.fromkeys(part))
         if (0, 0) in alternatives:
             return ALWAYS
-    return _bounded(tuple(alternatives))
+    return _check_size(tuple(alternatives))
 
 
 def all_of(parts: Iterable[Tests]) -> Tests:
@@ -129,8 +129,12 @@ def all_of(parts: Iterable[Tests]) -> Tests:
             tests = part
         elif part != ALWAYS:
             pairs = [conjunction(one, other) for one in tests for other in part]
-            known = [pair for pair in pairs if pair is not None]
-            tests = tuple(known) if len(known) < 2 else _bounded(tuple(dict.fromkeys(known)))
+            possible = [pair for pair in pairs if pair is not None]
+            tests = (
+                tuple(possible)
+                if len(possible) < 2
+                else _check_size(tuple(dict.fromkeys(possible)))
+            )
         if tests == NEVER:
             return NEVER
     return tests
@@ -142,8 +146,11 @@ def conjunction(one: Test, other: Test) -> Test | None:
     other_mask, other_value = other
     if (value ^ other_value) & mask & other_mask:
         return None
-    both, wanted = mask | other_mask, value | other_value
-    return both, both if wanted == both else wanted  # one object for both saves half the memory
+    both, both_values = mask | other_mask, value | other_value
+    return (
+        both,
+        both if both_values == both else both_values,
+    )  # one object for both saves half the memory
 
 
 def negation(tests: Tests) -> Tests:
@@ -151,7 +158,7 @@ def negation(tests: Tests) -> Tests:
     return all_of(tuple((bit, ~value & bit) for bit in single_bits(mask)) for mask, value in tests)
 
 
-def _bounded(tests: Tests) -> Tests:
+def _check_size(tests: Tests) -> Tests:
     if len(tests) > MAX_ALTERNATIVES:
         raise UnsupportedError(f"a condition has more than {MAX_ALTERNATIVES} alternatives")
     return tests

@@ -11,7 +11,7 @@ from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, Constant, Fact, Problem
 from hrcplan.pddl.semantics import compares, ground_key, instances, mentions
 from hrcplan.task.actions import GroundAction, ground_actions
-from hrcplan.task.changing import Reached, combinations, reached_values, value_fact
+from hrcplan.task.changing import ValueSets, combinations, reached_values, value_fact
 from hrcplan.task.conditions import Grounder, Tests, all_of, any_of
 from hrcplan.task.lookup import lookup
 from hrcplan.task.numbers import check_supported, numeric_effects
@@ -51,18 +51,18 @@ class Grounding:
         facts: The fluents in bit order; facts that never change are compiled away.
         bits: The bit of each fluent.
         constant: The facts that hold and never change.
-        reached: The values, in bit order, of the functions that actions change.
+        value_sets: The values, in bit order, of the functions that actions change.
         movers: The instances that could change them.
         actions: The ground actions: by schema as declared, then by objects as declared.
         index: The actions, laid out for inner loops.
-        structure: Groundings with the same structure differ in the numbers of ``reached`` and in
+        structure: Groundings with the same structure differ in the numbers of ``value_sets`` and in
             costs only, so what was computed for one holds for the others.
     """
 
     facts: tuple[Fact, ...]
     bits: Mapping[Fact, int]
     constant: Set[Fact]
-    reached: Reached
+    value_sets: ValueSets
     movers: tuple[SchemaInstance, ...]
     actions: tuple[GroundAction, ...]
     index: ActionIndex
@@ -70,17 +70,17 @@ class Grounding:
 
     def with_actions(self, actions: Sequence[GroundAction], costs: Sequence[Number]) -> Grounding:
         """Return the grounding with other actions, numbered from 0, at constant costs."""
-        priced = tuple(
+        actions_at_cost = tuple(
             replace(action, costs=(Constant(cost),))
             for action, cost in zip(actions, costs, strict=True)
         )
-        index = ActionIndex.of(priced, len(self.facts))
-        return replace(self, actions=priced, index=index, structure=priced)
+        index = ActionIndex.of(actions_at_cost, len(self.facts))
+        return replace(self, actions=actions_at_cost, index=index, structure=actions_at_cost)
 
     def initial(self, problem: Problem) -> int:
         """Return the initial state of a problem."""
-        reached = (k for k in self.reached if k in problem.values)
-        return self.state_of([*problem.facts, *(value_fact(k, problem.values[k]) for k in reached)])
+        keys = (k for k in self.value_sets if k in problem.values)
+        return self.state_of([*problem.facts, *(value_fact(k, problem.values[k]) for k in keys)])
 
     def state_of(self, facts: Iterable[Fact]) -> int:
         """Return the state in which exactly these facts hold; constant facts are ignored."""
@@ -96,14 +96,14 @@ class Grounding:
         """
         grounder = Grounder(problem, self.bits, self.constant)
         looked_at = mentions(problem.goal, {}, problem) if compares(problem.goal) else ()
-        named = {key for is_fact, key in looked_at if not is_fact}
-        if not named.isdisjoint([(TOTAL_COST,), (TOTAL_TIME,)]):
+        names = {key for is_fact, key in looked_at if not is_fact}
+        if not names.isdisjoint([(TOTAL_COST,), (TOTAL_TIME,)]):
             message = "the goal looks at the cost or time of the plan"
             raise UnsupportedError(message, hint="enhsp and kairos plan with such numbers")
         alternatives: list[Tests] = []
-        for chosen in combinations(named & self.reached.keys(), self.reached):
-            bits = (grounder.bit(value_fact(key, value)) for key, value in chosen.items())
-            goal = grounder.tests(problem.goal, {}, {**problem.values, **chosen})
+        for choice in combinations(names & self.value_sets.keys(), self.value_sets):
+            bits = (grounder.bit(value_fact(key, value)) for key, value in choice.items())
+            goal = grounder.tests(problem.goal, {}, {**problem.values, **choice})
             alternatives.append(all_of([goal, *(((bit, bit),) for bit in bits)]))
         return any_of(alternatives)
 
@@ -122,12 +122,12 @@ def ground(problem: Problem, deadline: float = inf) -> Grounding:
     fluents = _fluents(problem, schema_instances, reachable_facts)
     constant = problem.facts.difference(fluents)
     plain_bits = {fact: i for i, fact in enumerate(fluents)}
-    reached = reached_values(Grounder(problem, plain_bits, constant), schema_instances)
-    facts = (*fluents, *(value_fact(key, value) for key in reached for value in reached[key]))
+    value_sets = reached_values(Grounder(problem, plain_bits, constant), schema_instances)
+    facts = (*fluents, *(value_fact(key, value) for key in value_sets for value in value_sets[key]))
     bits = {fact: i for i, fact in enumerate(facts)}
-    actions = ground_actions(Grounder(problem, bits, constant), schema_instances, reached)
+    actions = ground_actions(Grounder(problem, bits, constant), schema_instances, value_sets)
     return Grounding(
-        facts, bits, constant, reached,
+        facts, bits, constant, value_sets,
         movers=tuple(i for i in schema_instances if any(numeric_effects(i.action))),
         actions=actions, index=ActionIndex.of(actions, len(facts)), structure=actions,
     )  # fmt: skip
@@ -137,10 +137,10 @@ def _fluents(
     problem: Problem, schema_instances: Iterable[SchemaInstance], reachable_facts: Set[Fact]
 ) -> list[Fact]:
     """Return the reachable facts that do not hold all the time."""
-    deleted: set[Fact] = set()
+    deletable: set[Fact] = set()
     for instance in schema_instances:
         for effect in instance.action.effects:
             if effect.kind == "delete":
                 for inner in instances(effect.params, instance.binding, problem):
-                    deleted.add(ground_key(effect.target, inner))
-    return sorted(reachable_facts & deleted | reachable_facts - problem.facts)
+                    deletable.add(ground_key(effect.target, inner))
+    return sorted(reachable_facts & deletable | reachable_facts - problem.facts)

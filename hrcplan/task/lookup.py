@@ -41,21 +41,21 @@ class Waiting:
 
     def __init__(self, rules: Sequence[IndexedRule]) -> None:
         needs = [list(positions(value)) for _, (_, value, _, _) in rules]
-        users = Counter(position for needed in needs for position in needed)
+        users = Counter(position for need in needs for position in need)
         self._free: list[IndexedRule] = []
         self._at: dict[int, list[IndexedRule]] = defaultdict(list)
-        for rule, needed in zip(rules, needs, strict=True):
-            (self._at[min(needed, key=users.__getitem__)] if needed else self._free).append(rule)
-        self._watched = sum(1 << position for position in self._at)
+        for rule, need in zip(rules, needs, strict=True):
+            (self._at[min(need, key=users.__getitem__)] if need else self._free).append(rule)
+        self._index_mask = sum(1 << position for position in self._at)
 
     def runnable(self, state: int) -> list[int]:
         """Return the indices of the rules, in order."""
-        candidates = [self._free, *(self._at[i] for i in positions(state & self._watched))]
+        candidates = [self._free, *(self._at[i] for i in positions(state & self._index_mask))]
         indices = [
             index
             for rules in candidates
-            for index, (mask, value, touched, adds) in rules
-            if state & mask == value and state & touched != adds
+            for index, (mask, value, writes, adds) in rules
+            if state & mask == value and state & writes != adds
         ]
         indices.sort()
         return indices
@@ -101,13 +101,13 @@ def _verdicts(
     Bit ``i`` keeps action ``i`` from running; bit ``n_actions + i`` says that it changes the fact.
     """
     false, true = [0] * n_facts, [0] * n_facts
-    for index, (mask, value, touched, adds) in rules:
+    for index, (mask, value, writes, adds) in rules:
         blocks, changes = 1 << index, 1 << n_actions + index
         for verdicts, facts, says in (
             (false, value, blocks),
             (true, mask & ~value, blocks),
             (false, adds, changes),
-            (true, touched & ~adds, changes),
+            (true, writes & ~adds, changes),
         ):
             for position in positions(facts):
                 verdicts[position] |= says

@@ -74,14 +74,18 @@ def functions_read(action: Action) -> Iterator[Function]:
         yield from functions_in(effect.value)
 
 
-def grounded(expression: Expr, binding: Binding, known: Mapping[FluentKey, Expr]) -> Expr:
-    """Return an expression over ground functions, those of ``known`` replaced by what it says."""
+def ground_expression(
+    expression: Expr, binding: Binding, constants: Mapping[FluentKey, Expr]
+) -> Expr:
+    """Return an expression over ground functions, with those in ``constants`` replaced."""
     match expression:
         case Function(name):
             key = ground_key(expression, binding)
-            return known.get(key, Function(name, key[1:]))
+            return constants.get(key, Function(name, key[1:]))
         case Arithmetic(op, parts):
-            return Arithmetic(op, tuple(grounded(part, binding, known) for part in parts))
+            return Arithmetic(
+                op, tuple(ground_expression(part, binding, constants) for part in parts)
+            )
         case _:
             return expression
 
@@ -108,23 +112,23 @@ def linear(expression: Expr, binding: Binding) -> Linear | None:
             return {ground_key(expression, binding): 1}
         case Arithmetic(op, parts):
             sums = [linear(part, binding) for part in parts]
-            known = [part for part in sums if part is not None]
-            return _combine(op, known) if len(known) == len(sums) else None
+            terms = [part for part in sums if part is not None]
+            return _combine(op, terms) if len(terms) == len(sums) else None
 
 
 def _combine(op: str, parts: list[Linear]) -> Linear | None:
     if op == "-" and len(parts) == 1:
-        return _scaled(parts[0], -1)
+        return _scale(parts[0], -1)
     total = parts[0]
     for part in parts[1:]:
         if op in "+-":
-            total = _sum(total, _scaled(part, 1 if op == "+" else -1))
+            total = _sum(total, _scale(part, 1 if op == "+" else -1))
             continue
         factor, rest = (part, total) if _is_constant(part) else (total, part)
         if not _is_constant(factor) or (op == "/" and (rest is part or not factor.get((), 0))):
             return None
         number = factor.get((), 0)
-        total = _scaled(rest, number if op == "*" else 1 / Fraction(number))
+        total = _scale(rest, number if op == "*" else 1 / Fraction(number))
     return total
 
 
@@ -132,7 +136,7 @@ def _is_constant(part: Linear) -> bool:
     return all(key == () for key in part)
 
 
-def _scaled(part: Linear, factor: Number) -> Linear:
+def _scale(part: Linear, factor: Number) -> Linear:
     return {key: coefficient * factor for key, coefficient in part.items()}
 
 

@@ -42,7 +42,7 @@ def reachable(problem: Problem, deadline: float = inf) -> tuple[list[SchemaInsta
     Raises:
         LimitError: at the deadline, or if memory becomes short.
     """
-    search = _Search(problem, deadline)
+    search = _ReachabilitySearch(problem, deadline)
     search.run()
     order = {action.name: i for i, action in enumerate(problem.domain.actions)}
     rank = {name: i for i, name in enumerate(problem.all_objects)}
@@ -59,7 +59,7 @@ def available_bytes() -> int:
     return MIN_FREE_BYTES
 
 
-class _Search:
+class _ReachabilitySearch:
     """The reachable facts and instances so far, and the facts that wait to be joined."""
 
     def __init__(self, problem: Problem, deadline: float) -> None:
@@ -68,22 +68,22 @@ class _Search:
         self.index = FactIndex()
         self.instances: dict[tuple[str, tuple[str, ...]], SchemaInstance] = {}
         self._start = LiftedState(problem.facts, problem.values)
-        self._rules = [_Rule(action, problem) for action in problem.domain.actions]
-        self._users: dict[str, list[tuple[_Rule, int]]] = defaultdict(list)
-        self._added = {atom.name for rule in self._rules for _, atom in rule.adds}
+        self._rules = [_ReachabilityRule(action, problem) for action in problem.domain.actions]
+        self._users: dict[str, list[tuple[_ReachabilityRule, int]]] = defaultdict(list)
+        self._addable = {atom.name for rule in self._rules for _, atom in rule.adds}
         for rule in self._rules:
             for position, atom in enumerate(rule.join.atoms):
-                if atom.name in self._added:
+                if atom.name in self._addable:
                     self._users[atom.name].append((rule, position))
         facts = sorted(problem.facts)
-        self._waiting = deque(fact for fact in facts if fact[0] in self._added)
+        self._waiting = deque(fact for fact in facts if fact[0] in self._addable)
         for fact in facts:
-            if fact[0] not in self._added:
+            if fact[0] not in self._addable:
                 self.index.add(fact)
 
     def run(self) -> None:
         for rule in self._rules:
-            if self._added.isdisjoint(atom.name for atom in rule.join.atoms):
+            if self._addable.isdisjoint(atom.name for atom in rule.join.atoms):
                 self._take(rule, rule.join.bindings(self.index))
         while self._waiting:
             fact = self._waiting.popleft()
@@ -91,11 +91,11 @@ class _Search:
                 for rule, position in self._users[fact[0]]:
                     self._take(rule, rule.join.bindings(self.index, (position, fact)))
 
-    def _take(self, rule: _Rule, bindings: Iterator[JoinBinding]) -> None:
+    def _take(self, rule: _ReachabilityRule, bindings: Iterator[JoinBinding]) -> None:
         for binding in bindings:
             args = tuple([binding[name] for name in rule.names])
             key = rule.action.name, args
-            if key in self.instances or not self._can_hold(rule.fixed, binding):
+            if key in self.instances or not self._can_hold(rule.static_parts, binding):
                 continue
             self.instances[key] = SchemaInstance(rule.action, args, binding)
             self._check()
@@ -111,18 +111,18 @@ class _Search:
             message = f"no memory for more than {n_instances} ground actions"
             raise LimitError(message, hint=_HINT)
 
-    def _can_hold(self, fixed: tuple[Formula, ...], binding: JoinBinding) -> bool:
-        return all(holds(part, self._start, binding, self.problem) for part in fixed)
+    def _can_hold(self, parts: tuple[Formula, ...], binding: JoinBinding) -> bool:
+        return all(holds(part, self._start, binding, self.problem) for part in parts)
 
 
-class _Rule:
+class _ReachabilityRule:
     """One schema as a rule: what it needs, what is decided once for all, and what it adds."""
 
     def __init__(self, action: Action, problem: Problem) -> None:
         self.action = action
         self.names = [param.name for param in action.params]
         self.join = Join(action, needed_atoms(action, problem.domain), problem)
-        self.fixed = tuple(_fixed_parts(action, problem.domain))
+        self.static_parts = tuple(_static_parts(action, problem.domain))
         self.adds = [
             (effect.params, effect.target)
             for effect in action.effects
@@ -130,11 +130,11 @@ class _Rule:
         ]
 
 
-def _fixed_parts(action: Action, domain: Domain) -> Iterator[Formula]:
+def _static_parts(action: Action, domain: Domain) -> Iterator[Formula]:
     """Yield the parts of an action's conditions that no action can change, but for plain facts."""
-    changed = {effect.target.name for other in domain.actions for effect in other.effects}
-    changed.add(DURATION)
+    changing = {effect.target.name for other in domain.actions for effect in other.effects}
+    changing.add(DURATION)
     for condition in action.conditions:
         for part in conjuncts(condition.formula):
-            if not isinstance(part, Atom) and changed.isdisjoint(lifted_names(part)):
+            if not isinstance(part, Atom) and changing.isdisjoint(lifted_names(part)):
                 yield part

@@ -39,9 +39,9 @@ from hrcplan.pddl.semantics import (
     holds,
 )
 from hrcplan.task.actions import GroundAction
-from hrcplan.task.changing import Reached, value_fact
+from hrcplan.task.changing import ValueSets, value_fact
 from hrcplan.task.grounding import Grounding
-from hrcplan.task.numbers import divisors, grounded, numeric_effects
+from hrcplan.task.numbers import divisors, ground_expression, numeric_effects
 from hrcplan.task.task import Task
 
 MAX_KEPT = 32
@@ -54,11 +54,11 @@ class Structure:
 
     def __init__(self, task: Task) -> None:
         self.task = task
-        self._fixed = task.problem.facts - task.bits.keys()
-        self._left = None if _goal_reads_changes(task) else _assignments(task)
+        self._static_facts = task.problem.facts - task.bits.keys()
+        self._assignments = None if _goal_reads_changes(task) else _assignments(task)
         actions = task.problem.domain.actions
         self._shaping = frozenset(f.name for action in actions for f in _shaping(action))
-        self._truths = self._possible(task.problem.values, task.reached)
+        self._truths = self._possible(task.problem.values, task.value_sets)
 
     def again(self, problem: Problem) -> Task | None:
         """Return the task of ``problem`` with this structure; None if that does not hold it.
@@ -82,40 +82,42 @@ class Structure:
 
         What can follow a state that can follow the initial one was grounded with it.
         """
-        before, reached = self.task.problem, self.task.reached
+        before, value_sets = self.task.problem, self.task.value_sets
         if (problem.domain is not before.domain or problem.objects != before.objects
                 or problem.goal != before.goal):  # fmt: skip
             return False
-        if problem.facts - self.task.bits.keys() != self._fixed:
+        if problem.facts - self.task.bits.keys() != self._static_facts:
             return False
         old, new = before.values, problem.values
         if old.keys() != new.keys():
             return False
-        changed = [key for key in old if old[key] != new[key]]
-        return all(key in reached or key[0] not in self._shaping for key in changed)
+        changes = [key for key in old if old[key] != new[key]]
+        return all(key in value_sets or key[0] not in self._shaping for key in changes)
 
     def _roles(self, problem: Problem) -> Roles | None:
         """Return the numbers of all roles now; None if other or more roles are needed."""
-        if self._left is None:
+        if self._assignments is None:
             return None
         old, new = self.task.problem.values, problem.values
         roles: dict[FluentKey, tuple[Number, ...]] = {}
-        for key, values in self.task.reached.items():
-            left = {evaluate(e, old, b): evaluate(e, new, b) for e, b in self._left.get(key, ())}
-            after = {evaluate(e, new, b) for e, b in self._left.get(key, ())}
-            numbers = _renumbered(tuple(values), left, new[key])
+        for key, values in self.task.value_sets.items():
+            numbers_after = {
+                evaluate(e, old, b): evaluate(e, new, b) for e, b in self._assignments.get(key, ())
+            }
+            after = {evaluate(e, new, b) for e, b in self._assignments.get(key, ())}
+            numbers = _renumber(tuple(values), numbers_after, new[key])
             if numbers is None or after.difference(numbers):
                 return None
             roles[key] = numbers
         return roles if self._possible(new, roles) == self._truths else None
 
-    def _possible(self, values: Values, roles: Reached) -> list[bool]:
+    def _possible(self, values: Values, roles: ValueSets) -> list[bool]:
         """Return what the comparisons of each interaction say, for each choice of roles."""
         return [
-            _is_true(comparison, {**values, **chosen}, mover.binding, self.task.problem)
+            _is_true(comparison, {**values, **choice}, mover.binding, self.task.problem)
             for mover in self.task.grounding.movers
             for comparison in _comparisons(mover.action)
-            for chosen in _choices(comparison, mover.binding, roles)
+            for choice in _choices(comparison, mover.binding, roles)
         ]
 
 
@@ -123,7 +125,7 @@ class Groundings:
     """The groundings of one running task: one for each set of agent states that can be bettered."""
 
     def __init__(self) -> None:
-        self._kept: list[Structure] = []
+        self._structures: list[Structure] = []
 
     def task(self, problem: Problem) -> Task:
         """Return the task of a problem, with the structure of an earlier one if any holds it.
@@ -132,14 +134,14 @@ class Groundings:
             UnsupportedError: if bits cannot hold it.
             LimitError: if there are too many ground actions.
         """
-        for kept in self._kept:
-            task = kept.again(problem)
+        for structure in self._structures:
+            task = structure.again(problem)
             if task is not None:
                 return task
         new = Structure(Task(problem))
         # The smallest that holds a problem is the quickest.
-        all_kept = [*self._kept[-MAX_KEPT:], new]
-        self._kept = sorted(all_kept, key=lambda grounding: len(grounding.task.actions))
+        structures = [*self._structures[-MAX_KEPT:], new]
+        self._structures = sorted(structures, key=lambda grounding: len(grounding.task.actions))
         return new.task
 
 
@@ -179,36 +181,36 @@ def _is_true(comparison: Formula, values: Values, binding: Binding, problem: Pro
 
 
 def _choices(
-    comparison: Formula, binding: Binding, roles: Reached
+    comparison: Formula, binding: Binding, roles: ValueSets
 ) -> Iterator[dict[FluentKey, Number]]:
     """Yield every choice of the numbers, in the order of their roles, that a comparison reads."""
     read = sorted({ground_key(f, binding) for f in formula_functions(comparison)} & roles.keys())
-    for chosen in product(*(roles[key] for key in read)):
-        yield dict(zip(read, chosen, strict=True))
+    for choice in product(*(roles[key] for key in read)):
+        yield dict(zip(read, choice, strict=True))
 
 
-def _renumbered(
-    values: tuple[Number, ...], left: Mapping[Number, Number], now: Number
+def _renumber(
+    values: tuple[Number, ...], new_numbers: Mapping[Number, Number], now: Number
 ) -> tuple[Number, ...] | None:
     """Return the number of each role: what is left is known, the free role takes the value now."""
-    free = [v for v in values if v not in left]
-    numbers_in_use = set(left.values())
-    if len(numbers_in_use) < len(left):
+    free = [v for v in values if v not in new_numbers]
+    numbers_in_use = set(new_numbers.values())
+    if len(numbers_in_use) < len(new_numbers):
         return None
     if now in numbers_in_use or not free:
-        numbers = tuple(left.get(v, v) for v in values)
+        numbers = tuple(new_numbers.get(v, v) for v in values)
     else:
-        numbers = tuple(left.get(v, now if v == free[0] else v) for v in values)
+        numbers = tuple(new_numbers.get(v, now if v == free[0] else v) for v in values)
     # In order, so that actions come in the order in which a new grounding would have them.
-    ordered = all(a < b for a, b in pairwise(numbers))
-    return numbers if ordered and now in numbers else None
+    is_ascending = all(a < b for a, b in pairwise(numbers))
+    return numbers if is_ascending and now in numbers else None
 
 
 def _assignments(task: Task) -> dict[FluentKey, list[tuple[Expr, Binding]]] | None:
     """Return what interactions leave each function at; None if actions do more with them."""
     assignments: dict[FluentKey, list[tuple[Expr, Binding]]] = {}
     schema = task.problem.domain.action
-    moving = {key[0] for key in task.reached}
+    moving = {key[0] for key in task.value_sets}
     used = {action.name for action in task.actions}
     if any(_looks_closer(schema(name), moving) for name in used):
         return None
@@ -228,7 +230,7 @@ def _assignments(task: Task) -> dict[FluentKey, list[tuple[Expr, Binding]]] | No
 def _goal_reads_changes(task: Task) -> bool:
     """Return whether the goal compares a function that actions change."""
     read = {function.name for function in formula_functions(task.problem.goal)}
-    return not read.isdisjoint(key[0] for key in task.reached)
+    return not read.isdisjoint(key[0] for key in task.value_sets)
 
 
 def _looks_closer(action: Action, moving: set[str]) -> bool:
@@ -245,11 +247,11 @@ def _binding(action: Action, args: tuple[str, ...]) -> Binding:
 
 def _renumbered_grounding(task: Task, roles: Roles) -> Grounding:
     """Return the grounding of a task with other numbers in its roles."""
-    if roles == task.reached:
+    if roles == task.value_sets:
         return task.grounding
     new = {
         (key, old): number
-        for key, values in task.reached.items()
+        for key, values in task.value_sets.items()
         for old, number in zip(values, roles[key], strict=True)
     }
     n_plain = len(task.facts) - len(new)
@@ -257,23 +259,23 @@ def _renumbered_grounding(task: Task, roles: Roles) -> Grounding:
     facts = (*task.facts[:n_plain], *values)
     domain = task.problem.domain
     actions = tuple(
-        _repriced(action, domain.action(action.name), new) if action.values else action
+        _reprice(action, domain.action(action.name), new) if action.values else action
         for action in task.actions
     )
     bits = {fact: i for i, fact in enumerate(facts)}
-    return replace(task.grounding, facts=facts, bits=bits, reached=roles, actions=actions)
+    return replace(task.grounding, facts=facts, bits=bits, value_sets=roles, actions=actions)
 
 
-def _repriced(
+def _reprice(
     action: GroundAction, schema: Action, new: Mapping[tuple[FluentKey, Number], Number]
 ) -> GroundAction:
     values = {key: new[key, old] for key, old in action.values.items()}
-    known: dict[FluentKey, Expr] = {key: Constant(value) for key, value in values.items()}
+    constants: dict[FluentKey, Expr] = {key: Constant(value) for key, value in values.items()}
     binding = _binding(schema, action.args)
     if schema.fixed_duration is not None:
-        known[DURATION,] = grounded(schema.fixed_duration, binding, known)
+        constants[DURATION,] = ground_expression(schema.fixed_duration, binding, constants)
     costs = tuple(
-        grounded(effect.value, binding, known)
+        ground_expression(effect.value, binding, constants)
         for effect in schema.effects
         if effect.target.name == TOTAL_COST and effect.value is not None
     )

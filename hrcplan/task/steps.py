@@ -20,7 +20,7 @@ TIE_BITS = 20
 """Bits that count steps below a cost, where zero-cost steps make their number matter."""
 MAX_TIES = (1 << TIE_BITS) - 1
 
-_NEVER = Rule(mask=0, value=1, touched=0, adds=0)
+_NEVER = Rule(mask=0, value=1, writes=0, adds=0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -158,8 +158,8 @@ class StepTable:
                 if self.doer(state, step, key) is not None:
                     yield step
                 continue
-            mask, value, touched, adds = rule
-            if state & mask == value and state & touched != adds:
+            mask, value, writes, adds = rule
+            if state & mask == value and state & writes != adds:
                 yield step
 
     def _rule(self, step: Step, agents: Set[str]) -> Rule | None:

@@ -15,7 +15,7 @@ from hrcplan.pddl.inlining import plain
 from hrcplan.pddl.model import Fact, FluentKey, Formula, Problem, formula_functions
 from hrcplan.pddl.semantics import evaluate
 from hrcplan.task.actions import GroundAction
-from hrcplan.task.changing import Reached
+from hrcplan.task.changing import ValueSets
 from hrcplan.task.conditions import Test, meets
 from hrcplan.task.grounding import Grounding, ground
 from hrcplan.task.numbers import divisors, functions_read
@@ -27,10 +27,10 @@ class Task:
 
     ``facts`` are the fluents in bit order; facts that never change are compiled away. ``actions``
     stand in ground-action order: by schema as declared, then by objects as declared. An action
-    that would leave the state unchanged is not offered. ``reached`` are the values, in bit order,
-    of the functions that actions change. Tasks with the same ``structure`` differ in costs and in
-    the initial state only, so what was computed for one holds for the others. A task never changes;
-    the ``with_…`` methods return others.
+    that would leave the state unchanged is not offered. ``value_sets`` are the values, in bit
+    order, of the functions that actions change. Tasks with the same ``structure`` differ in costs
+    and in the initial state only, so what was computed for one holds for the others. A task never
+    changes; the ``with_…`` methods return others.
 
     Args:
         problem: The problem.
@@ -64,7 +64,7 @@ class Task:
         self.grounding: Final = grounding
         self.facts: Final[tuple[Fact, ...]] = grounding.facts
         self.bits: Final[Mapping[Fact, int]] = grounding.bits
-        self.reached: Final[Reached] = grounding.reached
+        self.value_sets: Final[ValueSets] = grounding.value_sets
         self.actions: Final[tuple[GroundAction, ...]] = grounding.actions
         self.structure: Final = grounding.structure
         self.initial: Final[int] = grounding.initial(problem)
@@ -138,8 +138,8 @@ class Task:
         are; values in conditions or durations, or of functions that actions change, do not.
         """
         old, problem = self.problem.values, self.problem.with_values(values)
-        changed = [key for key, value in values.items() if old.get(key) != value]
-        if any(k not in old or k in self.reached or k[0] in self._structural for k in changed):
+        changes = [key for key, value in values.items() if old.get(key) != value]
+        if any(k not in old or k in self.value_sets or k[0] in self._structural for k in changes):
             return Task(problem, origin=self._origin)
         return Task(problem, grounding=self.grounding, origin=self._origin)
 
@@ -156,8 +156,8 @@ class Task:
         (True, False)
         """
         problem = replace(self.problem, facts=frozenset(facts))
-        known = self.bits.keys()
-        same = problem.facts - known == self.problem.facts - known
+        names = self.bits.keys()
+        same = problem.facts - names == self.problem.facts - names
         return Task(problem, grounding=self.grounding if same else None, origin=self._origin)
 
     def with_goal(self, goal: Formula) -> Task:
@@ -181,7 +181,7 @@ class Task:
 
     @cached_property
     def _structural(self) -> frozenset[str]:
-        """The functions that decide more than costs, those of ``reached`` aside."""
+        """The functions that decide more than costs, those of ``value_sets`` aside."""
         names = {function.name for function in formula_functions(self.problem.goal)}
         for action in self.problem.domain.actions:
             names.update(function.name for function in functions_read(action))
@@ -197,5 +197,5 @@ class Task:
 
     def find(self, name: str, args: Sequence[str]) -> list[int]:
         """Return the indices of the actions called ``(name *args)``; one per changing value."""
-        wanted = (name, *args)
-        return [a.index for a in self.actions if (a.name, *a.args) == wanted]
+        words = (name, *args)
+        return [a.index for a in self.actions if (a.name, *a.args) == words]

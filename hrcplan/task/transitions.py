@@ -22,7 +22,7 @@ class BitEffect:
     tests: Tests = ALWAYS
 
     @property
-    def touched(self) -> int:
+    def writes(self) -> int:
         """The facts that the effect sets, to true or to false."""
         return self.adds | self.deletes
 
@@ -35,22 +35,22 @@ class Rule(NamedTuple):
     """One conjunctive condition and one unconditional effect.
 
     Its condition holds where ``state & mask == value``. It changes such a state unless
-    ``state & touched == adds``. The state after it is ``state & ~touched | adds``. Inner loops
+    ``state & writes == adds``. The state after it is ``state & ~writes | adds``. Inner loops
     repeat these three expressions instead of a call.
     """
 
     mask: int
     value: int
-    touched: int
+    writes: int
     adds: int
 
     def is_applicable(self, state: int) -> bool:
         """Return whether the condition holds and the effect changes the state."""
-        return state & self.mask == self.value and state & self.touched != self.adds
+        return state & self.mask == self.value and state & self.writes != self.adds
 
     def apply(self, state: int) -> int:
         """Return the state after it."""
-        return state & ~self.touched | self.adds
+        return state & ~self.writes | self.adds
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +59,7 @@ class Transition:
 
     >>> go = Transition(((0b01, 0b01),), (BitEffect(adds=0b10, deletes=0b01),), ())
     >>> go.is_applicable(0b01), bin(go.apply(0b01)), go.simple_rule
-    (True, '0b10', Rule(mask=1, value=1, touched=3, adds=2))
+    (True, '0b10', Rule(mask=1, value=1, writes=3, adds=2))
     """
 
     tests: Tests
@@ -89,7 +89,7 @@ class Transition:
         if any(effect.tests != ALWAYS for effect in self.effects):
             return None
         net = net_effect(self.at_start, self.at_end)
-        return tuple(Rule(mask, value, net.touched, net.adds) for mask, value in self.tests)
+        return tuple(Rule(mask, value, net.writes, net.adds) for mask, value in self.tests)
 
     @property
     def simple_rule(self) -> Rule | None:
@@ -103,10 +103,10 @@ class Transition:
         return self.simple_rule is not None
 
     @property
-    def mentioned(self) -> int:
+    def footprint(self) -> int:
         """The facts that the condition and the effects look at or set, as bits."""
         tests = [*self.tests, *(test for effect in self.effects for test in effect.tests)]
-        return union(mask for mask, _ in tests) | union(e.touched for e in self.effects)
+        return union(mask for mask, _ in tests) | union(e.writes for e in self.effects)
 
 
 def apply(effects: Iterable[BitEffect], state: int) -> int:
@@ -124,6 +124,6 @@ def net_effect(at_start: Effects, at_end: Effects) -> BitEffect:
     adds = deletes = 0
     for instant in (at_start, at_end):
         sure = [effect for effect in instant if effect.tests == ALWAYS]
-        added, deleted = union(e.adds for e in sure), union(e.deletes for e in sure)
-        adds, deletes = adds & ~deleted | added, (deletes | deleted) & ~added
+        sure_adds, sure_deletes = union(e.adds for e in sure), union(e.deletes for e in sure)
+        adds, deletes = adds & ~sure_deletes | sure_adds, (deletes | sure_deletes) & ~sure_adds
     return BitEffect(adds, deletes)

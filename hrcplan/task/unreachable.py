@@ -38,12 +38,12 @@ def is_out_of_reach(problem: Problem, deadline: float = inf) -> bool:
     Raises:
         LimitError: at the deadline, or if memory becomes short.
     """
-    relaxed = _relaxed(problem)
-    _, facts = reachable(relaxed, deadline)
-    return not _Reach(relaxed, facts).may_hold(problem.goal, {})
+    relaxation = _relax(problem)
+    _, facts = reachable(relaxation, deadline)
+    return not _Reach(relaxation, facts).may_hold(problem.goal, {})
 
 
-def _relaxed(problem: Problem) -> Problem:
+def _relax(problem: Problem) -> Problem:
     """Return a problem in which whatever can change the state is an action."""
     domain = problem.domain
     actions = [*domain.actions, *domain.processes, *domain.events]

@@ -240,8 +240,8 @@ def test_a_belief_may_follow_all_steps_by_itself(workshop):
 def _in_full(tree, root):
     """Return costs of first steps, with every branch grown and costed as the equations say."""
     people, own = tree.people, tree.step_values.agents
-    level = [((s,), tree.imagined.begin(root.progress)) for s in
-             tree.next_steps(root, tree.imagined.begin(root.progress), root.last, own)]  # fmt: skip
+    start = tree.imagined_steps.begin(root.progress)
+    level = [((s,), start) for s in tree.next_steps(root, start, root.last, own)]
     costs = {path: [-field[tree.label[path[0]]] for field in root.fields] for path, _ in level}
     closed = {}
     for _ in range(1, tree.n_levels):
@@ -249,11 +249,11 @@ def _in_full(tree, root):
         least = [min(c) for c in zip(*every, strict=True)] if every else []
         grown, after = [], {}
         for path, progress in level:
-            then = tree.imagined.after(progress, path[-1])
+            then = tree.imagined_steps.after(progress, path[-1])
             longer = [
                 ((*path, answer, step), later)
                 for answer in tree.next_steps(root, then, path[-1], people)
-                for later in [tree.imagined.after(then, answer)]
+                for later in [tree.imagined_steps.after(then, answer)]
                 for step in tree.next_steps(root, later, answer, own) or [None]
             ]
             if not longer:
@@ -306,7 +306,7 @@ def test_branches_that_end_early_count_too(hall):
 def test_looking_ahead_is_what_would_follow(data, rhp):
     """Imagined steps lead where real ones do, as far as goals stay on their graphs."""
     state, _ = data.draw(_turns(rhp, 4))
-    ahead, real = rhp.tree.imagined, state.progress
+    ahead, real = rhp.tree.imagined_steps, state.progress
     progress = ahead.begin(real)
     for _ in range(3):
         can = rhp.bank.table.applicable(real.world)

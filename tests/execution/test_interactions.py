@@ -83,9 +83,9 @@ def test_what_could_only_get_worse_is_no_state_of_the_task() -> None:
     residual = ((("residual",), 3),)
     engine = engine_for(Spec(planner="exact", values=residual, **COACHED))
     assert means(rows(20, values=residual, **COACHED))["success_pct"][0] == 100
-    kept = engine.planner._groundings._kept
-    assert max(len(values) for k in kept for values in k.task.reached.values()) == 2
-    assert all(sum(len(v) > 1 for v in k.task.reached.values()) <= 1 for k in kept)
+    kept = engine.planner._groundings._structures
+    assert max(len(values) for k in kept for values in k.task.value_sets.values()) == 2
+    assert all(sum(len(v) > 1 for v in k.task.value_sets.values()) <= 1 for k in kept)
 
 
 def test_a_journal_of_interactions_replays(tmp_path: Any) -> None:

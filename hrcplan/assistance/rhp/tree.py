@@ -107,7 +107,7 @@ class RecedingHorizonTree:
         return lowest
 
     def _grow(
-        self, root: TreeRoot, branch: TreeBranch, lowers: Sequence[bool], next_level: list[TreeBranch],
+        self, root: TreeRoot, branch: TreeBranch, lowers: Sequence[bool], inner: list[TreeBranch],
         leaves: list[TreeBranch],
     ) -> None:  # fmt: skip
         """Add a human and a robot step to a branch, in all ways; where there is none, it ends."""
@@ -126,7 +126,7 @@ class RecedingHorizonTree:
                     cost - field[label] if lower else cost
                     for cost, field, lower in zip(branch.costs, root.fields, lowers, strict=True)
                 )
-                next_level.append(TreeBranch(branch.first, progress, step, costs))
+                inner.append(TreeBranch(branch.first, progress, step, costs))
 
     def next_steps(
         self, root: TreeRoot, progress: Progress, last: int | None, agents: Set[str]
