@@ -98,7 +98,7 @@ command.add_command(play.command)
 @click.option(
     "--chooser",
     metavar="NAME",
-    help="How humans choose steps: frontier, cc-htn, plans or module:Class. Only changed-mind.",
+    help="How humans choose steps, such as frontier, habit or module:Class. Only changed-mind.",
 )
 @click.option(
     "--world",

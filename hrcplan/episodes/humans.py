@@ -125,7 +125,7 @@ class Frontier:
             graph, node = self.bank.locate(goal, world, turn=moment.turn)
             if node is not None and graph.next(node).keys() >= set(steps):
                 return self.choose(graph, node, steps, last, draw)
-        return steps[int(draw() * len(steps))]
+        return self.prefer(steps, last, draw)
 
     def move(self, turn: int, world: int, last: int | None) -> HumanMove:
         """Return what the human does in a turn, in a state, after its own last step."""
@@ -155,6 +155,10 @@ class Frontier:
             last: The human's last step.
             draw: Gives random numbers.
         """
+        return self.prefer(steps, last, draw)
+
+    def prefer(self, steps: Sequence[int], last: int | None, draw: Draw) -> int:
+        """Return one of ``steps`` without regard to the plans that they belong to."""
         return steps[int(draw() * len(steps))]
 
     def _able(self, world: int, steps: Sequence[int] | dict[int, int]) -> list[int]:
@@ -248,6 +252,11 @@ HUMANS: Registry[[Bank, Course], EpisodeHuman] = Registry(
         "frontier": "hrcplan.episodes.humans:Frontier",
         "cc-htn": "hrcplan.episodes.humans:CliqueChain",
         "plans": "hrcplan.episodes.humans:ByPlans",
+        "habit": "hrcplan.episodes.choosers:Habit",
+        "inertia": "hrcplan.episodes.choosers:Inertia",
+        "general-first": "hrcplan.episodes.choosers:GeneralFirst",
+        "special-first": "hrcplan.episodes.choosers:SpecialFirst",
+        "noisy-rational": "hrcplan.episodes.choosers:NoisyRational",
     },
     "hrcplan.humans",
     EpisodeHuman,
