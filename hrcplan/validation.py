@@ -84,8 +84,8 @@ class Report:
             step = "" if self.failed_step is None else f" at step {self.failed_step}"
             return cut(f"<Report: invalid{step}: {self.reason}", 190) + ">"
         figures = {"cost": self.cost, "metric": self.metric, "makespan_s": self.makespan_s}
-        shown = [f"{name} {number_text(n)}" for name, n in figures.items() if n is not None]
-        return cut(f"<Report: {', '.join(['valid', *shown])}", 190) + ">"
+        words = [f"{name} {number_text(n)}" for name, n in figures.items() if n is not None]
+        return cut(f"<Report: {', '.join(['valid', *words])}", 190) + ">"
 
 
 class _BrokenError(Exception):
@@ -173,8 +173,8 @@ def validate(
         raise TypeError("validate() needs a problem and a plan")
     if isinstance(problem, Plan):
         raise TypeError("the plan is the last argument of validate(), after the problem")
-    loaded = as_problem(domain, None if isinstance(problem, EllipsisType) else problem)
-    return _replay(loaded, as_plan(plan, loaded), epsilon_s)
+    parsed_problem = as_problem(domain, None if isinstance(problem, EllipsisType) else problem)
+    return _replay(parsed_problem, as_plan(plan, parsed_problem), epsilon_s)
 
 
 def _replay(problem: Problem, plan: Plan, epsilon_s: Number) -> Report:
@@ -233,16 +233,16 @@ class _Replay:
         temporal = self.problem.domain.is_temporal
         # Steps of a classical problem last what lanes give them.
         makespan = self.end_s if temporal else self.plan.makespan_s
-        counted = None if temporal else len(costs)
-        cost = self.state.values.get(COST, counted)
+        n_actions = None if temporal else len(costs)
+        cost = self.state.values.get(COST, n_actions)
         end = self.seen
         for preference in self.problem.preferences:
-            end = self._counted(preference, self.seen, {}, end)
+            end = self._with_violations(preference, self.seen, {}, end)
         for constraint in self._constraints:
             key = VIOLATED, constraint.preference
-            n_broken = end.values.get(key, 0) + self._n_broken(constraint)
-            end = replace(end, values={**end.values, key: n_broken})
-        metric = _metric(self.problem, end, makespan if temporal else counted)
+            n_violations = end.values.get(key, 0) + self._n_violations(constraint)
+            end = replace(end, values={**end.values, key: n_violations})
+        metric = _metric(self.problem, end, makespan if temporal else n_actions)
         return Report(True, cost, makespan, metric, state=facts, step_costs=costs)
 
     def run(self) -> None:
@@ -259,16 +259,16 @@ class _Replay:
 
     def _events(self, step: int, start_s: Number | None) -> list[_Event]:
         """Return start and end of an action that starts at a time, read in the present state."""
-        planned, time = self.plan.actions[step], start_s or 0
-        action = self.problem.domain.schemas.get(planned.name)
-        nothing = Action(planned.name, (), (), ())
+        planned_action, time = self.plan.actions[step], start_s or 0
+        action = self.problem.domain.schemas.get(planned_action.name)
+        nothing = Action(planned_action.name, (), (), ())
         if action is None:
-            fault = f"there is no action '{planned.name}'"
+            fault = f"there is no action '{planned_action.name}'"
             return [_Event(time, True, step, nothing, {}, 0, fault)]
-        binding = bind(action, planned.args, self.problem)
+        binding = bind(action, planned_action.args, self.problem)
         if isinstance(binding, str):
             return [_Event(time, True, step, nothing, {}, 0, binding)]
-        duration = _duration(planned, action, binding, self.state)
+        duration = _duration(planned_action, action, binding, self.state)
         if isinstance(duration, str):
             return [_Event(time, True, step, nothing, {}, 0, duration)]
         start = _Event(time, True, step, action, binding, duration)
@@ -279,8 +279,8 @@ class _Replay:
         coming: list[_Event] = []
         while self._coming and self._coming[0].time <= last:
             coming.append(self._coming.popleft())
-        ordered = sorted([*coming, *events], key=lambda e: (e.time, e.step, not e.is_start))
-        for _, group in groupby(ordered, key=lambda e: e.time):
+        in_order = sorted([*coming, *events], key=lambda e: (e.time, e.step, not e.is_start))
+        for _, group in groupby(in_order, key=lambda e: e.time):
             self._happen(tuple(group))
         self.end_s = max(self.end_s, last)
 
@@ -293,10 +293,10 @@ class _Replay:
                 raise _BrokenError(event.step, event.fault)
             self._check_interference(event)
             _require(self.problem, event, before)
-            after = self._changed(event, after)
+            after = self._state_after(event, after)
             for preference in event.action.preferences:
                 if preference.when == event.when:
-                    after = self._counted(preference, before, event.binding, after)
+                    after = self._with_violations(preference, before, event.binding, after)
         self._follow(group[0].time, before)
         self.state = after
         for event in group:
@@ -310,17 +310,17 @@ class _Replay:
     def _follow(self, time: Number, before: LiftedState) -> None:
         """Remember the state that ends at a time, and that the next one begins there."""
         if self._constraints:
-            begun = self._trace[-1][0] if self._trace else 0
-            self._trace[-1:] = [(begun, before), (time, before)]
+            begin = self._trace[-1][0] if self._trace else 0
+            self._trace[-1:] = [(begin, before), (time, before)]
 
     def broken_constraint(self) -> str | None:
         """Return the first constraint that the states of the plan do not keep, as PDDL."""
         for constraint in self._constraints:
-            if not constraint.preference and self._n_broken(constraint):
+            if not constraint.preference and self._n_violations(constraint):
                 return constraint_text(constraint)
         return None
 
-    def _n_broken(self, constraint: Constraint) -> int:
+    def _n_violations(self, constraint: Constraint) -> int:
         """Return how many instances of a constraint the states of the plan do not keep."""
         trace = [*self._trace[:-1], (self._trace[-1][0] if self._trace else 0, self.seen)]
         times = [time for time, _ in trace]
@@ -334,16 +334,16 @@ class _Replay:
         choices = instances(constraint.params, {}, self.problem)
         return sum(not keeps(inner) for inner in choices)
 
-    def _counted(
+    def _with_violations(
         self, preference: Preference, now: LiftedState, binding: Binding, after: LiftedState
     ) -> LiftedState:
         """Return ``after`` with the instances counted of a preference that ``now`` violates."""
-        n_violated = sum(
+        n_violations = sum(
             not holds(preference.formula, now, inner, self.problem)
             for inner in instances(preference.params, binding, self.problem)
         )
         key = VIOLATED, preference.name
-        return replace(after, values={**after.values, key: after.values.get(key, 0) + n_violated})
+        return replace(after, values={**after.values, key: after.values.get(key, 0) + n_violations})
 
     def _check_interference(self, event: _Event) -> None:
         """Stop if the event interferes with one that is closer than ``epsilon_s``."""
@@ -365,24 +365,24 @@ class _Replay:
             self._accesses[key] = access(self.problem, event.action, event.binding, event.when)
         return self._accesses[key]
 
-    def _changed(self, event: _Event, after: LiftedState) -> LiftedState:
+    def _state_after(self, event: _Event, after: LiftedState) -> LiftedState:
         """Return ``after`` with the effects of one event, read in the state before its instant."""
         before = self.state.values
-        timed = LiftedState(self.seen.facts, {**before, (DURATION,): event.duration})
+        state_now = LiftedState(self.seen.facts, {**before, (DURATION,): event.duration})
         effects = [e for e in event.action.effects if e.when == event.when]
-        _, started = self._running.get(event.step, (event, timed))
+        _, state_at_start = self._running.get(event.step, (event, state_now))
         try:
-            change = changes(effects, timed, event.binding, self.problem, started)
+            change = changes(effects, state_now, event.binding, self.problem, state_at_start)
         except Undefined as error:
             raise _BrokenError(event.step, str(error)) from None
         if COST in change.values:
             self.costs[event.step] += change.values[COST] - before[COST]
         # Increases of one instant add up; assignments do not share an instant (interference).
-        moved = {
+        values_after = {
             key: after.values.get(key, 0) + value - before.get(key, 0)
             for key, value in change.values.items()
         }
-        return replace(change, values=moved).apply(after)
+        return replace(change, values=values_after).apply(after)
 
 
 def _timed_events(problem: Problem) -> Iterator[_Event]:
@@ -419,25 +419,25 @@ def _metric(problem: Problem, end: LiftedState, makespan: Number | None) -> Numb
 
 
 def _duration(
-    planned: PlannedAction, action: Action, binding: Binding, state: LiftedState
+    action_in_plan: PlannedAction, action: Action, binding: Binding, state: LiftedState
 ) -> Number | str:
     """Return the duration given, or the one that ``(= ?duration …)`` fixes; or what is wrong."""
     if not action.durative:
         return 0
-    if planned.duration_s is not None:
-        return planned.duration_s
+    if action_in_plan.duration_s is not None:
+        return action_in_plan.duration_s
     for op, expression in action.durations:
         if op == "=":
             try:
                 return evaluate(expression, state.values, binding)
             except Undefined as error:
                 return str(error)
-    return f"{planned} needs a duration in brackets"
+    return f"{action_in_plan} needs a duration in brackets"
 
 
 def _too_close(event: _Event, other: _Event, about: Fact, epsilon_s: Number) -> str:
     return (
-        f"{_shown(event)} and {_shown(other)} interfere about {fact_text(about)} at "
+        f"{_text(event)} and {_text(other)} interfere about {fact_text(about)} at "
         f"{seconds_text(event.time)} s; they need {number_text(epsilon_s)} s between them"
     )
 
@@ -457,7 +457,7 @@ def _demand(problem: Problem, event: _Event, when: str, state: LiftedState) -> N
         now = LiftedState(state.facts, values)
         missing = unmet(condition.formula, now, event.binding, problem)
         if missing is not None:
-            reason = f"{_shown(event)} needs {missing}{_where(event, when)}"
+            reason = f"{_text(event)} needs {missing}{_where(event, when)}"
             raise _BrokenError(event.step, reason)
 
 
@@ -471,18 +471,18 @@ def _where(event: _Event, when: str) -> str:
 def _check_duration(event: _Event, state: LiftedState) -> None:
     for op, expression in event.action.durations:
         try:
-            wanted = evaluate(expression, state.values, event.binding)
+            duration = evaluate(expression, state.values, event.binding)
         except Undefined as error:
             raise _BrokenError(event.step, str(error)) from None
         # Durations are printed with three decimals: a difference below a gap is rounding.
-        over = event.duration - wanted
+        over = event.duration - duration
         too_long = op != ">=" and over >= EPSILON_S
         too_short = op != "<=" and -over >= EPSILON_S
         if too_long or too_short:
-            allowed = number_text(wanted) if op == "=" else f"{op} {number_text(wanted)}"
-            reason = f"{_shown(event)} lasts {allowed} s, not {number_text(event.duration)} s"
+            allowance = number_text(duration) if op == "=" else f"{op} {number_text(duration)}"
+            reason = f"{_text(event)} lasts {allowance} s, not {number_text(event.duration)} s"
             raise _BrokenError(event.step, reason)
 
 
-def _shown(event: _Event) -> str:
+def _text(event: _Event) -> str:
     return fact_text((event.action.name, *event.binding.values()))

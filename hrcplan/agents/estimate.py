@@ -87,18 +87,18 @@ class AgentStateEstimate:
 
     def failed(self, touched: Iterable[FluentKey]) -> AgentStateEstimate:
         """Return what is believed after an action that ``touched`` touch has failed."""
-        return self._observed(frozenset(touched), True)
+        return self._after_outcome(frozenset(touched), True)
 
     def went_well(self, touched: Iterable[FluentKey]) -> AgentStateEstimate:
         """Return what is believed after an action that ``touched`` touch has succeeded."""
-        return self._observed(frozenset(touched), False)
+        return self._after_outcome(frozenset(touched), False)
 
     def sensed(self, key: FluentKey) -> AgentStateEstimate:
         """Return what is believed once an element's value is known: it needs no estimate."""
-        left = {cause: p for cause, p in self.weights.items() if cause[0] != key}
+        rest = {cause: p for cause, p in self.weights.items() if cause[0] != key}
         nothing = 1 - sum(self.weights.values())
-        total = nothing + sum(left.values())
-        weights = {cause: p / total for cause, p in left.items()} if total else left
+        total = nothing + sum(rest.values())
+        weights = {cause: p / total for cause, p in rest.items()} if total else rest
         return replace(self, weights=weights, known=self.known | {key})
 
     def blame(self) -> dict[FluentKey, float]:
@@ -123,7 +123,7 @@ class AgentStateEstimate:
                 probabilities[cause[1]] += p
         return probabilities
 
-    def _observed(self, touched: frozenset[FluentKey], failure: bool) -> AgentStateEstimate:
+    def _after_outcome(self, touched: frozenset[FluentKey], failure: bool) -> AgentStateEstimate:
         if not touched & self.prior.lows.keys():
             return self
         nothing = 1 - sum(self.weights.values())

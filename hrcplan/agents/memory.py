@@ -32,7 +32,9 @@ class Memory:
 
     def sensed(self, key: FluentKey) -> Memory:
         """Return the memory after a new value of ``key``: what was held against it is old."""
-        rest = tuple(left for suspects in self.failures if (left := suspects - {key}))
+        rest = tuple(
+            rest_of_suspects for suspects in self.failures if (rest_of_suspects := suspects - {key})
+        )
         return Memory(rest, self.cleared - {key})
 
     def blame(self) -> dict[FluentKey, float]:
@@ -44,14 +46,14 @@ class Memory:
         >>> Memory().failed([("a",), ("b",)]).failed([("b",), ("c",)]).blame()
         {('b',): 1.0}
         """
-        blamed: dict[FluentKey, float] = {}
+        shares: dict[FluentKey, float] = {}
         common: frozenset[FluentKey] = frozenset()
         for suspects in map(self._open, self.failures):
             common = common & suspects or suspects
             share = 1.0 / len(common)
             for key in sorted(common):
-                blamed[key] = max(blamed.get(key, 0.0), share)
-        return {key: share for key, share in blamed.items() if key in common or share == 1.0}
+                shares[key] = max(shares.get(key, 0.0), share)
+        return {key: share for key, share in shares.items() if key in common or share == 1.0}
 
     def _open(self, suspects: frozenset[FluentKey]) -> frozenset[FluentKey]:
         return suspects - self.cleared or suspects

@@ -84,7 +84,7 @@ class Profile:
 
         Every element has a value, also those at their low value, so that equal beliefs are equal.
         """
-        blame = self._blamed(memory.blame()) if self.memory or self.estimate else {}
+        blame = self._excesses(memory.blame()) if self.memory or self.estimate else {}
         elements = {
             key: self._value(sensed.get(key, low), low, blame.get(key, 0))
             for key, low in model.low.items()
@@ -99,7 +99,7 @@ class Profile:
             return value
         return low + max(self._excess(p) if self.values == "log" else value - low, blame)
 
-    def _blamed(self, blame: Mapping[FluentKey, float]) -> dict[FluentKey, Number]:
+    def _excesses(self, blame: Mapping[FluentKey, float]) -> dict[FluentKey, Number]:
         """Return the excess of each element that may make an action fail.
 
         Only one of them does, so probabilities add up: excesses are such that those of what depends
@@ -114,7 +114,7 @@ class Profile:
             p_all = always[key[1]]
             if len(key) == _ALONE:
                 share = Fraction(p) / Fraction(p_all)
-                excesses[key] = _rounded(Fraction(self._excess(p_all)) * share)
+                excesses[key] = _round(Fraction(self._excess(p_all)) * share)
             else:
                 excesses[key] = self._excess(min(1.0, p_all + p)) - self._excess(p_all)
         return excesses
@@ -122,7 +122,7 @@ class Profile:
     def _excess(self, p: float) -> Number:
         """Return ``-scale * ln(1 - p)``, at most ``cap``, in hundredths."""
         loss = self.cap if p >= 1 - _SURE else min(self.cap, -self.scale * math.log1p(-p))
-        return _rounded(Fraction(loss))
+        return _round(Fraction(loss))
 
     def to_json(self) -> dict[str, Any]:
         """Return the profile as a JSON object."""
@@ -142,7 +142,7 @@ def _is_of(value: JsonValue, kind: type) -> bool:
     return type(value) is kind
 
 
-def _rounded(value: Fraction) -> Number:
+def _round(value: Fraction) -> Number:
     return exact(Fraction(round(value * _PLACES), _PLACES))
 
 
@@ -173,11 +173,11 @@ def load_profile(name: str) -> Profile:
         first = next(iter(tables))
         return profile_from_table({"name": first, **tables[first]}, name)
     name = current_name("profile", name, OLD_NAMES)
-    shipped = _read(_SHIPPED)
-    if name not in shipped:
-        hint = nearest(name, shipped) or f"profiles: {', '.join(shipped)}; or a .toml file"
+    profiles = _read(_SHIPPED)
+    if name not in profiles:
+        hint = nearest(name, profiles) or f"profiles: {', '.join(profiles)}; or a .toml file"
         raise UsageError(f"there is no profile '{name}'", code="unknown-profile", hint=hint)
-    return profile_from_table({"name": name, **shipped[name]})
+    return profile_from_table({"name": name, **profiles[name]})
 
 
 def profile(name: str) -> Profile:
@@ -192,10 +192,10 @@ def profile_from_table(table: Mapping[str, Any], path: str | None = None) -> Pro
     Raises:
         InputError: if a key is unknown or a value has the wrong kind.
     """
-    known = [field.name for field in fields(Profile)]
+    names = [field.name for field in fields(Profile)]
     for key in table:
-        if key not in known:
-            hint = nearest(key, known) or f"keys: {', '.join(known[1:])}"
+        if key not in names:
+            hint = nearest(key, names) or f"keys: {', '.join(names[1:])}"
             raise InputError(f"a profile has no '{key}'", code="bad-profile", path=path, hint=hint)
     try:
         return Profile(**table)

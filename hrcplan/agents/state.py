@@ -49,10 +49,10 @@ def failure_probability(value: Number, low: Number) -> float:
     return 0.0 if value <= low else max(0.0, min(1.0, float(value) / MOST))
 
 
-def combined(probabilities: Iterable[float]) -> float:
+def combine(probabilities: Iterable[float]) -> float:
     """Return the probability that any of several independent causes strikes.
 
-    >>> combined([0.5, 0.5])
+    >>> combine([0.5, 0.5])
     0.75
     """
     return 1.0 - math.prod(1.0 - p for p in probabilities)
@@ -65,7 +65,7 @@ class AgentModel:
         self.problem = problem
         self.robots = robots(problem)
         self.functions = agent_state_functions(problem.domain)
-        self._touched: dict[tuple[str, ...], tuple[FluentKey, ...]] = {}
+        self._keys: dict[tuple[str, ...], tuple[FluentKey, ...]] = {}
 
     @cached_property
     def low(self) -> Mapping[FluentKey, Number]:
@@ -83,12 +83,12 @@ class AgentModel:
 
     def touching(self, name: str, args: tuple[str, ...]) -> tuple[FluentKey, ...]:
         """Return the elements that the cost of a ground action contains."""
-        known = self._touched.get((name, *args))
-        if known is None:
+        keys = self._keys.get((name, *args))
+        if keys is None:
             schema = self.problem.domain.action(name)
-            known = tuple(key for key in _cost_keys(schema, args) if key in self.low)
-            self._touched[name, *args] = known
-        return known
+            keys = tuple(key for key in _cost_keys(schema, args) if key in self.low)
+            self._keys[name, *args] = keys
+        return keys
 
     def is_interaction(self, name: str) -> bool:
         """Return whether an action decreases or assigns an agent state."""

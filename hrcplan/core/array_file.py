@@ -122,49 +122,49 @@ class Format:
         prefix = _PREFIX.pack(self.magic, self.version, 0, len(head), len(body))
         return prefix + hashlib.sha256(prefix + head + body).digest() + head + body
 
-    def decode(self, data: bytes | memoryview, shown: str) -> tuple[dict[str, Any], memoryview]:
+    def decode(self, data: bytes | memoryview, name: str) -> tuple[dict[str, Any], memoryview]:
         """Return header and arrays of a file, checked as far as the format allows.
 
         Args:
             data: The bytes of a file.
-            shown: What errors call it.
+            name: What errors call it.
 
         Raises:
             InputError: if it has another format, is of another version, cut short or damaged.
         """
         view, begin = memoryview(data), _PREFIX.size + _HASH
         if (kind := archive_kind(view)) is not None:
-            message = f"'{shown}' is a file packed by {kind}, no {self.title}"
-            raise InputError(message, code="archive", path=shown, hint=UNPACK_HINT)
+            message = f"'{name}' is a file packed by {kind}, no {self.title}"
+            raise InputError(message, code="archive", path=name, hint=UNPACK_HINT)
         if view[: len(self.magic)] != self.magic:
-            raise self._refusal(shown, f"not-a-{self.noun}", f"is no {self.title}")
+            raise self._refusal(name, f"not-a-{self.noun}", f"is no {self.title}")
         if len(view) < begin:
-            raise self._refusal(shown, f"{self.noun}-truncated", f"is cut short: {len(view)} bytes")
+            raise self._refusal(name, f"{self.noun}-truncated", f"is cut short: {len(view)} bytes")
         _, version, _, n_head, n_body = _PREFIX.unpack_from(view)
         readable = sorted({self.version, *self.also_reads})
         if version not in readable:
             reads = " and ".join(map(str, readable))
             message = f"is a {self.noun} of format {version}; this hrcplan reads {reads}"
-            raise self._refusal(shown, f"{self.noun}-version", message)
+            raise self._refusal(name, f"{self.noun}-version", message)
         if len(view) != begin + n_head + n_body:
             message = f"has {len(view)} bytes instead of {begin + n_head + n_body}"
-            raise self._refusal(shown, f"{self.noun}-truncated", message)
+            raise self._refusal(name, f"{self.noun}-truncated", message)
         digest = hashlib.sha256(view[: _PREFIX.size])
         digest.update(view[begin:])
         if digest.digest() != view[_PREFIX.size : begin]:
             message = "is damaged: its checksum is wrong"
-            raise self._refusal(shown, f"{self.noun}-damaged", message)
-        return self._header(bytes(view[begin : begin + n_head]), shown), view[begin + n_head :]
+            raise self._refusal(name, f"{self.noun}-damaged", message)
+        return self._header(bytes(view[begin : begin + n_head]), name), view[begin + n_head :]
 
-    def _header(self, text: bytes, shown: str) -> dict[str, Any]:
+    def _header(self, text: bytes, name: str) -> dict[str, Any]:
         try:
             header = json.loads(text)
         except HEADER_FAULTS as error:
             message = f"has a header that is no JSON: {type(error).__name__}"
-            raise self._refusal(shown, f"{self.noun}-damaged", message) from None
+            raise self._refusal(name, f"{self.noun}-damaged", message) from None
         if not isinstance(header, dict):
-            raise self._refusal(shown, f"{self.noun}-damaged", "has a header that is no object")
+            raise self._refusal(name, f"{self.noun}-damaged", "has a header that is no object")
         return header
 
-    def _refusal(self, shown: str, code: str, message: str) -> InputError:
-        return InputError(f"'{shown}' {message}", code=code, path=shown, hint=self.hint)
+    def _refusal(self, name: str, code: str, message: str) -> InputError:
+        return InputError(f"'{name}' {message}", code=code, path=name, hint=self.hint)

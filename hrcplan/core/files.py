@@ -20,21 +20,21 @@ def read_bytes(path: str | Path, limit: int | None = MAX_BYTES) -> bytes:
         InputError: if there is no such file, it is a folder or longer than ``limit`` bytes, or it
             may not be read; the message names the path and the reason.
     """
-    shown = harmless(str(path))
+    name = harmless(str(path))
     try:
         with Path(path).open("rb") as file:
             data = file.read() if limit is None else file.read(limit + 1)
     except IsADirectoryError:
-        message, hint = f"{shown} is a folder, not a file", "name one file inside it"
-        raise InputError(message, code="is-folder", path=shown, hint=hint) from None
+        message, hint = f"{name} is a folder, not a file", "name one file inside it"
+        raise InputError(message, code="is-folder", path=name, hint=hint) from None
     except FileNotFoundError:
-        raise InputError(f"there is no file {shown}", code="no-file", path=shown) from None
+        raise InputError(f"there is no file {name}", code="no-file", path=name) from None
     except (OSError, ValueError) as error:
-        message = f"cannot read {shown}: {reason_of(error)}"
-        raise InputError(message, code="no-access", path=shown) from None
+        message = f"cannot read {name}: {reason_of(error)}"
+        raise InputError(message, code="no-access", path=name) from None
     if limit is not None and len(data) > limit:
-        message = f"{shown} holds more than {limit >> 20} MiB"
-        raise InputError(message, code="too-large", path=shown)
+        message = f"{name} holds more than {limit >> 20} MiB"
+        raise InputError(message, code="too-large", path=name)
     return data
 
 
@@ -89,8 +89,10 @@ def write_atomically(path: Path, data: str | bytes) -> None:
             Path(name).unlink(missing_ok=True)
             raise
     except (OSError, ValueError) as error:
-        shown = harmless(str(path))
-        raise UsageError(f"cannot write {shown}: {reason_of(error)}", path=shown) from None
+        target_name = harmless(str(path))
+        raise UsageError(
+            f"cannot write {target_name}: {reason_of(error)}", path=target_name
+        ) from None
 
 
 def check_target(path: Path | None, *inputs: str | Path) -> None:
@@ -101,12 +103,12 @@ def check_target(path: Path | None, *inputs: str | Path) -> None:
     """
     if path is None:
         return
-    shown = harmless(str(path))
+    name = harmless(str(path))
     if os.path.isdir(path) or not os.path.isdir(path.parent):
-        raise UsageError(f"cannot write {shown}: no such folder, or it is one", path=shown)
+        raise UsageError(f"cannot write {name}: no such folder, or it is one", path=name)
     if any(_is_same(path, one) for one in inputs):
-        message = f"cannot write {shown}: the command reads it"
-        raise UsageError(message, code="output-is-input", path=shown, hint="name another file")
+        message = f"cannot write {name}: the command reads it"
+        raise UsageError(message, code="output-is-input", path=name, hint="name another file")
 
 
 def _is_same(one: str | Path, other: str | Path) -> bool:
@@ -122,11 +124,11 @@ def cache_folder() -> Path | None:
     That is ``$HRCPLAN_CACHE``, else ``$XDG_CACHE_HOME/hrcplan``, else ``~/.cache/hrcplan``; None if
     the user has no home.
     """
-    own, shared = os.environ.get("HRCPLAN_CACHE"), os.environ.get("XDG_CACHE_HOME", "")
+    own, standard = os.environ.get("HRCPLAN_CACHE"), os.environ.get("XDG_CACHE_HOME", "")
     if own:
         return Path(own)
-    if os.path.isabs(shared):  # the standard has others ignored
-        return Path(shared) / "hrcplan"
+    if os.path.isabs(standard):  # the standard has others ignored
+        return Path(standard) / "hrcplan"
     try:
         return Path.home() / ".cache" / "hrcplan"
     except RuntimeError:

@@ -112,7 +112,7 @@ def decimal_of(value: int | Fraction, places: int = _TEXT_DECIMALS) -> str:
     """
     if value.denominator == 1:
         return int_text(value.numerator)
-    scaled = round(abs(value) * 10**places)
-    whole, decimals = divmod(scaled, 10**places)
-    sign = "-" if value < 0 and scaled else ""
+    digits = round(abs(value) * 10**places)
+    whole, decimals = divmod(digits, 10**places)
+    sign = "-" if value < 0 and digits else ""
     return f"{sign}{int_text(whole)}.{decimals:0{places}}".rstrip("0").rstrip(".")

@@ -59,17 +59,17 @@ class PartNames:
 
     def names(self) -> list[str]:
         """Return the names of all parts, the built-in ones first."""
-        extra = {entry.name for entry in self._installed()} - set(self.built_in)
+        extra = {entry.name for entry in self._entry_points()} - set(self.built_in)
         return [*self.built_in, *sorted(extra)]
 
     def canonical(self, name: str) -> str:
         """Return the present name of a part; a name of an earlier version gives a warning."""
         return current_name(self.kind, name, self.aliases)
 
-    def _installed(self) -> Iterable[EntryPoint]:
+    def _entry_points(self) -> Iterable[EntryPoint]:
         return entry_points(group=self.group)
 
-    def _listed(self, name: str) -> object | None:
+    def _entry(self, name: str) -> object | None:
         """Return a built-in or installed part; None if there is none of this name.
 
         Raises:
@@ -77,7 +77,7 @@ class PartNames:
         """
         place = self.built_in.get(name)
         if place is None:
-            place = next((e.value for e in self._installed() if e.name == name), None)
+            place = next((e.value for e in self._entry_points() if e.name == name), None)
         if place is None:
             return None
         try:
@@ -156,18 +156,18 @@ class Registry(PartNames, Generic[P, T]):
 
     def _find(self, name: str, is_typed: bool) -> Callable[P, T]:
         prefix, _, rest = name.partition(":")
-        part = self._listed(name)
+        part = self._entry(name)
         if part is None and rest and prefix in self.prefixes:
             if is_typed or prefix not in self.program_prefixes:
-                made_from_text = self._checked(name, _member(self.prefixes[prefix]))
+                made_from_text = self._check(name, _member(self.prefixes[prefix]))
                 return partial(made_from_text, rest)  # type: ignore[arg-type]
         elif part is None and is_typed:
             part = self._own(name)
         if part is None:
             raise self._unknown(name, is_typed)
-        return self._checked(name, part)
+        return self._check(name, part)
 
-    def _checked(self, name: str, part: object) -> Callable[P, T]:
+    def _check(self, name: str, part: object) -> Callable[P, T]:
         """Return a part if it is a class that has the methods of the protocol."""
         if not isclass(part):
             raise UsageError(f"{name} is no class", code=f"not-a-{self.kind}")
@@ -192,8 +192,8 @@ class ObjectRegistry(PartNames, Generic[T]):
             UsageError: if there is none, it cannot be imported, or it is no such part.
         """
         name = self.canonical(name)
-        part = self._listed(name)
-        return self._checked(name, self._own(name) if part is None else part, is_typed=True)
+        part = self._entry(name)
+        return self._check(name, self._own(name) if part is None else part, is_typed=True)
 
     def find_listed(self, name: str) -> T:
         """Return a part that a data file names: a built-in or installed one.
@@ -202,9 +202,9 @@ class ObjectRegistry(PartNames, Generic[T]):
             UsageError: if there is none, it cannot be imported, or it is no such part.
         """
         name = self.canonical(name)
-        return self._checked(name, self._listed(name), is_typed=False)
+        return self._check(name, self._entry(name), is_typed=False)
 
-    def _checked(self, name: str, part: T | object | None, is_typed: bool) -> T:
+    def _check(self, name: str, part: T | object | None, is_typed: bool) -> T:
         if part is None:
             raise self._unknown(name, is_typed)
         if not isinstance(part, self.protocol):

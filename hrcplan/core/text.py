@@ -14,8 +14,8 @@ def quote(text: str) -> str:
     >>> quote("wp1"), quote("a\x1b[31m")
     ("'wp1'", "'a\\x1b[31m'")
     """
-    shown = cut(text, MAX_QUOTE)
-    return f"'{shown}'" if shown.isprintable() else f"'{ascii(shown)[1:-1]}'"
+    snippet = cut(text, MAX_QUOTE)
+    return f"'{snippet}'" if snippet.isprintable() else f"'{ascii(snippet)[1:-1]}'"
 
 
 def harmless(text: str) -> str:
@@ -46,26 +46,26 @@ def cut(text: str, limit: int) -> str:
     return text if len(text) <= limit else f"{text[: limit - 1]}…"
 
 
-def nearest_name(word: str, known: Iterable[str], similarity: float = 0.6) -> str | None:
+def nearest_name(word: str, names: Iterable[str], similarity: float = 0.6) -> str | None:
     """Return the known name that is most like ``word``, or None if none is close."""
     from rapidfuzz import distance, process
 
     match = process.extractOne(
         word[:MAX_QUOTE],
-        [name for name in known if name != word],
+        [name for name in names if name != word],
         scorer=distance.OSA.normalized_similarity,
         score_cutoff=similarity,
     )
     return None if match is None else str(match[0])
 
 
-def nearest(word: str, known: Iterable[str]) -> str | None:
+def nearest(word: str, names: Iterable[str]) -> str | None:
     """Return a "did you mean" hint for ``word``, or None if nothing known is close.
 
     >>> nearest("motivaton", ["motivation", "capacity"])
     "did you mean 'motivation'?"
     """
-    name = nearest_name(word, known)
+    name = nearest_name(word, names)
     return None if name is None else f"did you mean {quote(name)}?"
 
 

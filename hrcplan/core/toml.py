@@ -30,5 +30,5 @@ def read_toml(path: Path, code: str) -> dict[str, Any]:
         reason = "its values are nested too deep"
     except ValueError as error:  # also a number of too many digits
         reason = cut(harmless(str(error)), _MAX_REASON)
-    shown = harmless(str(path))
-    raise InputError(f"{shown} is no TOML: {reason}", code=code, path=shown)
+    name = harmless(str(path))
+    raise InputError(f"{name} is no TOML: {reason}", code=code, path=name)

@@ -160,7 +160,7 @@ class _Play(Generic[S]):
         turn = 0
         while (ending := self._ending(turn, most)) is None:
             self._human(turn)
-            if self._is_done(turn):
+            if self._is_over(turn):
                 ending = REACHED
                 break
             self._robot(self.course.goal(turn))
@@ -172,7 +172,7 @@ class _Play(Generic[S]):
 
     def _ending(self, turn: int, most: int) -> str | None:
         """Return how an episode has ended before a turn of the human; None if it goes on."""
-        if self._is_done(turn):
+        if self._is_over(turn):
             return REACHED
         # Both may wait by choice, and go on afterwards.
         is_last = turn > max(self.course.turns, default=0)
@@ -186,10 +186,10 @@ class _Play(Generic[S]):
         steps = graph.next(node) if node is not None else ()
         return any(True for _ in self.bank.table.able(self.state, steps, self.people))
 
-    def _is_done(self, turn: int) -> bool:
-        wanted = self.course.goal(turn)
+    def _is_over(self, turn: int) -> bool:
+        goal = self.course.goal(turn)
         is_last = turn >= max(self.course.turns, default=0)
-        return is_last and self.bank.goals.is_reached(wanted, self.state)
+        return is_last and self.bank.goals.is_reached(goal, self.state)
 
     def _move(self, turn: int) -> HumanMove:
         return self.human.move(turn, self.state, self.last)
@@ -200,7 +200,7 @@ class _Play(Generic[S]):
     def _human(self, turn: int) -> None:
         goal = self.course.goal(turn)
         move = self._move(turn)
-        needed = self._do(move.step, goal, self.people)
+        is_needed = self._do(move.step, goal, self.people)
         if move.step is not None:
             self.last = move.step
             self.belief = self.robot.observe(self.belief, move.step)
@@ -215,7 +215,7 @@ class _Play(Generic[S]):
         rank = int(likelier.sum() + (posterior[:goal] == posterior[goal]).sum())
         self._note(
             EpisodeTurn(
-                len(self.turns), True, move.step, goal, needed, move.is_mistake,
+                len(self.turns), True, move.step, goal, is_needed, move.is_mistake,
                 int(posterior.argmax()), rank, n_declared(self.belief),
             )
         )  # fmt: skip
@@ -227,12 +227,12 @@ class _Play(Generic[S]):
         began = time.perf_counter()
         step = self._choice()
         self.decisions_ms.append((time.perf_counter() - began) * 1e3)
-        needed = self._do(step, goal, self.robots)
+        is_needed = self._do(step, goal, self.robots)
         if step is not None:
             self.belief = self.robot.observe(self.belief, step, robot=True)
         else:
             self._observe_wait()
-        self._note(EpisodeTurn(len(self.turns), False, step, goal, needed))
+        self._note(EpisodeTurn(len(self.turns), False, step, goal, is_needed))
 
     def _do(self, step: int | None, goal: int, agents: frozenset[str]) -> bool:
         """Do a step in the world; return whether it is next in a valid plan of a goal."""
@@ -290,12 +290,12 @@ class _TeamPlay(_Play[S]):
             else:
                 self._human(turn)
                 self.lasts[agent] = self.last
-            if self._is_done(turn):
+            if self._is_over(turn):
                 return REACHED
         return None
 
     def _ending(self, turn: int, most: int) -> str | None:
-        if self._is_done(turn):
+        if self._is_over(turn):
             return REACHED
         is_last = turn > max(self.course.turns, default=0)
         if is_last and self.n_waits >= ROUNDS * len(self.bank.team):
@@ -322,13 +322,13 @@ class _TeamPlay(_Play[S]):
     def _do(self, step: int | None, goal: int, agents: frozenset[str]) -> bool:
         """Do a step in the world; return whether it loses the team no time."""
         self.n_waits = self.n_waits + 1 if step is None else 0
-        needed = False
+        is_needed = False
         if step is not None:
             action = _action(self.bank.table, self.state, step, agents)
-            needed = step in self.moves.choices(self.state, self.moment).next_steps(goal)
+            is_needed = step in self.moves.choices(self.state, self.moment).next_steps(goal)
             self.state = self.world.do(self.state, action)
         self.moment = self.moves.after(self.moment, step)
-        return needed
+        return is_needed
 
 
 def _action(table: StepTable, state: int, step: SupportsIndex, agents: frozenset[str]) -> int:

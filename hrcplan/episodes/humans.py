@@ -108,15 +108,15 @@ class Frontier:
         goal, errs = course.goal(turn), next(draws) < course.mistake_rate
         choices = self._moves.choices(world, moment)
         steps = choices.next_steps(goal)
-        needed = self.bank.graphs[goal].used_steps.union(steps)
-        wrong = [step for step in choices.steps.tolist() if step not in needed] if errs else []
+        useful = self.bank.graphs[goal].used_steps.union(steps)
+        wrong = [step for step in choices.steps.tolist() if step not in useful] if errs else []
         if wrong:
             return HumanMove(wrong[int(next(draws) * len(wrong))], is_mistake=True)
         if not steps:
             return HumanMove(None)
-        return HumanMove(self._chosen(goal, world, moment, steps, last, draws.__next__))
+        return HumanMove(self._choice(goal, world, moment, steps, last, draws.__next__))
 
-    def _chosen(
+    def _choice(
         self, goal: int, world: int, moment: Moment, steps: Sequence[int], last: int | None,
         draw: Draw,
     ) -> int:  # fmt: skip
@@ -136,7 +136,7 @@ class Frontier:
             return HumanMove(None)
         goal, errs = course.goal(turn), next(draws) < course.mistake_rate
         graph, node = self.bank.locate(goal, world)
-        if errs and (wrong := self._not_needed(graph, world)):
+        if errs and (wrong := self._useless(graph, world)):
             return HumanMove(wrong[int(next(draws) * len(wrong))], is_mistake=True)
         steps = [] if node is None else list(self._able(world, graph.next(node)))
         if node is None or not steps:
@@ -164,10 +164,10 @@ class Frontier:
     def _able(self, world: int, steps: Sequence[int] | dict[int, int]) -> list[int]:
         return list(self.bank.table.able(world, steps, self._doers))
 
-    def _not_needed(self, graph: PlanGraph, world: int) -> list[int]:
-        needed = graph.used_steps
+    def _useless(self, graph: PlanGraph, world: int) -> list[int]:
+        useful = graph.used_steps
         can = self.bank.table.applicable(world)
-        return self._able(world, [step for step in can if step not in needed])
+        return self._able(world, [step for step in can if step not in useful])
 
 
 class ByPlans(Frontier):
@@ -180,10 +180,10 @@ class ByPlans(Frontier):
     ) -> int:
         """Return a step in proportion to the plans that go on with it."""
         counts = [graph.plans_from(graph.next(node)[step]) for step in steps]
-        left = draw() * sum(counts)
+        rest = draw() * sum(counts)
         for step, count in zip(steps, counts, strict=True):
-            left -= count
-            if left < 0:
+            rest -= count
+            if rest < 0:
                 return step
         return steps[-1]
 
@@ -201,8 +201,8 @@ class CliqueChain(Frontier):
         self, graph: PlanGraph, node: int, steps: Sequence[int], last: int | None, draw: Draw
     ) -> int:
         """Return the step that the network allows next; any other if the human cannot do that."""
-        left = [step for step, _ in shortest(graph, node)]
-        choice = _network(graph).choose(left, last, lambda n: int(draw() * n))
+        rest = [step for step, _ in shortest(graph, node)]
+        choice = _network(graph).choose(rest, last, lambda n: int(draw() * n))
         if choice is None or choice not in steps:
             return super().choose(graph, node, steps, last, draw)
         return choice

@@ -88,7 +88,7 @@ def changes(record: EpisodeRecord) -> ChangeMeasures:
     delays: list[int] = []
     n_found = n_false = n_before = human = 0
     open_since: int | None = None  # the timestep of the true change that awaits declaration
-    is_new, known = False, 0
+    is_new, n_known = False, 0
     for turn in record.turns:
         if not turn.is_human:
             continue
@@ -100,20 +100,20 @@ def changes(record: EpisodeRecord) -> ChangeMeasures:
             if open_since is not None:
                 delays.append(record.n_turns - open_since)
             open_since, is_new = turn.t, False
-        for _ in range(turn.n_declared - known):
+        for _ in range(turn.n_declared - n_known):
             if open_since is None:
                 n_false += 1
                 n_before += not record.course.turns or human <= min(record.course.turns)
             else:
                 delays.append(turn.t - open_since)
                 n_found, open_since = n_found + 1, None
-        known = max(known, turn.n_declared)
+        n_known = max(n_known, turn.n_declared)
     if open_since is not None:
         delays.append(record.n_turns - open_since)
     return ChangeMeasures(sum(delays) / max(1, len(delays)), n_found, n_false, n_before)
 
 
-def wasted(record: EpisodeRecord) -> int:
+def n_wasted(record: EpisodeRecord) -> int:
     """Return how many robot actions the human's goal did not need when they were done."""
     return sum(
         not turn.is_human and turn.step is not None and not turn.is_needed for turn in record.turns

@@ -79,13 +79,13 @@ class PddlgymWorld:
         return self._literals[action]
 
     def _bits(self) -> int:
-        return self._task.state_of(map(named, self._env.get_state().literals))
+        return self._task.state_of(map(fact_of, self._env.get_state().literals))
 
     def _differences(self, state: int) -> str:
         facts = sorted(self._task.facts_of(state ^ self._now))
-        shown = ", ".join(map(fact_text, facts[:MAX_NAMED]))
+        facts_text = ", ".join(map(fact_text, facts[:MAX_NAMED]))
         more = len(facts) - MAX_NAMED
-        return f"{shown} and {more} more differ" if more > 0 else f"{shown} differs"
+        return f"{facts_text} and {more} more differ" if more > 0 else f"{facts_text} differs"
 
 
 class _Entity(Protocol):
@@ -103,7 +103,7 @@ class _Literal(Protocol):
     def variables(self) -> Sequence[_Entity]: ...
 
 
-def named(literal: _Literal) -> Fact:
+def fact_of(literal: _Literal) -> Fact:
     """Return a literal of pddlgym as a fact, or an action of its as name and arguments."""
     return (literal.predicate.name, *(entity.name for entity in literal.variables))
 

@@ -66,10 +66,10 @@ class ActionModel:
         self.problem = problem
         self._steps: dict[tuple[str, ...], BoundAction] = {}
         self._agent_state = agent_state_functions(problem.domain)
-        moved = {e.target.name for a in problem.domain.actions for e in a.effects}
-        self.static = frozenset(fact for fact in problem.facts if fact[0] not in moved)
+        changing = {e.target.name for a in problem.domain.actions for e in a.effects}
+        self.static = frozenset(fact for fact in problem.facts if fact[0] not in changing)
         costs = self._agent_state | {TOTAL_COST}
-        self._moving = moved.intersection(problem.domain.functions) - costs
+        self._moving = changing.intersection(problem.domain.functions) - costs
         self._compares = bool(self._moving) or _compares(problem)
 
     def initial(self) -> LiftedState:
@@ -135,10 +135,10 @@ class ActionModel:
                 missing = self._unmet(condition.formula, full, step)
                 if missing is not None:
                     return missing
-        begun = self._full(self._changed(state, step, step.at_start, 0))
+        state_after_start = self._full(self._state_after(state, step, step.at_start, 0))
         for condition in step.schema.conditions:
             if condition.when == "all":
-                missing = self._unmet(condition.formula, begun, step)
+                missing = self._unmet(condition.formula, state_after_start, step)
                 if missing is not None:
                     return missing
         return None
@@ -158,21 +158,21 @@ class ActionModel:
         self, state: LiftedState, step: BoundAction, duration: Number = 0
     ) -> tuple[LiftedState, StartEffects]:
         """Return the state just after a step has begun, and how to take that back."""
-        after = self._changed(state, step, step.at_start, duration)
+        after = self._state_after(state, step, step.at_start, duration)
         before_facts, facts = frozenset(state.facts), frozenset(after.facts)
         old = {k: v for k, v in state.values.items() if after.values.get(k) != v}
         return after, StartEffects(facts - before_facts, before_facts - facts, old)
 
     def finish(self, state: LiftedState, step: BoundAction, duration: Number = 0) -> LiftedState:
         """Return the state just after a step has ended well."""
-        return self._changed(state, step, step.at_end, duration)
+        return self._state_after(state, step, step.at_end, duration)
 
     def revert(self, state: LiftedState, effects: StartEffects) -> LiftedState:
         """Return the state as if a step that failed had never begun."""
         facts = frozenset(state.facts) - effects.added | effects.removed
         return LiftedState(facts, {**state.values, **effects.numbers})
 
-    def _changed(
+    def _state_after(
         self, state: LiftedState, step: BoundAction, effects: tuple[Effect, ...], duration: Number
     ) -> LiftedState:
         if not effects:

@@ -34,10 +34,10 @@ def checked_changes(
     """
     if isinstance(changes, str):
         raise TypeError(f"changes is a list of changes, not one text: [{changes!r}]")
-    return tuple(_checked(_parsed(change, model), model) for change in changes)
+    return tuple(_check(_parse(change, model), model) for change in changes)
 
 
-def _parsed(change: str | WorldChange, model: ExecutionModel) -> WorldChange:
+def _parse(change: str | WorldChange, model: ExecutionModel) -> WorldChange:
     if isinstance(change, str):
         return parse_change(change, model)
     if isinstance(change, StateChange | FactChange):
@@ -72,7 +72,7 @@ def parse_change(text: str, model: ExecutionModel) -> WorldChange:
     return FactChange(t, deletes=facts) if is_negated else FactChange(t, adds=facts)
 
 
-def _checked(change: WorldChange, model: ExecutionModel) -> WorldChange:
+def _check(change: WorldChange, model: ExecutionModel) -> WorldChange:
     text = _text(change)
     if not 0 <= change.t < math.inf:
         raise UsageError(f"change '{text}': the time is not a number from 0 on", code=_CODE)

@@ -58,7 +58,7 @@ def to_json(item: Event | Command | Item) -> dict[str, Any]:
     for field in fields(item):
         value = getattr(item, field.name)
         if value or field.name != ABSENT:
-            document[field.name] = _encoded(value)
+            document[field.name] = _encode(value)
     return document
 
 
@@ -82,7 +82,7 @@ def from_json(document: Mapping[str, Any], kinds: Mapping[str, type] = KINDS) ->
         raise ValueError(f"no event: {error}") from None
 
 
-def _encoded(value: _FieldValue) -> JsonValue:
+def _encode(value: _FieldValue) -> JsonValue:
     if isinstance(value, Plan):
         return format_plan(value).splitlines()
     if isinstance(value, frozenset):

@@ -161,8 +161,8 @@ class Decider:
         current = run.current_plan
         assert current is not None
         commands: list[Command] = []
-        for index, planned in enumerate(current.plan.actions):
-            if index in current.begun or not self._is_free(run, planned):
+        for index, action in enumerate(current.plan.actions):
+            if index in current.begun or not self._is_free(run, action):
                 continue
             ready = run.current_plan.ready_s(index) if run.current_plan else None
             if ready is None:
@@ -170,30 +170,30 @@ class Decider:
             if ready > run.t + ev.INSTANT_S:
                 commands.append(ev.Wake(run.t, ready))
                 continue
-            run, command = self._begin_action(run, index, planned)
+            run, command = self._begin_action(run, index, action)
             if command is None:
-                drained, more = self._drain(run)
-                return drained, (*commands, *more)
+                run_after, more = self._drain(run)
+                return run_after, (*commands, *more)
             commands.append(command)
         if not run.running and not commands:
             return self._drain(run.with_reason(ev.DEVIATION, "the plan has ended without the goal"))
         return run, tuple(commands)
 
-    def _is_free(self, run: Run, planned: PlannedAction) -> bool:
-        step = self.actions.step(planned)
+    def _is_free(self, run: Run, action: PlannedAction) -> bool:
+        step = self.actions.step(action)
         return step is not None and not any(step.busy & r.step.busy for r in run.running)
 
     def _begin_action(
-        self, run: Run, index: int, planned: PlannedAction
+        self, run: Run, index: int, action: PlannedAction
     ) -> tuple[Run, ev.Dispatch | None]:
         """Begin one action, or note as a deviation that it cannot begin."""
-        step = self.actions.step(planned)
+        step = self.actions.step(action)
         assert step is not None
         assert run.current_plan is not None
         obstacle = self.actions.obstacle(run.state, step, self.planner_values(run))
         if obstacle is not None:
-            return run.with_reason(ev.DEVIATION, f"{planned} needs {obstacle}"), None
-        duration = planned.duration_s if step.schema.durative else None
+            return run.with_reason(ev.DEVIATION, f"{action} needs {obstacle}"), None
+        duration = action.duration_s if step.schema.durative else None
         lasts = float(UNIT_S if duration is None else duration)
         current = replace(run.current_plan, begun={**run.current_plan.begun, index: run.t})
         run = replace(run, current_plan=current)

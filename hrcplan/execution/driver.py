@@ -145,7 +145,7 @@ class Driver(Generic[R, E, C]):
         t = run.t
         for event in events:
             run, ask = self._step(run, event)
-            run = self._answered(run, ask)
+            run = self._with_answer(run, ask)
             t = max(t, event.t)
         for action in run.running:
             if t > action.begun_s + PATIENCE * action.duration_s + ev.INSTANT_S:
@@ -156,15 +156,15 @@ class Driver(Generic[R, E, C]):
             run, ask = (run, again) if again is not None else self._step(run, ev.Settled(t))
         return run
 
-    def _answered(self, run: R, ask: C | None) -> R:
+    def _with_answer(self, run: R, ask: C | None) -> R:
         """Return the run after the answers to what an event asks for at once."""
         while ask is not None:
             run, ask = self._step(run, self._answer(ask))
         return run
 
     def _answer(self, ask: C) -> Any:
-        recorded: Any = self.record.recorded_answer(self.questions[type(ask)])
-        return self.planner.answer(ask) if recorded is None else recorded
+        answer: Any = self.record.recorded_answer(self.questions[type(ask)])
+        return self.planner.answer(ask) if answer is None else answer
 
     def _step(
         self, run: R, event: E | ev.Overdue | ev.Settled | ev.StopAsked

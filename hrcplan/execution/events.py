@@ -169,6 +169,6 @@ class Finish:
 Command = AskPlan | Dispatch | Cancel | Wake | Adopt | Tell | Finish
 
 
-def planned(dispatch: Dispatch) -> PlannedAction:
+def planned_action(dispatch: Dispatch) -> PlannedAction:
     """Return the action of a dispatch, without times."""
     return PlannedAction(dispatch.action, dispatch.args)

@@ -135,11 +135,13 @@ def execute(
     initial = as_problem(domain, problem)
     for key in values or {}:
         check_function(key, initial)
-    prepared = prepare_run(
+    prepared_run = prepare_run(
         initial.with_values(values or {}), profile=profile, human=human, changes=changes,
         model=model, planner=planner, seed=seed, replan_limit=replan_limit,
     )  # fmt: skip
-    return carry_out(prepared, journal=None if journal is None else Path(journal), resume=resume)
+    return carry_out(
+        prepared_run, journal=None if journal is None else Path(journal), resume=resume
+    )
 
 
 def prepare_run(
@@ -163,12 +165,12 @@ def prepare_run(
     _check_type("replan_limit", replan_limit, int, type(None))
     _check_type("profile", profile, str, Profile)
     problem = plain(problem)
-    chosen = load_profile(profile) if isinstance(profile, str) else profile
+    own_profile = load_profile(profile) if isinstance(profile, str) else profile
     planners = _planners(planner)
     names = tuple(p if isinstance(p, str) else p.card.name for p in planners)
-    shared = ExecutionModel(problem)
-    provider = provider or Replanner(shared, planners, timeout_s)
-    engine = Engine(Monitor(shared, chosen.limited_to(replan_limit), model), provider)
+    execution_model = ExecutionModel(problem)
+    provider = provider or Replanner(execution_model, planners, timeout_s)
+    engine = Engine(Monitor(execution_model, own_profile.limited_to(replan_limit), model), provider)
     EVENT_WORLDS.find(world)
     nature = nature_for(human, Spec(seed=seed), engine, changes)
     setup = RunSetup(problem, engine.monitor.profile, model, nature, names, world)
@@ -196,12 +198,12 @@ def _planners(planner: str | Planner) -> tuple[str | Planner, ...]:
 
 def _check_type(name: str, value: object, *types: type) -> None:
     if not isinstance(value, types) or isinstance(value, bool):
-        wanted = " or ".join("None" if t is type(None) else t.__name__ for t in types)
-        raise TypeError(f"{name} is {wanted}, not {type_text(value)}")
+        types_text = " or ".join("None" if t is type(None) else t.__name__ for t in types)
+        raise TypeError(f"{name} is {types_text}, not {type_text(value)}")
 
 
 def carry_out(
-    prepared: PreparedRun, *, journal: Path | None = None, resume: bool = False,
+    prepared_run: PreparedRun, *, journal: Path | None = None, resume: bool = False,
     watch: RunWatch | None = None,
 ) -> Execution:  # fmt: skip
     """Return the finished run; a resumed one takes the setup of its journal.
@@ -210,25 +212,25 @@ def carry_out(
         InputError: if the journal is damaged or of another run.
         UsageError: if it exists and ``resume`` was not asked for, or cannot be written.
     """
-    file, recorded = _opened(journal, resume)
+    file, past = _open(journal, resume)
     try:
-        return _carried_out(prepared, file, recorded, watch)
+        return _carry_out(prepared_run, file, past, watch)
     finally:
         if file is not None:
             file.close()
 
 
-def _carried_out(
-    prepared: PreparedRun, file: JournalFile | None, recorded: Journal | None,
+def _carry_out(
+    prepared_run: PreparedRun, file: JournalFile | None, past: Journal | None,
     watch: RunWatch | None,
 ) -> Execution:  # fmt: skip
     writer = None
-    if recorded is not None:
-        prepared = _with_setup_of(recorded, prepared)
-    setup, engine = prepared.setup, prepared.engine
+    if past is not None:
+        prepared_run = _with_setup_of(past, prepared_run)
+    setup, engine = prepared_run.setup, prepared_run.engine
     if file is not None:
         begin, resume = JournalWriter.begin, JournalWriter.resume
-        writer = begin(file, setup) if recorded is None else resume(file, recorded)
+        writer = begin(file, setup) if past is None else resume(file, past)
     timeline = Timeline()
 
     def both(run: Run, event: Event, commands: tuple[Command, ...]) -> None:
@@ -241,10 +243,10 @@ def _carried_out(
     outcome = engine.outcome(run)
     if writer is not None:
         writer.finish(outcome)
-    return Execution(outcome, run, timeline, 0 if recorded is None else len(recorded.lines))
+    return Execution(outcome, run, timeline, 0 if past is None else len(past.lines))
 
 
-def _opened(path: Path | None, resume: bool) -> tuple[JournalFile | None, Journal | None]:
+def _open(path: Path | None, resume: bool) -> tuple[JournalFile | None, Journal | None]:
     """Return the file to write, and the journal in it to continue, if there are any."""
     if path is None:
         if resume:
@@ -255,39 +257,39 @@ def _opened(path: Path | None, resume: bool) -> tuple[JournalFile | None, Journa
     if not resume or not file.n_bytes:
         return file, None
     try:
-        recorded = file.journal()
-        if recorded.is_empty:  # killed before the first line was complete
+        past = file.journal()
+        if past.is_empty:  # killed before the first line was complete
             file.cut(0)
             return file, None
     except BaseException:
         file.close()
         raise
-    return file, recorded
+    return file, past
 
 
-def _with_setup_of(recorded: Journal, prepared: PreparedRun) -> PreparedRun:
-    """Return the run that a journal began, with the planner of ``prepared`` if it fits.
+def _with_setup_of(past: Journal, prepared_run: PreparedRun) -> PreparedRun:
+    """Return the run that a journal began, with the planner of ``prepared_run`` if it fits.
 
     Raises:
         UsageError: if the journal is of another problem, or names code that the user did not name.
     """
-    setup, given = recorded.setup(), prepared.setup
-    ours, theirs = given.problem, setup.problem
+    setup, own_setup = past.setup(), prepared_run.setup
+    ours, theirs = own_setup.problem, setup.problem
     if (ours.domain.name, ours.name) != (theirs.domain.name, theirs.name):
         message = f"the journal is of {theirs.domain.name}/{theirs.name}"
-        raise UsageError(message, path=str(recorded.path))
+        raise UsageError(message, path=str(past.path))
     for name in setup.planners:
-        if name not in ("auto", *given.planners):
+        if name not in ("auto", *own_setup.planners):
             PLANNERS.find_listed(name)  # a journal must not choose which code runs
-    if setup.world != given.world:
+    if setup.world != own_setup.world:
         EVENT_WORLDS.find_listed(setup.world)
-    if _without_paths(ours) == theirs and setup.planners == given.planners:
-        shared, provider = prepared.engine.model, prepared.engine.planner
+    if _without_paths(ours) == theirs and setup.planners == own_setup.planners:
+        execution_model, provider = prepared_run.engine.model, prepared_run.engine.planner
     else:
-        shared = ExecutionModel(theirs)
-        provider = Replanner(shared, setup.planners, prepared.timeout_s)
-    engine = Engine(Monitor(shared, setup.profile, setup.sensing), provider)
-    return replace(prepared, setup=setup, engine=engine)
+        execution_model = ExecutionModel(theirs)
+        provider = Replanner(execution_model, setup.planners, prepared_run.timeout_s)
+    engine = Engine(Monitor(execution_model, setup.profile, setup.sensing), provider)
+    return replace(prepared_run, setup=setup, engine=engine)
 
 
 def _without_paths(problem: Problem) -> Problem:

@@ -37,10 +37,10 @@ class Observer:
         if event.outcome not in ev.OUTCOMES:
             return run, (ev.Tell(run.t, "unknown-outcome", f"no outcome '{event.outcome}'"),)
         if event.outcome == ev.DONE:
-            return self._succeeded(run, action), ()
-        return self._reverted(run, action, event.outcome), ()
+            return self._take_success(run, action), ()
+        return self._revert(run, action, event.outcome), ()
 
-    def _succeeded(self, run: Run, action: RunningAction) -> Run:
+    def _take_success(self, run: Run, action: RunningAction) -> Run:
         plan = run.current_plan
         if plan is not None and action.index is not None:
             plan = replace(plan, ended=plan.ended | {action.index})
@@ -63,13 +63,13 @@ class Observer:
                 run = run.with_sensed(key, self.agents.clamp(key, value))
         return run
 
-    def _reverted(self, run: Run, action: RunningAction, outcome: str) -> Run:
+    def _revert(self, run: Run, action: RunningAction, outcome: str) -> Run:
         """Take a failed or cancelled action back: no effect, the time is used up."""
         agent, counts = action.step.agent, run.counts
         plan = run.current_plan
         if plan is not None:
-            begun = {i: t for i, t in plan.begun.items() if i != action.index}
-            plan = replace(plan, begun=begun)
+            starts = {i: t for i, t in plan.begun.items() if i != action.index}
+            plan = replace(plan, begun=starts)
         run = replace(
             run, running=run.without(action), current_plan=plan,
             state=self.actions.revert(run.state, action.start_effects),
@@ -84,11 +84,11 @@ class Observer:
 
     def _suspects(self, run: Run, step: BoundAction) -> Iterable[FluentKey]:
         """Return the elements that can have made an action fail: those sensed high, if any."""
-        touched = self._touching(step)
+        suspects = self._touching(step)
         if not self.sensing:
-            return touched
-        sensed = run.sensed_values
-        return [k for k in touched if self.agents.failure_probability(k, sensed) > 0] or touched
+            return suspects
+        values = run.sensed_values
+        return [k for k in suspects if self.agents.failure_probability(k, values) > 0] or suspects
 
     def _touching(self, step: BoundAction) -> tuple[FluentKey, ...]:
         return self.agents.touching(step.schema.name, tuple(step.binding.values()))
@@ -98,7 +98,7 @@ class Observer:
         action = run.running_action(event.number)
         if action is None:
             return run, ()
-        return self._reverted(run, action, ev.FAILED), (ev.Cancel(run.t, event.number),)
+        return self._revert(run, action, ev.FAILED), (ev.Cancel(run.t, event.number),)
 
     def state(self, run: Run, event: ev.Observed) -> Run:
         """Return the run with an observed state, to be compared once the instant has settled."""
@@ -130,14 +130,14 @@ class Observer:
 
     def compare_states(self, run: Run) -> Run:
         """Return the run with the observed state, and a deviation if it is not the expected one."""
-        seen = run.observation
-        if seen is None:
+        observation = run.observation
+        if observation is None:
             return run
         run = replace(run, observation=None)
-        if seen.facts == run.state.facts and seen.values == run.state.values:
+        if observation.facts == run.state.facts and observation.values == run.state.values:
             return run
-        text = _difference(run.state, seen)
-        return replace(run, state=seen).with_reason(ev.DEVIATION, text)
+        text = _difference(run.state, observation)
+        return replace(run, state=observation).with_reason(ev.DEVIATION, text)
 
 
 def _number(seconds: float) -> Number:
@@ -148,14 +148,14 @@ def _action_text(step: BoundAction) -> str:
     return fact_text((step.schema.name, *step.binding.values()))
 
 
-def _difference(expected: LiftedState, seen: LiftedState) -> str:
-    missing = sorted(frozenset(expected.facts) - frozenset(seen.facts))
-    extra = sorted(frozenset(seen.facts) - frozenset(expected.facts))
+def _difference(expectation: LiftedState, observation: LiftedState) -> str:
+    missing = sorted(frozenset(expectation.facts) - frozenset(observation.facts))
+    extra = sorted(frozenset(observation.facts) - frozenset(expectation.facts))
     words = [f"{fact_text(fact)} does not hold" for fact in missing]
     words += [f"{fact_text(fact)} holds" for fact in extra]
     words += [
-        f"{fact_text(key)} is {number_text(seen.values[key])}"
-        for key in sorted(seen.values)
-        if expected.values.get(key) != seen.values[key]
+        f"{fact_text(key)} is {number_text(observation.values[key])}"
+        for key in sorted(observation.values)
+        if expectation.values.get(key) != observation.values[key]
     ]
     return ", ".join(words)

@@ -40,40 +40,40 @@ def waits(problem: Problem, plan: Plan) -> Waits:
     touches = [whole_access(problem, action) for action in plan.actions]
     busy = [occupied(action, problem) for action in plan.actions]
 
-    def ordered(i: int, j: int) -> bool:
+    def must_wait(i: int, j: int) -> bool:
         return bool(busy[i] & busy[j]) or clash(touches[i], touches[j]) is not None
 
-    return tuple(_waits_of(i, plan.actions, ordered) for i in range(len(plan.actions)))
+    return tuple(_waits_of(i, plan.actions, must_wait) for i in range(len(plan.actions)))
 
 
 def _waits_of(
-    i: int, actions: tuple[PlannedAction, ...], ordered: Callable[[int, int], bool]
+    i: int, actions: tuple[PlannedAction, ...], must_wait: Callable[[int, int], bool]
 ) -> tuple[Wait, ...]:
     start = actions[i].start_s or 0
     waits = []
     for j in range(i):  # plans are sorted by start
-        if ordered(j, i):
-            begun, ended = actions[j].start_s or 0, actions[j].end_s or 0
-            over = ended <= start
-            waits.append(Wait(j, over, 0 if over else start - begun))
+        if must_wait(j, i):
+            begin, end = actions[j].start_s or 0, actions[j].end_s or 0
+            over = end <= start
+            waits.append(Wait(j, over, 0 if over else start - begin))
     return tuple(waits)
 
 
-def rest_of(plan: Plan, order: Waits, ended: Set[int], is_temporal: bool) -> Plan:
+def rest_of(plan: Plan, order: Waits, past: Set[int], is_temporal: bool) -> Plan:
     """Return what is left of a plan, started now and as early as its order allows."""
     gap: Number = EPSILON_S if is_temporal else 0
     starts: dict[int, Number] = {}
     for i in range(len(plan.actions)):
-        if i not in ended:
+        if i not in past:
             starts[i] = max((_earliest(w, starts, plan, gap) for w in order[i]), default=0)
-    left = (replace(plan.actions[i], start_s=start) for i, start in starts.items())
-    return Plan(tuple(sorted(left, key=lambda a: a.start_s or 0)))
+    rest = (replace(plan.actions[i], start_s=start) for i, start in starts.items())
+    return Plan(tuple(sorted(rest, key=lambda a: a.start_s or 0)))
 
 
 def _earliest(wait: Wait, starts: dict[int, Number], plan: Plan, gap: Number) -> Number:
     if wait.index not in starts:
         return 0
-    begun = starts[wait.index]
+    begin = starts[wait.index]
     if wait.for_end:
-        return begun + (plan.actions[wait.index].duration_s or 0) + gap
-    return begun + wait.offset_s
+        return begin + (plan.actions[wait.index].duration_s or 0) + gap
+    return begin + wait.offset_s

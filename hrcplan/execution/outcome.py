@@ -58,17 +58,17 @@ class Outcome:
         >>> outcome.measures()["failed_pct"]
         0.0
         """
-        executed = self.executed_human + self.executed_robot
-        failed = self.failed_human + self.failed_robot
-        assigned = self.assigned_human + self.assigned_robot
+        n_executed = self.executed_human + self.executed_robot
+        n_failed = self.failed_human + self.failed_robot
+        n_assigned = self.assigned_human + self.assigned_robot
         return dict(zip(MEASURES, (
             100.0 * self.success,
             float(self.replans),
-            _percent(failed, failed + executed),
-            _percent(self.assigned_human, assigned),
-            _percent(self.assigned_robot, assigned),
-            _percent(self.executed_human, executed),
-            _percent(self.executed_robot, executed),
+            _percent(n_failed, n_failed + n_executed),
+            _percent(self.assigned_human, n_assigned),
+            _percent(self.assigned_robot, n_assigned),
+            _percent(self.executed_human, n_executed),
+            _percent(self.executed_robot, n_executed),
             self.makespan_s,
             float(self.interactions),
         ), strict=True))  # fmt: skip
@@ -92,8 +92,8 @@ def outcome_of(run: Run, robots: frozenset[str]) -> Outcome:
         robot = sum(n for agent, n in by_agent.items() if agent in robots or not agent)
         return sum(by_agent.values()) - robot, robot
 
-    assigned, done = split(counts.assigned), split(counts.done)
-    failed, cancelled = split(counts.failed), split(counts.cancelled)
+    n_assigned, n_done = split(counts.assigned), split(counts.done)
+    n_failed, n_cancelled = split(counts.failed), split(counts.cancelled)
     return Outcome(
         success=run.ending == ev.GOAL,
         ending=run.ending or "unfinished",
@@ -101,10 +101,10 @@ def outcome_of(run: Run, robots: frozenset[str]) -> Outcome:
         replans_failure=counts.replans.get(ev.FAILURE, 0),
         replans_deviation=counts.replans.get(ev.DEVIATION, 0),
         plans_confirmed=counts.plans_confirmed,
-        assigned_human=assigned[0], assigned_robot=assigned[1],
-        executed_human=done[0], executed_robot=done[1],
-        failed_human=failed[0], failed_robot=failed[1],
-        cancelled_human=cancelled[0], cancelled_robot=cancelled[1],
+        assigned_human=n_assigned[0], assigned_robot=n_assigned[1],
+        executed_human=n_done[0], executed_robot=n_done[1],
+        failed_human=n_failed[0], failed_robot=n_failed[1],
+        cancelled_human=n_cancelled[0], cancelled_robot=n_cancelled[1],
         interactions=counts.interactions,
         makespan_s=round(counts.last_end_s, 6),
     )  # fmt: skip

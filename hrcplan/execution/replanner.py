@@ -102,8 +102,8 @@ class Replanner:
         """Return the problem from here on, and its grounding if bits can hold it."""
         state = self.model.actions.state(ask.facts, ask.numbers, ask.absent)
         values = {**ask.numbers, **ask.values}
-        priced = self.model.priced_problem.with_values(values)
-        problem = replace(priced, facts=frozenset(state.facts))
+        problem_with_prices = self.model.priced_problem.with_values(values)
+        problem = replace(problem_with_prices, facts=frozenset(state.facts))
         try:
             return problem, self._groundings.task(problem)
         except (UnsupportedError, LimitError):
@@ -117,5 +117,5 @@ def with_successors(
 
     The order is fixed, whatever the clock says, so that runs can be repeated.
     """
-    named = [p for p in planners if p != "auto"]
-    return (*named, *(name for name in fixed_order(problem) if name not in named))
+    own = [p for p in planners if p != "auto"]
+    return (*own, *(name for name in fixed_order(problem) if name not in own))

@@ -57,7 +57,7 @@ def replay(journal: Journal) -> Replayed:
             row = outcome_of(run, monitor.model.agents.robots).to_json()
             difference = _differs(number, {"row": row}, line)
         else:
-            difference = _unjustified(number, line, run, monitor)
+            difference = _without_reason(number, line, run, monitor)
             if difference is None:
                 run, commands = monitor.step(run, from_json(line["event"]))
                 due = json.loads(json.dumps([to_json(command) for command in commands]))
@@ -68,15 +68,15 @@ def replay(journal: Journal) -> Replayed:
 
 
 def _differs(
-    number: int, expected: Mapping[str, Any], line: Mapping[str, Any]
+    number: int, expectation: Mapping[str, Any], line: Mapping[str, Any]
 ) -> Difference | None:
     content = {key: value for key, value in line.items() if key != "seq"}
-    if content == expected:
+    if content == expectation:
         return None
-    return Difference(number, json.dumps(expected), json.dumps(content))
+    return Difference(number, json.dumps(expectation), json.dumps(content))
 
 
-def _unjustified(
+def _without_reason(
     number: int, line: Mapping[str, Any], run: Run, monitor: Monitor
 ) -> Difference | None:
     """Return what is wrong with an event as such: it cannot be read, or its plan is not valid."""

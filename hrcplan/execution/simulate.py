@@ -77,8 +77,8 @@ class Spec:
         for name, choices in (("case", CASES), ("when", (START, RANDOM)), ("sensed", SENSED),
                               ("draws", DRAWS)):  # fmt: skip
             if getattr(self, name) not in choices:
-                wanted = ", ".join(map(str, choices))
-                raise UsageError(f"{name} is one of {wanted}, not {getattr(self, name)!r}")
+                words = ", ".join(map(str, choices))
+                raise UsageError(f"{name} is one of {words}, not {getattr(self, name)!r}")
 
 
 @dataclass(frozen=True)
@@ -140,9 +140,9 @@ def _engine(
     profile_name: str, model: bool, replan_limit: int | None,
     success: float | None,
 ) -> Engine:  # fmt: skip
-    shared = _replanner(domain, problem, values, planner, success)
-    chosen = load_profile(profile_name).limited_to(replan_limit)
-    return Engine(Monitor(shared.model, chosen, model), shared)
+    replanner = _replanner(domain, problem, values, planner, success)
+    profile = load_profile(profile_name).limited_to(replan_limit)
+    return Engine(Monitor(replanner.model, profile, model), replanner)
 
 
 @lru_cache(maxsize=16)
@@ -150,10 +150,10 @@ def _replanner(
     domain: str, problem: str, values: tuple[tuple[FluentKey, Number], ...], planner: str,
     success: float | None,
 ) -> Replanner:  # fmt: skip
-    loaded = read(domain, problem).with_values(dict(values))
+    task_problem = read(domain, problem).with_values(dict(values))
     if success is not None:
-        loaded = with_success(loaded, success)
-    return Replanner(ExecutionModel(loaded), tuple(planner.split(",")))
+        task_problem = with_success(task_problem, success)
+    return Replanner(ExecutionModel(task_problem), tuple(planner.split(",")))
 
 
 def nature_of(spec: Spec, engine: Engine) -> Nature:

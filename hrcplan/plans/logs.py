@@ -35,8 +35,8 @@ def find_plans(text: str, problem: Problem) -> Iterator[Plan]:
     Plans of a classical domain have no times: some planners print the position of a step as one.
     """
     for actions in _blocks(text, {action.name for action in problem.domain.actions}):
-        timed = any(action.start_s is not None for action in actions)
-        if timed and problem.domain.is_temporal:
+        has_times = any(action.start_s is not None for action in actions)
+        if has_times and problem.domain.is_temporal:
             if all(action.start_s is not None for action in actions):
                 yield Plan(tuple(sorted(actions, key=lambda a: a.start_s or 0)))
         else:

@@ -108,13 +108,13 @@ def occupied(action: PlannedAction, problem: Problem) -> frozenset[str]:
     """
     schema = problem.domain.action(action.name)
     bound = dict(zip((p.name for p in schema.params), action.args, strict=True))
-    changed = {
+    agents = {
         bound.get(term, term)
         for effect in schema.effects
         if effect.value is None
         for term in effect.target.args
     }
-    busy = {arg for arg in action.args if arg in problem.agents and arg in changed}
+    busy = {arg for arg in action.args if arg in problem.agents and arg in agents}
     own = lane(action.args, problem)
     return frozenset(busy if own is None else busy | {own})
 

@@ -35,7 +35,7 @@ class DomainTruth:
 
     def begin(self, dispatch: ev.Dispatch) -> None:
         """Let an action begin."""
-        step = self._model.actions.step(ev.planned(dispatch))
+        step = self._model.actions.step(ev.planned_action(dispatch))
         assert step is not None, f"the problem has no action {dispatch}"
         duration = exact_number(dispatch.duration_s)
         self._state, effects = self._model.actions.begin(self._state, step, duration)  # type: ignore[arg-type]

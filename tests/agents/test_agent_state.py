@@ -10,7 +10,7 @@ import pytest
 from hrcplan.agents import AgentModel, load_profile
 from hrcplan.agents import profile as old_profile
 from hrcplan.agents.memory import Memory
-from hrcplan.agents.state import combined, failure_probability, sensed_value
+from hrcplan.agents.state import combine, failure_probability, sensed_value
 from hrcplan.errors import InputError, UsageError
 from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import Note
@@ -47,8 +47,8 @@ def test_failure_probability(value: Fraction, p: float) -> None:
 
 
 def test_causes_combine() -> None:
-    assert combined([0.2, 0.5]) == pytest.approx(1 - 0.8 * 0.5)
-    assert combined([]) == 0
+    assert combine([0.2, 0.5]) == pytest.approx(1 - 0.8 * 0.5)
+    assert combine([]) == 0
 
 
 @pytest.mark.parametrize("value", [-0.1, 10.1, math.nan, math.inf])

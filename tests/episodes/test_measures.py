@@ -4,7 +4,7 @@ import pytest
 
 from hrcplan.episodes.episode import REACHED, EpisodeRecord, EpisodeTurn
 from hrcplan.episodes.humans import Course
-from hrcplan.episodes.measures import changes, guesses, mistakes, waits, wasted
+from hrcplan.episodes.measures import changes, guesses, mistakes, n_wasted, waits
 
 
 def record(course, *turns):
@@ -142,4 +142,4 @@ def test_sums():
         EpisodeTurn(7, False, 6, A, False),
     )
     found = EpisodeRecord(course, turns, REACHED)
-    assert (wasted(found), mistakes(found), waits(found), found.n_turns) == (2, 2, 1, 8)
+    assert (n_wasted(found), mistakes(found), waits(found), found.n_turns) == (2, 2, 1, 8)

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from hrcplan.core.numbers import to_number
-from hrcplan.episodes.pddlgym_world import environment, named
+from hrcplan.episodes.pddlgym_world import environment, fact_of
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl import library
 from hrcplan.pddl.dialect import with_binary_sums
@@ -175,7 +175,7 @@ def test_pddlgym_reads_the_kitchen_without_costs() -> None:
     env = environment(problem)
     seen, _ = env.reset()
     assert len(seen.literals) == len(problem.facts)
-    offered = set(map(named, env.action_space.all_ground_literals(seen)))
+    offered = set(map(fact_of, env.action_space.all_ground_literals(seen)))
     task = Task(problem)
     ours = {(task.actions[i].name, *task.actions[i].args) for i in task.applicable(task.initial)}
     assert ours <= offered  # pddlgym also offers what changes nothing

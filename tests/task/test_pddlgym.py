@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-from hrcplan.episodes.pddlgym_world import environment, named
+from hrcplan.episodes.pddlgym_world import environment, fact_of
 from hrcplan.pddl.inputs import read
 from hrcplan.task import Task
 
@@ -28,7 +28,7 @@ def test_random_walk(name: str) -> None:
     here = task.initial
     chance = random.Random(name)
     for _ in range(25):
-        offered = {named(a): a for a in world.action_space.all_ground_literals(there)}
+        offered = {fact_of(a): a for a in world.action_space.all_ground_literals(there)}
         ours = {(task.actions[i].name, *task.actions[i].args): i for i in task.applicable(here)}
         assert ours.keys() <= offered.keys()
         for extra in offered.keys() - ours.keys():  # only what changes nothing
@@ -37,7 +37,7 @@ def test_random_walk(name: str) -> None:
         chosen = chance.choice(sorted(ours))
         there, _, done, *_ = world.step(offered[chosen])
         here = task.successor(here, ours[chosen])
-        assert {fact for fact in map(named, there.literals) if fact in task.bits} == set(
+        assert {fact for fact in map(fact_of, there.literals) if fact in task.bits} == set(
             task.facts_of(here)
         )
         assert done == task.is_goal(here)

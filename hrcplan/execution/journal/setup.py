@@ -68,8 +68,8 @@ def _problem(domain: str, problem: str) -> Problem:
         paths = Path(folder, "domain.pddl"), Path(folder, "problem.pddl")
         for path, text in zip(paths, (domain, problem), strict=True):
             path.write_text(text, encoding="utf-8")
-        loaded = check.load_problem(check.load_domain(paths[0]), paths[1])
-    return replace(loaded, path="", domain=replace(loaded.domain, path=""))
+        task_problem = check.load_problem(check.load_domain(paths[0]), paths[1])
+    return replace(task_problem, path="", domain=replace(task_problem.domain, path=""))
 
 
 def _nature_to_json(nature: Nature) -> dict[str, Any]:

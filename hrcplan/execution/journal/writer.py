@@ -36,13 +36,13 @@ class JournalWriter:
         self.path = file.path
         self._kinds = kinds
         self._file = file
-        self._recorded = () if journal is None else journal.lines
+        self._past_lines = () if journal is None else journal.lines
         self._position = 1
 
     @property
     def is_repeating(self) -> bool:
         """Whether the run still goes over what was recorded before."""
-        return self._position < len(self._recorded)
+        return self._position < len(self._past_lines)
 
     def record_event(self, event: E) -> E:
         """Write an event down and return it as it can be read again.
@@ -65,7 +65,7 @@ class JournalWriter:
 
     def recorded_answer(self, kind: type[E]) -> E | None:
         """Return the event that was recorded at this place, if it is of a kind."""
-        event = self._recorded[self._position].get("event") if self.is_repeating else None
+        event = self._past_lines[self._position].get("event") if self.is_repeating else None
         if event is None or event.get("kind") != kind.__name__.lower():
             return None
         return from_json(event, self._kinds)  # type: ignore[no-any-return]
@@ -78,7 +78,7 @@ class JournalWriter:
     def _line(self, content: Mapping[str, Any]) -> Mapping[str, Any]:
         line = json.loads(json.dumps({"seq": self._position, **content}))
         if self.is_repeating:
-            if self._recorded[self._position] != line:
+            if self._past_lines[self._position] != line:
                 raise InputError(
                     "the journal goes another way than the run; was it made by this version?",
                     code="bad-journal", path=str(self.path), line=self._position + 1,

@@ -64,7 +64,7 @@ class Nature:
 
 
 @dataclass(frozen=True, slots=True)
-class _Acted:
+class _ActionOutcome:
     """One action under way."""
 
     step: BoundAction
@@ -88,8 +88,8 @@ class SimulatedWorld:
         self.actions, self.agents = model.actions, model.agents
         self.state: LiftedState = self.actions.initial()
         self.values: dict[FluentKey, Number] = dict(self.agents.low)
-        self._acted: dict[int, _Acted] = {}
-        self._unsensed: dict[FluentKey, Number] = {}
+        self._outcomes: dict[int, _ActionOutcome] = {}
+        self._news: dict[FluentKey, Number] = {}
         self._n_attempts: dict[str, int] = {}
         self._clock: list[tuple[float, int, int, _Due]] = []
         self._n_entries = 0
@@ -120,14 +120,14 @@ class SimulatedWorld:
                 self._at(at_s, _WAKE, None)
 
     def _begin(self, command: ev.Dispatch) -> None:
-        step = self.actions.step(ev.planned(command))
+        step = self.actions.step(ev.planned_action(command))
         assert step is not None
         duration = exact_number(command.duration_s)
         self.state, effects = self.actions.begin(self.state, step, duration)  # type: ignore[arg-type]
         end_s = command.t + command.duration_s * self._stretch(step, command.number)
-        self._acted[command.number] = _Acted(step, duration, end_s, effects)  # type: ignore[arg-type]
+        self._outcomes[command.number] = _ActionOutcome(step, duration, end_s, effects)  # type: ignore[arg-type]
         self._at(end_s, _END, command.number)
-        if self._unsensed and self._is_human(step):
+        if self._news and self._is_human(step):
             self._schedule_sensing(command.t, end_s)
 
     def _stretch(self, step: BoundAction, number: int) -> float:
@@ -138,7 +138,7 @@ class SimulatedWorld:
 
     def _cancel(self, number: int) -> None:
         """Break an action off in this instant; it leaves no effect."""
-        action = self._acted.pop(number, None)
+        action = self._outcomes.pop(number, None)
         if action is not None:
             self.state = self.actions.revert(self.state, action.start_effects)
             self._at(self._now, _END, ev.Ended(self._now, number, ev.CANCELLED))
@@ -184,7 +184,7 @@ class SimulatedWorld:
         return [self._observation()]
 
     def _end(self, t: float, number: int) -> Sequence[Event]:
-        action = self._acted.pop(number, None)
+        action = self._outcomes.pop(number, None)
         if action is None:
             return []  # it was cancelled
         if not self._succeeds(number, action):
@@ -202,13 +202,13 @@ class SimulatedWorld:
         if chance.uniform(self.nature.seed, "interaction", number) < self._success(name):
             self.values.update({k: self.agents.clamp(k, v) for k, v in values.items()})
         for key in values:
-            self._unsensed.pop(key, None)
+            self._news.pop(key, None)
         return [ev.Sensed(t, {key: self.values[key] for key in values})]
 
     def _success(self, name: str) -> float:
         return float(self.model.problem.domain.success(name))
 
-    def _succeeds(self, number: int, action: _Acted) -> bool:
+    def _succeeds(self, number: int, action: _ActionOutcome) -> bool:
         """Return the outcome of an action, from the true agent state and what was drawn for it."""
         name = action.step.schema.name
         if not self._is_human(action.step) or name not in (self.nature.can_fail or {name}):
@@ -224,11 +224,11 @@ class SimulatedWorld:
 
     def _change(self, t: float, values: Mapping[FluentKey, Number]) -> None:
         self.values.update(values)
-        self._unsensed.update(values)
+        self._news.update(values)
         if self.nature.sensed == BEFORE:
             self._at(t, _SENSE, None)
             return
-        ends = [a.end_s for a in self._acted.values() if self._is_human(a.step)]
+        ends = [a.end_s for a in self._outcomes.values() if self._is_human(a.step)]
         if ends:
             self._schedule_sensing(t, min(ends))
 
@@ -238,7 +238,7 @@ class SimulatedWorld:
             self._at(middle if self.nature.sensed == DURING else end_s, _SENSE, None)
 
     def _sense(self, t: float) -> Sequence[Event]:
-        values, self._unsensed = self._unsensed, {}
+        values, self._news = self._news, {}
         return [ev.Sensed(t, values)] if values else []
 
     def _observation(self) -> ev.Observed:

@@ -9,7 +9,7 @@ from statistics import fmean
 
 from hrcplan.episodes.episode import REACHED, STUCK, UNFINISHED, EpisodeRecord, play
 from hrcplan.episodes.humans import Course
-from hrcplan.episodes.measures import changes, guesses, mistakes, waits, wasted
+from hrcplan.episodes.measures import changes, guesses, mistakes, n_wasted, waits
 from hrcplan.studies.changed_mind import scenario
 from hrcplan.studies.study import Cell, CellValue, Seed, StudyOptions, StudyRow
 
@@ -60,7 +60,7 @@ def simulate(options: StudyOptions, cell: Cell, seed: Seed) -> StudyRow:
         "ending": record.ending,
         **asdict(guesses(record)),
         **asdict(changes(record)),
-        "wasted_robot_steps": wasted(record),
+        "wasted_robot_steps": n_wasted(record),
         "human_mistakes": mistakes(record),
         "robot_waits": waits(record),
         "total_steps": record.cost,
