@@ -55,8 +55,8 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> ProblemFile | None:
     """Collect a problem file below a folder ``problems``."""
-    wanted = parent.config.getini("hrcplan")
-    if wanted and file_path.suffix == ".pddl" and "problems" in file_path.parts[:-1]:
+    setting = parent.config.getini("hrcplan")
+    if setting and file_path.suffix == ".pddl" and "problems" in file_path.parts[:-1]:
         return ProblemFile.from_parent(parent, path=file_path)
     return None
 

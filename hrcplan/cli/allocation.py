@@ -100,7 +100,7 @@ def as_text(chart: Diagram, title: str) -> str:
     head = [" ".join(chart.key), *(agent or "-" for agent in agents), "metric"]
     rows = [
         [
-            f"{_shown(piece.least)} … {_shown(piece.most)}",
+            f"{_text(piece.least)} … {_text(piece.most)}",
             *(str(piece.n_actions.get(agent, 0)) for agent in agents),
             _line(piece.line),
         ]
@@ -115,18 +115,18 @@ def as_text(chart: Diagram, title: str) -> str:
 def _in_words(chart: Diagram) -> str:
     radius = chart.radius()
     if radius is None:
-        return f"now {_shown(chart.value)}: one allocation is best throughout"
-    flips = ", ".join(_shown(flip) for flip in chart.flips)
-    return f"flips at {flips}; now {_shown(chart.value)}, so it may move by {_shown(radius)}"
+        return f"now {_text(chart.value)}: one allocation is best throughout"
+    flips = ", ".join(_text(flip) for flip in chart.flips)
+    return f"flips at {flips}; now {_text(chart.value)}, so it may move by {_text(radius)}"
 
 
 def _line(line: Line) -> str:
     if not line.slope:
-        return _shown(line.intercept)
-    return f"{_shown(line.intercept)} + {_shown(line.slope)} v"
+        return _text(line.intercept)
+    return f"{_text(line.intercept)} + {_text(line.slope)} v"
 
 
-def _shown(number: Number) -> str:
+def _text(number: Number) -> str:
     """Return a number in at most six digits, and the fraction if they are not exact."""
     short = f"{float(number):.6g}"
     return short if Fraction(short) == number else f"{short} ({number})"

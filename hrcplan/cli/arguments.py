@@ -23,8 +23,8 @@ def split_names(words: Sequence[str], n_more: int) -> tuple[str, str, list[str]]
     if len(words) == n_more + 1 and words[0].count("/") == 1 and not words[0].endswith(".pddl"):
         domain, problem = words[0].split("/")
         return domain, problem, list(words[1:])
-    needed = "a domain, a problem and a plan file" if n_more else "a domain and a problem"
-    message = f"{needed} are needed, as in 'transport two-boxes{' my.plan' if n_more else ''}'"
+    expectation = "a domain, a problem and a plan file" if n_more else "a domain and a problem"
+    message = f"{expectation} are needed, as in 'transport two-boxes{' my.plan' if n_more else ''}'"
     raise UsageError(message, hint="in one word: transport/two-boxes; or paths")
 
 
@@ -35,5 +35,5 @@ def problem_of(domain: str, problem: str, settings: Sequence[str]) -> Problem:
         UsageError: if a setting does not name a function of the problem, or no number.
         InputError: if a file is missing or has faults.
     """
-    loaded = read(domain, problem)
-    return loaded.with_values(dict(parse_setting(text, loaded) for text in settings))
+    base = read(domain, problem)
+    return base.with_values(dict(parse_setting(text, base) for text in settings))

@@ -148,11 +148,11 @@ def show(bank: str, goal: str | None) -> int:
     """Show the goals of a BANK: steps, cost, exact number of plans, size of the graph."""
     from hrcplan.bank import load
 
-    loaded = load(bank)
+    goal_bank = load(bank)
     if goal is None:
-        _print(loaded)
+        _print(goal_bank)
     else:
-        _print_htn(loaded, goal)
+        _print_htn(goal_bank, goal)
     return 0
 
 
@@ -192,21 +192,21 @@ def sample(bank: str, goal: str, n: int, seed: int, loop_free: bool, irredundant
 
     from hrcplan.bank import load
 
-    loaded = load(bank)
-    index = loaded.goal_index(goal)
-    wanted = ((loop_free, loaded.loop_free), (irredundant, loaded.irredundant(index)))
-    filters = [test for is_asked, test in wanted if is_asked]
+    goal_bank = load(bank)
+    index = goal_bank.goal_index(goal)
+    choices = ((loop_free, goal_bank.loop_free), (irredundant, goal_bank.irredundant(index)))
+    filters = [test for is_on, test in choices if is_on]
     keep = (lambda steps: all(test(steps) for test in filters)) if filters else None
-    rows = loaded.sample(index, n, np.random.default_rng(seed), keep)
+    rows = goal_bank.sample(index, n, np.random.default_rng(seed), keep)
     plans = [
         {
-            "steps": [str(loaded.table[step]) for step in steps],
-            "actions": [str(action) for action in loaded.as_plan(steps).actions],
+            "steps": [str(goal_bank.table[step]) for step in steps],
+            "actions": [str(action) for action in goal_bank.as_plan(steps).actions],
         }
         for steps in rows
     ]
     if output.JSON:
-        output.document({"goal": goal, "agents": loaded.agents, "plans": plans})
+        output.document({"goal": goal, "agents": goal_bank.agents, "plans": plans})
     for number, plan in enumerate(plans, start=1):
         if not output.JSON:
             output.result("\n".join([f"; plan {number}", *plan["actions"], ""]))

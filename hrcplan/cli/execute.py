@@ -128,22 +128,22 @@ def command(
 
     domain, name, _ = split_names(names, 0)
     problem = problem_of(domain, name, settings)
-    prepared = prepare_run(
+    prepared_run = prepare_run(
         problem, profile=profile_name, human=human, changes=changes, model=not no_model,
         planner=planner, seed=seed, replan_limit=replan_limit, timeout_s=timeout, world=world,
     )  # fmt: skip
-    _check_initial(prepared.engine.model.agents, settings)
+    _check_initial(prepared_run.engine.model.agents, settings)
     live = Live(problem, speed)
     watch = None if output.JSON else live.watch
-    done = carry_out(prepared, journal=journal, resume=resume, watch=watch)
-    outcome = done.outcome
+    ending = carry_out(prepared_run, journal=journal, resume=resume, watch=watch)
+    outcome = ending.outcome
     if output.JSON:
         output.document({
-            "success": outcome.success, "ending": outcome.ending, "why": done.run.why or None,
-            "row": outcome.to_json(), "measures": outcome.measures(), **done.timeline.to_json(),
+            "success": outcome.success, "ending": outcome.ending, "why": ending.run.why or None,
+            "row": outcome.to_json(), "measures": outcome.measures(), **ending.timeline.to_json(),
         })  # fmt: skip
     else:
-        live.finish(done.run, outcome)
+        live.finish(ending.run, outcome)
     return 0 if outcome.success else 1
 
 
@@ -154,12 +154,12 @@ def _check_initial(agents: AgentModel, settings: tuple[str, ...]) -> None:
     """
     from hrcplan.pddl.settings import parse_setting
 
-    named = {parse_setting(text, agents.problem)[0] for text in settings}
+    keys = {parse_setting(text, agents.problem)[0] for text in settings}
     for key, value in agents.low.items():
         try:
             agents.check(key, value)
         except UsageError as error:
             message = f"({' '.join(key)}): {error.message}"
-            if key in named:
+            if key in keys:
                 raise UsageError(f"--set {message}", code=error.code, hint=error.hint) from None
             output.warn(f"initial {message}; {error.hint}")

@@ -44,9 +44,9 @@ def _tree(node: OrderNode, table: StepTable) -> dict[str, Any]:
 
     if isinstance(node, Leaf):
         return {"step": str(table[node.step])}
-    added = [[str(table[a]), str(table[b])] for a, b in node.added]
+    extra = [[str(table[a]), str(table[b])] for a, b in node.added]
     kind = "chain" if isinstance(node, Chain) else "clique"
-    return {kind: [_tree(child, table) for child in node.children], "added": added}
+    return {kind: [_tree(child, table) for child in node.children], "added": extra}
 
 
 def as_text(graph: PlanGraph, htn: Htn, table: StepTable) -> str:
@@ -54,7 +54,7 @@ def as_text(graph: PlanGraph, htn: Htn, table: StepTable) -> str:
     plans = f"{'' if graph.complete else '>= '}{int_text(htn.plans, ',')} plans"
     lines = [f"{htn.goal}: {graph.n_steps} steps, {plans}"]
     if htn.kinds:
-        lines.append(f"chains and cliques allow {_allowed(htn.orders, htn.plans, htn.exact)}")
+        lines.append(f"chains and cliques allow {_counts_text(htn.orders, htn.plans, htn.exact)}")
     if htn.added:
         lines.append(f"{_constraints(htn.added)}: chains and cliques cannot do without")
     if not htn.complete:
@@ -68,7 +68,7 @@ def as_text(graph: PlanGraph, htn: Htn, table: StepTable) -> str:
     return "\n".join(lines)
 
 
-def _allowed(orders: int, plans: int, exact: bool) -> str:
+def _counts_text(orders: int, plans: int, exact: bool) -> str:
     if not exact:
         return f"{int_text(orders, ',')} orders, which need not all be plans"
     if orders == plans:
@@ -80,8 +80,8 @@ def _allowed(orders: int, plans: int, exact: bool) -> str:
 
 
 def _title(number: int, kind: Kind, n: int) -> str:
-    allowed = _allowed(kind.orders, kind.plans, kind.exact)
-    return f"either {number} of {n}: {int_text(kind.plans, ',')} plans, allowed are {allowed}"
+    counts = _counts_text(kind.orders, kind.plans, kind.exact)
+    return f"either {number} of {n}: {int_text(kind.plans, ',')} plans, allowed are {counts}"
 
 
 def _constraints(n: int) -> str:

@@ -73,14 +73,14 @@ def as_text(answer: Inference) -> str:
     width = max([6, *(len(action) for action in answer.actions)])
     lines = [f"{'':>4}  {'action':<{width}}  likeliest goals"]
     changes = {change.at: change for change in answer.changes}
-    ignored = {ignored.at: ignored for ignored in answer.ignored}
+    by_step = {entry.at: entry for entry in answer.ignored}
     for row, posterior in enumerate(answer.posterior):
         if row - 1 in changes:
             lines.append(f"{'':>4}  -- {_change(changes[row - 1], names)} --")
         action = answer.actions[row - 1] if row else ""
         what = _likeliest(posterior, names)
-        if row - 1 in ignored:
-            what += f"  [ignored: {ignored[row - 1].reason}]"
+        if row - 1 in by_step:
+            what += f"  [ignored: {by_step[row - 1].reason}]"
         lines.append(f"{row or '':>4}  {action:<{width}}  {what}")
     if long:
         lines += ["", *(f"{name}: {goal}" for name, goal in zip(names, answer.goals, strict=True))]

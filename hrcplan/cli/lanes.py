@@ -72,14 +72,14 @@ def as_text(problem: Problem, result: Result) -> str:
     """Return a headline, the plan with one column per lane, and what it costs."""
     head = f"{problem.domain.name}/{problem.name}: {VERDICT[result.status]}"
     by = f" ({result.planner}, {result.wall_s:.2f} s)" if result.planner != "auto" else ""
-    tried = _tried(result)
+    attempts = _attempts_text(result)
     if result.plan is None:
-        return f"{head}{by}{tried}"
+        return f"{head}{by}{attempts}"
     plan = "\n".join(_table(problem, result.plan))
-    return f"{head}{by}{tried}\n\n{plan}\n\n{_figures(problem, result)}"
+    return f"{head}{by}{attempts}\n\n{plan}\n\n{_figures(problem, result)}"
 
 
-def _tried(result: Result) -> str:
+def _attempts_text(result: Result) -> str:
     others = [a for a in result.attempts if a.planner != result.planner or result.plan is None]
     lines = [f"\n  {a.planner}: {a.outcome}" for a in others if not a.outcome.startswith("solved")]
     mismatch = [] if result.mismatch is None else [f"\n  {result.mismatch}"]

@@ -36,7 +36,7 @@ class Live:
     _running: dict[int, RunningAction] = field(default_factory=dict)
     _n_plans: int = 0
     _shown_s: float = 0.0
-    _is_headed: bool = False
+    _has_head: bool = False
 
     def watch(self, run: Run, event: Event, commands: tuple[Command, ...]) -> None:
         """Show one step of the monitor."""
@@ -45,8 +45,8 @@ class Live:
             words = self._short(fact_text((step.schema.name, *step.binding.values())), step.agent)
             self._cell(step.agent, f"{_MARK.get(event.outcome, '?')} {words}")
         if isinstance(event, ev.Sensed):
-            shown = (f"{fact_text(k)} = {_value(v)}" for k, v in event.values.items())
-            self._notes.append(f"sensed {', '.join(shown)}")
+            values = (f"{fact_text(k)} = {_value(v)}" for k, v in event.values.items())
+            self._notes.append(f"sensed {', '.join(values)}")
         is_complete = isinstance(event, (ev.Settled, ev.Planned))
         if is_complete:
             self._flush(run)
@@ -120,8 +120,8 @@ class Live:
         return max(_WIDTH[0], min(_WIDTH[1], room))
 
     def _line(self, when: str, text: str) -> None:
-        if not self._is_headed:
-            self._is_headed = True
+        if not self._has_head:
+            self._has_head = True
             names = "".join(f"{agent:<{self._width()}}" for agent in self._agents)
             output.result(f"{'':9}  {names}done".rstrip())
         output.result(f"{when:>9}  {text}".rstrip())
@@ -134,12 +134,12 @@ class Live:
             "change": row.replans_change, "failure": row.replans_failure,
             "deviation": row.replans_deviation,
         }  # fmt: skip
-        shown = ", ".join(f"{n} {kind}" for kind, n in reasons.items() if n)
-        failed = row.failed_human + row.failed_robot
+        counts = ", ".join(f"{n} {kind}" for kind, n in reasons.items() if n)
+        n_failed = row.failed_human + row.failed_robot
         output.result(
             f"\n{row.ending}{why}: {row.makespan_s:g}{unit}, {plural(row.replans, 'replan')}"
-            f"{f' ({shown})' if shown else ''}, {plural(row.plans_confirmed, 'plan')} confirmed, "
-            f"{row.executed_human} human and {row.executed_robot} robot actions, {failed} failed"
+            f"{f' ({counts})' if counts else ''}, {plural(row.plans_confirmed, 'plan')} confirmed, "
+            f"{row.executed_human} human and {row.executed_robot} robot actions, {n_failed} failed"
         )
 
 

@@ -102,14 +102,14 @@ def _old_names_on_stderr() -> Iterator[None]:
 def _exit_code(words: list[str], run: Callable[[], Any]) -> int:
     """Return the exit code of a command, after its errors were printed as far as that can be."""
     try:
-        code = _guarded(words, run)
+        code = _guard(words, run)
     except output.PrintError as error:
-        code = _unprinted(error)
+        code = _print_fault(error)
     fault = streams.flush()
-    return code if fault is None or code else _unprinted(output.PrintError(fault))
+    return code if fault is None or code else _print_fault(output.PrintError(fault))
 
 
-def _unprinted(error: output.PrintError) -> int:
+def _print_fault(error: output.PrintError) -> int:
     """Say that the result could not be printed; a closed pipe is not reported."""
     if not error.is_closed:
         with contextlib.suppress(output.PrintError):
@@ -117,7 +117,7 @@ def _unprinted(error: output.PrintError) -> int:
     return UsageError.exit_code
 
 
-def _guarded(words: list[str], run: Callable[[], Any]) -> int:
+def _guard(words: list[str], run: Callable[[], Any]) -> int:
     """Return the exit code of a command; what it raises is printed first."""
     try:
         if "\0" in "".join(words):

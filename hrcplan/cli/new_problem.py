@@ -72,11 +72,11 @@ def command(
         raise UsageError("either --goal or --vary is needed", hint="--goal '(and …)'")
     base = read(domain, origin)
     check_target(target, base.path, base.domain.path)
-    changed = base.with_values(dict(parse_setting(text, base) for text in settings))
+    base_now = base.with_values(dict(parse_setting(text, base) for text in settings))
     if vary:
-        problem = _varied(changed, seed, new_objects)
+        problem = _variant(base_now, seed, new_objects)
     else:
-        problem = with_goal(changed, goal or "", name.lower())
+        problem = with_goal(base_now, goal or "", name.lower())
     text = problem_text(replace(problem, name=name.lower()))
     if target is not None:
         output.write_atomically(target, text)
@@ -90,7 +90,7 @@ def command(
         output.result(f"wrote {target}")
 
 
-def _varied(problem: Problem, seed: int, n_objects: int) -> Problem:
+def _variant(problem: Problem, seed: int, n_objects: int) -> Problem:
     from hrcplan.bank import from_problems
     from hrcplan.bank.variants import vary
 

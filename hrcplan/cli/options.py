@@ -61,15 +61,15 @@ def join_settings(args: Sequence[str]) -> list[str]:
     >>> join_settings(["a/b", "--set", "motivation", "human=10", "--json"])
     ['a/b', '--set', 'motivation human=10', '--json']
     """
-    joined: list[str] = []
+    words_out: list[str] = []
     words = list(args)
     while words:
-        joined.append(words.pop(0))
-        if (mark := _JOINED.get(joined[-1])) is not None:
+        words_out.append(words.pop(0))
+        if (mark := _JOINED.get(words_out[-1])) is not None:
             n = _n_words(words, mark)
-            joined.append(" ".join(words[:n])) if n else None
+            words_out.append(" ".join(words[:n])) if n else None
             del words[:n]
-    return joined
+    return words_out
 
 
 def _n_words(words: Sequence[str], mark: str) -> int:

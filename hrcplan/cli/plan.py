@@ -94,17 +94,17 @@ class _Progress:
     """Says on stderr which plan is the best so far, where the search takes more than a moment."""
 
     def __init__(self) -> None:
-        self._begun = time.monotonic()
+        self._start_s = time.monotonic()
 
     def __call__(self, result: Result) -> None:
         """Tell of a plan that is better than those before it."""
         from hrcplan.core.numbers import number_text
 
-        passed = time.monotonic() - self._begun
-        if passed < QUIET_S or result.objective is None:
+        elapsed_s = time.monotonic() - self._start_s
+        if elapsed_s < QUIET_S or result.objective is None:
             return
         value = number_text(result.objective)
-        output.note(f"after {passed:.0f} s: {value} ({result.planner})")
+        output.note(f"after {elapsed_s:.0f} s: {value} ({result.planner})")
 
 
 def _print(problem: Problem, result: Result) -> None:

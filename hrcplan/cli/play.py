@@ -37,19 +37,19 @@ def command(script: str, methods: tuple[str, ...], show_why: bool) -> int:
     from hrcplan.studies.changed_mind import script as scripts
 
     episode_script = scripts.read(script)
-    played = scripts.episodes(episode_script, methods)
+    narratives = scripts.episodes(episode_script, methods)
     if output.JSON:
-        output.document(scripts.as_json(episode_script, played))
+        output.document(scripts.as_json(episode_script, narratives))
         return 0
     output.result(str(episode_script.get("title", script)))
-    output.table(_side_by_side(played))
+    output.table(_side_by_side(narratives))
     if show_why:
-        for episode in played:
+        for episode in narratives:
             output.result("\n".join(_reasons(episode)))
     return 0
 
 
-def _side_by_side(played: Sequence[NarratedEpisode]) -> Any:
+def _side_by_side(narratives: Sequence[NarratedEpisode]) -> Any:
     """Return a table with a row per turn and a column per method."""
     from rich.markup import escape
     from rich.table import Table
@@ -57,12 +57,12 @@ def _side_by_side(played: Sequence[NarratedEpisode]) -> Any:
     table = Table(box=None, padding=(0, 2, 0, 0), header_style="bold")
     table.add_column("t", justify="right")
     table.add_column("goal", no_wrap=True)
-    for episode in played:
+    for episode in narratives:
         table.add_column(escape(episode.method), no_wrap=True)
-    for t in range(max(len(episode.turns) for episode in played)):
-        turns = [e.turns[t] if t < len(e.turns) else None for e in played]
+    for t in range(max(len(episode.turns) for episode in narratives)):
+        turns = [e.turns[t] if t < len(e.turns) else None for e in narratives]
         goal = next(turn.goal for turn in turns if turn is not None)
-        last = next((e.turns[t - 1].goal for e in played if 0 < t <= len(e.turns)), None)
+        last = next((e.turns[t - 1].goal for e in narratives if 0 < t <= len(e.turns)), None)
         table.add_row(str(t), "" if goal == last else escape(goal), *map(_cell, turns))
     return table
 
@@ -76,11 +76,11 @@ def _cell(turn: NarratedTurn | None) -> str:
     if turn.agent == "human":
         return f"[dim]human[/] {action}"
     mark = "" if turn.is_needed or turn.action is None else " [red]not needed[/]"
-    goals = "\n".join(_believed(escape(goal), p, goal == turn.goal) for goal, p in turn.top)
+    goals = "\n".join(_belief_text(escape(goal), p, goal == turn.goal) for goal, p in turn.top)
     return f"[bold]robot {action}[/]{mark}\n{goals}"
 
 
-def _believed(goal: str, probability: float, is_right: bool) -> str:
+def _belief_text(goal: str, probability: float, is_right: bool) -> str:
     line = f"{probability:4.0%} {goal}"
     return f"      [green]{line} ✓[/]" if is_right else f"      {line}"
 
@@ -91,8 +91,8 @@ def _reasons(episode: NarratedEpisode) -> list[str]:
     for turn in episode.turns:
         if turn.why is None:
             continue
-        believed = ", ".join(f"{goal} {p:.0%}" for goal, p in turn.why.goals)
-        lines.append(f"  {turn.t:3d}  believes {believed}")
+        goals = ", ".join(f"{goal} {p:.0%}" for goal, p in turn.why.goals)
+        lines.append(f"  {turn.t:3d}  believes {goals}")
         for c in turn.why.candidates:
             mark = "->" if c.action == turn.action else "  "
             helps = ", ".join(goal for goal, _ in c.helps)

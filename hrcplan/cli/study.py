@@ -213,7 +213,7 @@ class _Bar:
     ) -> None:  # fmt: skip
         self._progress.stop()
 
-    def _show(self, done: int, wanted: int) -> None:
+    def _show(self, n_done: int, n_all: int) -> None:
         if self._task is None:
-            self._task = self._progress.add_task("", total=wanted)
-        self._progress.update(self._task, completed=done)
+            self._task = self._progress.add_task("", total=n_all)
+        self._progress.update(self._task, completed=n_done)

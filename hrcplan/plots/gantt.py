@@ -49,8 +49,8 @@ def draw(problem: Problem, plan: Plan, form: str) -> bytes:
     left = max(width_pt(name or "no agent", 9) for name in names) + _SIDE_PT
     width = 72 * _width(bars, end, left)
     unit = (width - left - _SIDE_PT) / end
-    crowded = {bar.text for bar in bars if not bar.faint and not fits(bar, unit)}
-    columns, n_lines = _key_shape(crowded, width - left)
+    labels = {bar.text for bar in bars if not bar.faint and not fits(bar, unit)}
+    columns, n_lines = _key_shape(labels, width - left)
     height = _TOP_PT + LANE_PT * len(names) + _AXIS_PT + _KEY_PT * n_lines
     figure = Figure(figsize=(width / 72, height / 72))
     bottom = _AXIS_PT + _KEY_PT * n_lines
@@ -93,12 +93,12 @@ def _makespan(problem: Problem, plan: Plan) -> str:
 
 def _width(bars: Sequence[GanttBar], end: float, left: float) -> float:
     """Return a width in inches at which texts in two lines fit, as far as that is allowed."""
-    needed = (
+    widths = (
         (max(width_pt(bar.name), width_pt(bar.words)) + 6) * end / bar.length
         for bar in bars
         if bar.length and not bar.faint
     )
-    width = (left + _SIDE_PT + max(needed, default=0.0)) / 72
+    width = (left + _SIDE_PT + max(widths, default=0.0)) / 72
     return min(MAX_WIDTH, max(MIN_WIDTH, width))
 
 

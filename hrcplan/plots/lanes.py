@@ -73,8 +73,8 @@ def fitting(bar: GanttBar, width: float, height: float) -> tuple[str, bool] | No
     for text, is_rotated in layouts(bar):
         lines = text.split("\n")
         along, across = max(map(width_pt, lines)), len(lines) * _LINE_PT
-        needed = (across, along) if is_rotated else (along, across)
-        if needed[0] + _PAD_PT <= width and needed[1] + _PAD_PT <= height:
+        size = (across, along) if is_rotated else (along, across)
+        if size[0] + _PAD_PT <= width and size[1] + _PAD_PT <= height:
             return text, is_rotated
     return None
 

@@ -40,13 +40,13 @@ def draw(inference: Inference, form: str) -> bytes:
 
 def _lines(axes: Axes, inference: Inference) -> None:
     """Draw a line per goal: colored with a name for the likeliest, thin and gray for the others."""
-    named = _likeliest(inference.posterior)
-    others = [goal for goal in range(len(inference.goals)) if goal not in named]
+    likeliest = _likeliest(inference.posterior)
+    others = [goal for goal in range(len(inference.goals)) if goal not in likeliest]
     for i, goal in enumerate(others):
         label = f"{len(others)} other goals" if i == 0 else None
         axes.plot([row[goal] for row in inference.posterior], color=style.GRAY, linewidth=0.6,
                   zorder=1, label=label)  # fmt: skip
-    for i, (color, goal) in enumerate(zip(style.LINES, named, strict=False)):
+    for i, (color, goal) in enumerate(zip(style.LINES, likeliest, strict=False)):
         # Lines of equal goals lie on each other: upper ones are thinner, every other is dashed.
         axes.plot(
             [row[goal] for row in inference.posterior], color=color, linewidth=3.6 - 0.3 * i,
@@ -62,8 +62,8 @@ def _marks(axes: Axes, inference: Inference) -> None:
                      label="goal change, with its probability" if i == 0 else None)  # fmt: skip
         axes.annotate(f"{change.probability:.2f}", (change.at + 0.5, 1.03), ha="center",
                       va="bottom", annotation_clip=False)  # fmt: skip
-    for i, ignored in enumerate(inference.ignored):
-        axes.plot(ignored.at + 1, -0.02, marker="x", color=style.SOFT, linestyle="none",
+    for i, mark in enumerate(inference.ignored):
+        axes.plot(mark.at + 1, -0.02, marker="x", color=style.SOFT, linestyle="none",
                   clip_on=False, label="ignored observation" if i == 0 else None)  # fmt: skip
 
 

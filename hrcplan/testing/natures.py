@@ -48,12 +48,12 @@ def check_nature(
 
 def _check_content(nature: Nature, model: ExecutionModel) -> None:
     try:
-        checked = checked_nature(nature, model)
+        same_nature = checked_nature(nature, model)
     except UsageError as error:
         raise AssertionError(f"the problem cannot have this nature: {error.message}") from error
-    setup = RunSetup(model.problem, load_profile("hrcplan"), True, checked)
+    setup = RunSetup(model.problem, load_profile("hrcplan"), True, same_nature)
     try:
         line = json.loads(json.dumps(setup.to_json()))
     except (TypeError, ValueError) as error:
         raise AssertionError(f"a journal cannot hold this nature: {error}") from error
-    assert setup_from_json(line, "").nature == checked, "a journal changes this nature"
+    assert setup_from_json(line, "").nature == same_nature, "a journal changes this nature"

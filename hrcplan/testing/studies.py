@@ -51,27 +51,27 @@ def check_study(
     """
     assert isinstance(study, Study), f"this is no Study: {study!r}"
     _check_columns(study)
-    chosen = study.with_defaults(options or {})
+    choice = study.with_defaults(options or {})
     for table in study.tables:
-        _check_cells(table, chosen)
-    assert study.inputs(chosen) == study.inputs(chosen), "inputs() returns another text"
-    study.prepare(chosen, 1, lambda text: None)
-    wanted = list(episodes(study, chosen, runs, limit))
-    assert wanted, "there is no episode"
-    rows = [_row(study, chosen, episode) for episode in wanted]
-    for episode, row in reversed(list(zip(wanted, rows, strict=True))):
-        again = _row(study, chosen, episode)
+        _check_cells(table, choice)
+    assert study.inputs(choice) == study.inputs(choice), "inputs() returns another text"
+    study.prepare(choice, 1, lambda text: None)
+    all_episodes = list(episodes(study, choice, runs, limit))
+    assert all_episodes, "there is no episode"
+    rows = [_row(study, choice, episode) for episode in all_episodes]
+    for episode, row in reversed(list(zip(all_episodes, rows, strict=True))):
+        again = _row(study, choice, episode)
         for name in study.table(episode.table).columns:
             is_same = repr(again[name]) == repr(row[name])
             assert is_same, f"{_place(episode)}: {name} is {again[name]!r} after {row[name]!r}"
-    about = _about(study, chosen)
-    stored = _stored(study, about, list(zip(wanted, rows, strict=True)))
+    about = _about(study, choice)
+    rows_read = _stored_rows(study, about, list(zip(all_episodes, rows, strict=True)))
     nothing: ReportRows = {table.name: [] for table in study.tables}
-    _report(study, chosen, about, nothing)
-    before = copy.deepcopy(stored)
-    report = _report(study, chosen, about, stored)
-    assert stored == before, "a report changes the rows"
-    assert _report(study, chosen, about, stored) == report, "a report of the same rows differs"
+    _report(study, choice, about, nothing)
+    before = copy.deepcopy(rows_read)
+    report = _report(study, choice, about, rows_read)
+    assert rows_read == before, "a report changes the rows"
+    assert _report(study, choice, about, rows_read) == report, "a report of the same rows differs"
 
 
 def _check_columns(study: Study) -> None:
@@ -100,8 +100,8 @@ def _check_cells(table: StudyTable, options: StudyOptions) -> None:
 def _row(study: Study, options: StudyOptions, episode: Episode) -> StudyRow:
     table = study.table(episode.table)
     row = table.episode(options, episode.cell, Seed(_SEED, episode.run))
-    wanted = {*table.columns, *table.clocked}
-    differing = ", ".join(sorted(wanted ^ set(row)))
+    names = {*table.columns, *table.clocked}
+    differing = ", ".join(sorted(names ^ set(row)))
     assert not differing, f"{_place(episode)}: the row lacks a column, or has one more: {differing}"
     return dict(row)
 
@@ -114,7 +114,7 @@ def _about(study: Study, options: StudyOptions) -> dict[str, Any]:
     return {"study": study.name, "version": __version__, "seed": _SEED, "options": {**options}}
 
 
-def _stored(
+def _stored_rows(
     study: Study, about: dict[str, Any], pairs: Sequence[tuple[Episode, StudyRow]]
 ) -> ReportRows:
     """Return rows as they are read from a file that they were written to."""
@@ -126,15 +126,15 @@ def _stored(
                     if own:
                         store.add(table, own)
                 store.compact()
-                stored = {table.name: store.rows(table) for table in study.tables}
+                rows_read = {table.name: store.rows(table) for table in study.tables}
         except (HrcplanError, OverflowError, UnicodeError) as error:
             raise AssertionError(f"a file cannot hold the rows: {error}") from error
     for episode, row in pairs:
         table = study.table(episode.table)
         keys = {**dict(zip(table.keys, episode.cell, strict=True)), "run": episode.run}
         message = f"{_place(episode)}: a file changes the row, or puts it into another cell"
-        assert {**keys, **row} in stored[table.name], message
-    return stored
+        assert {**keys, **row} in rows_read[table.name], message
+    return rows_read
 
 
 def _report(study: Study, options: StudyOptions, about: dict[str, Any], rows: ReportRows) -> str:

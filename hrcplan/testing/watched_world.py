@@ -31,7 +31,7 @@ class DomainTruth:
         self._model = model
         self._nature = nature
         self._state: LiftedState = model.actions.initial()
-        self._begun: dict[int, tuple[ev.Dispatch, BoundAction, Number, StartEffects]] = {}
+        self._running: dict[int, tuple[ev.Dispatch, BoundAction, Number, StartEffects]] = {}
 
     def begin(self, dispatch: ev.Dispatch) -> None:
         """Let an action begin."""
@@ -39,11 +39,11 @@ class DomainTruth:
         assert step is not None, f"the problem has no action {dispatch}"
         duration = exact_number(dispatch.duration_s)
         self._state, effects = self._model.actions.begin(self._state, step, duration)  # type: ignore[arg-type]
-        self._begun[dispatch.number] = (dispatch, step, duration, effects)  # type: ignore[assignment]
+        self._running[dispatch.number] = (dispatch, step, duration, effects)  # type: ignore[assignment]
 
     def end(self, event: ev.Ended) -> None:
         """Let an action end, with the effects of its outcome."""
-        dispatch, step, duration, effects = self._begun.pop(event.number)
+        dispatch, step, duration, effects = self._running.pop(event.number)
         if event.outcome == ev.DONE:
             self._state = self._model.actions.finish(self._state, step, duration)
         else:
@@ -61,9 +61,9 @@ class DomainTruth:
         if self._nature.accidents:
             return
         actions = self._model.actions
-        expected, facts = actions.changing(self._state), event.facts
-        more = ", ".join(" ".join(fact) for fact in sorted(expected ^ facts))
-        assert facts == expected, f"observed facts differ from what the domain says: {more}"
+        own_facts, facts = actions.changing(self._state), event.facts
+        more = ", ".join(" ".join(fact) for fact in sorted(own_facts ^ facts))
+        assert facts == own_facts, f"observed facts differ from what the domain says: {more}"
         assert event.absent == actions.absent(self._state), "facts that nothing changes are absent"
         numbers = {} if event.numbers is None else event.numbers
         assert dict(numbers) == dict(self._state.values), "observed numbers differ from the domain"
@@ -93,13 +93,13 @@ class WatchedWorld:
         self._world = world
         self._model = model
         self._truth = truth
-        self._dispatched: set[int] = set()
-        self._cancelled: set[int] = set()
+        self._dispatches: set[int] = set()
+        self._cancellations: set[int] = set()
         self._wakes_s: list[float] = []
 
     def begin(self) -> tuple[Event, ...]:
         """Return what is seen at time 0."""
-        events = self._checked(self._world.begin())
+        events = self._check(self._world.begin())
         assert any(isinstance(e, ev.Observed) for e in events), "begin() observes nothing"
         assert all(e.t < ev.INSTANT_S for e in events), "begin() does not tell of 0 s"
         return events
@@ -109,18 +109,18 @@ class WatchedWorld:
         self.log.append(command)
         if isinstance(command, ev.Dispatch):
             self.running.add(command.number)
-            self._dispatched.add(command.number)
+            self._dispatches.add(command.number)
             if self._truth is not None:
                 self._truth.begin(command)
         elif isinstance(command, ev.Cancel):
-            self._cancelled.add(command.number)
+            self._cancellations.add(command.number)
         elif isinstance(command, ev.Wake):
             self._wakes_s.append(command.at_s)
         self._world.do(command)
 
     def next(self) -> tuple[Event, ...]:
         """Return the events of the next instant."""
-        events = self._checked(self._world.next())
+        events = self._check(self._world.next())
         if events:
             due_s = [wake for wake in self._wakes_s if wake < self.t + ev.INSTANT_S]
             for wake_s in due_s:
@@ -133,7 +133,7 @@ class WatchedWorld:
         assert not self.running, f"action {min(self.running)} has never ended"
         assert not self._wakes_s, f"no instant at {min(self._wakes_s):g} s: see Wake"
 
-    def _checked(self, events: Sequence[Event]) -> tuple[Event, ...]:
+    def _check(self, events: Sequence[Event]) -> tuple[Event, ...]:
         assert isinstance(events, tuple), f"events are a tuple, not {events!r}"
         for event in events:
             assert isinstance(event, REPORTS), f"a world does not report {event!r}"
@@ -172,11 +172,11 @@ class WatchedWorld:
 
     def _end(self, event: ev.Ended) -> None:
         number, outcome = event.number, event.outcome
-        assert number in self._dispatched, f"action {number} was never dispatched"
+        assert number in self._dispatches, f"action {number} was never dispatched"
         assert number in self.running, f"action {number} ends twice"
         assert outcome in ev.OUTCOMES, f"an outcome is one of {', '.join(ev.OUTCOMES)}: {outcome!r}"
         if outcome == ev.CANCELLED:
-            assert number in self._cancelled, f"action {number} was not to be cancelled"
+            assert number in self._cancellations, f"action {number} was not to be cancelled"
         self.running.remove(number)
         if self._truth is not None:
             self._truth.end(event)

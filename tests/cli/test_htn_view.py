@@ -106,7 +106,7 @@ def test_the_view_of_what_is_no_partial_order(capsys, tmp_path, monkeypatch):
 def test_the_words_of_the_view():
     from hrcplan.cli import htn as view
 
-    assert view._allowed(3, 3, True) == "all of them"
-    assert view._allowed(1, 4, True) == "1 of them (25.00%)"
-    assert view._allowed(2, 10**9, True) == "2 of them (2e-09)"
+    assert view._counts_text(3, 3, True) == "all of them"
+    assert view._counts_text(1, 4, True) == "1 of them (25.00%)"
+    assert view._counts_text(2, 10**9, True) == "2 of them (2e-09)"
     assert view._constraints(1) == "+ 1 order constraint that plans do not have"

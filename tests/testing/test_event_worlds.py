@@ -148,14 +148,14 @@ class Stubborn(SimulatedWorld):
     """It forgets what it was told to break off."""
 
     def _cancel(self, number: int) -> None:
-        self._acted.pop(number, None)
+        self._outcomes.pop(number, None)
 
 
 class Idle(SimulatedWorld):
     """Its actions end, but nothing comes of them."""
 
     def _end(self, t: float, number: int) -> list[Event]:
-        del self._acted[number]
+        del self._outcomes[number]
         return [ev.Ended(t, number, ev.DONE)]
 
 
