@@ -21,7 +21,7 @@ from hrcplan.cli.main import main as hrcplan
 HEAD = """# Commands
 
 Made from the commands themselves: `hrcplan COMMAND --help` prints the same. What every command has
-in common (exit codes, `--json`, names and paths) is in [JSON and files](json.md).
+in common (exit codes, `--json`, names and paths) is in [JSON](json.md).
 """
 
 
