@@ -36,6 +36,8 @@ class Journal:
         head = self.lines[0] if self.lines else {}
         if head.get("journal") != FORMAT:
             message = f"this is no journal of format {FORMAT}"
+            if isinstance(head.get("journal"), int):
+                message = f"a journal of format {head['journal']}; this hrcplan reads {FORMAT}"
             raise InputError(message, code="bad-journal", path=str(self.path), line=1)
         return setup_from_json(head, str(self.path))
 
