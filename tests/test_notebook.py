@@ -76,11 +76,29 @@ def test_plans_and_results_are_short_tables_and_pictures(problem: hrcplan.Proble
     assert repr(result.plan.actions[0]) == "<PlannedAction (move robot wp0 wp3) at 0 s>"
     assert repr(result).startswith("<Result: solved-optimally by exact: <Plan: 8 actions,")
     assert len(repr(result)) <= 200
-    assert list(result.rows()[0].values()) == [0.0, 50.0, "move", "robot wp0 wp3", 3.0]
+    assert result.rows()[0] == {"start_s": 0.0, "duration_s": 50.0, "agent": "robot",
+                                "action": "move", "args": "robot wp0 wp3", "cost": 3.0}  # fmt: skip
     check_table(result.rows())
     check_table(result.plan.rows())
     assert "grasp blue wp4, 50.001 to 100.001 s" in text_of(result.plan._repr_html_())
     assert "solved-optimally" in text_of(f"<div>{result._repr_html_()}</div>")
+
+
+def test_the_agent_of_an_action_need_not_be_its_first_argument() -> None:
+    """Every planner's result says who acts; an action without an agent has none."""
+    domain = """(define (domain lift) (:requirements :typing) (:types agent box - object)
+      (:predicates (on ?b - box) (lit))
+      (:action lift :parameters (?b - box ?a - agent) :precondition (lit) :effect (on ?b))
+      (:action light :parameters () :precondition (and) :effect (lit)))"""
+    problem = """(define (problem one) (:domain lift) (:objects ann - agent red - box)
+      (:init) (:goal (on red)))"""
+    for planner in ("auto", "fast-downward"):
+        result = hrcplan.plan(domain, problem, planner)
+        assert [(row["action"], row["agent"]) for row in result.rows()] == [
+            ("light", None), ("lift", "ann"),
+        ]  # fmt: skip
+        assert "ann" in text_of(f"<div>{result._repr_html_()}</div>")
+        check_table(result.rows())
 
 
 def test_a_result_without_a_plan_is_shown_too(problem: hrcplan.Problem) -> None:

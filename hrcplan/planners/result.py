@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from html import escape
 
@@ -54,6 +54,7 @@ class Result:
         bound: What no plan can be better than, in units of the objective; None if not known.
         claim: What the planner itself said.
         mismatch: How the planner's figure differs from the plan's; None if it does not.
+        problem: What was solved; it says which agent an action belongs to.
     """
 
     status: Status
@@ -69,6 +70,7 @@ class Result:
     bound: Number | None = None
     claim: Status | None = None
     mismatch: str | None = None
+    problem: Problem | None = field(default=None, repr=False, compare=False)
 
     @property
     def gap(self) -> float | None:
@@ -88,15 +90,20 @@ class Result:
         return f"<Result: {self.status.value} by {cut(self.planner, 40)}: {cut(what, 120)}>"
 
     def rows(self) -> list[dict[str, str | float | None]]:
-        """Return the rows of the plan with the ``cost`` of each action; none without a plan."""
+        """Return one row per action of the plan, for ``pandas.DataFrame``; none without a plan.
+
+        Keys: ``start_s``, ``duration_s`` (both None in a sequential plan), ``agent`` (None for an
+        action without one), ``action``, ``args`` (separated by spaces), ``cost``.
+        """
         if self.plan is None or self.report is None:
             return []
         costs = self.report.step_costs
-        return [{**row, "cost": float(c)} for row, c in zip(self.plan.rows(), costs, strict=True)]
+        rows = self.plan.rows(self.problem)
+        return [{**row, "cost": float(c)} for row, c in zip(rows, costs, strict=True)]
 
     def _repr_html_(self) -> str:
         """Return the plan as a picture with the result below it."""
-        picture = "" if self.plan is None else self.plan._repr_html_()
+        picture = "" if self.plan is None else self.plan.picture(self.problem)
         return f"{picture}<p>{escape(repr(self))}</p>"
 
 

@@ -63,7 +63,7 @@ def solve(
         one = registry.make(planner) if isinstance(planner, str) else planner
         job = Job(one, any_plan, "it was asked for")
         answer = _confirm(_ask_one(request, job, planner is not one, lanes, on_better), request)
-    return replace(answer, wall_s=time.monotonic() - start_s)
+    return replace(answer, wall_s=time.monotonic() - start_s, problem=problem)
 
 
 def _run(request: Request, waiting: Sequence[Job], lanes: bool, on_better: OnBetter) -> Portfolio:

@@ -66,34 +66,43 @@ class Plan:
         time = "" if makespan is None else f", makespan {float(makespan):g} s"
         return f"<Plan: {plural(len(self.actions), 'action')}{time}>"
 
-    def rows(self) -> list[dict[str, str | float | None]]:
+    def rows(self, problem: Problem | None = None) -> list[dict[str, str | float | None]]:
         """Return one row per action, for ``pandas.DataFrame``.
 
-        Keys: ``start_s``, ``duration_s`` (both None in a sequential plan), ``action``, ``args``
-        (separated by spaces).
+        Keys: ``start_s``, ``duration_s`` (both None in a sequential plan), with the problem also
+        ``agent`` (None for an action without one), then ``action``, ``args`` (separated by spaces).
+
+        >>> Plan((PlannedAction("move", ("human", "wp1")),)).rows()
+        [{'start_s': None, 'duration_s': None, 'action': 'move', 'args': 'human wp1'}]
         """
         return [
             {
                 "start_s": None if a.start_s is None else float(a.start_s),
                 "duration_s": None if a.duration_s is None else float(a.duration_s),
+                **({} if problem is None else {"agent": lane(a.args, problem)}),
                 "action": a.name,
                 "args": " ".join(a.args),
             }
             for a in self.actions
         ]
 
-    def _repr_html_(self) -> str:
-        """Return the plan as a picture; the lane of an action is its first argument."""
-        bars = [
-            LaneBar(
-                a.args[0] if a.args else "",
-                " ".join([a.name, *a.args[1:]]),
-                float(i if a.start_s is None else a.start_s),
-                float(i + 1 if a.start_s is None else a.start_s + (a.duration_s or 1)),
-            )
-            for i, a in enumerate(self.actions)
-        ]
+    def picture(self, problem: Problem | None = None) -> str:
+        """Return the plan as an SVG picture with a lane per agent.
+
+        Without the problem, the agent of an action is taken to be its first argument.
+        """
+        bars = []
+        for i, a in enumerate(self.actions):
+            first = a.args[0] if a.args else ""
+            agent = first if problem is None else lane(a.args, problem) or ""
+            words = [a.name, *(arg for arg in a.args if arg != agent)]
+            start, length = (i, 1) if a.start_s is None else (a.start_s, a.duration_s or 1)
+            bars.append(LaneBar(agent, " ".join(words), float(start), float(start + length)))
         return gantt(bars, "s" if self.is_schedule else "steps")
+
+    def _repr_html_(self) -> str:
+        """Return the plan as a picture."""
+        return self.picture()
 
 
 def lane(args: Iterable[str], problem: Problem) -> str | None:
