@@ -62,7 +62,7 @@ class ImaginedSteps:
         if self.tracker.moves is not None:
             next_progress = self.tracker.after_turn(self.tracker.moves, progress, step)
             return replace(next_progress, off=self._off(progress, step, world))
-        goals = graph.concerned(step, before ^ world)
+        goals = graph.goals_of(step, before ^ world)
         hit, places = graph.edges(progress.nodes.take(goals), step)
         nodes = progress.nodes.copy()
         nodes[goals[hit]] = graph.targets.take(places[hit])

@@ -111,7 +111,7 @@ class StepValues:
     def _goals_of(self, progress: Progress, step: int) -> Ids:
         """Return the goals whose progress a step may change."""
         world = self.bank.table.successor(progress.world, step)
-        return self.tracker.combined_graph.concerned(step, progress.world ^ (world or 0))
+        return self.tracker.combined_graph.goals_of(step, progress.world ^ (world or 0))
 
     def _change(self, progress: Progress, goal: int, step: int) -> float:
         """Return by how many steps a step that is not next in any plan brings a goal nearer."""

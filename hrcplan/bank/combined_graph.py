@@ -78,13 +78,13 @@ class CombinedGraph:
         places = self._moves.searchsorted(keys)
         return self._moves.take(places) == keys, places
 
-    def labeled(self, nodes: Ids, label: int) -> tuple[Bools, Ids]:
+    def edges_of_label(self, nodes: Ids, label: int) -> tuple[Bools, Ids]:
         """Return which nodes a label can follow, and the places of its shares."""
         keys = nodes * self.n_labels + label
         places = self._pairs.searchsorted(keys)
         return self._pairs[places] == keys, places
 
-    def concerned(self, step: int, pattern: int) -> Ids:
+    def goals_of(self, step: int, pattern: int) -> Ids:
         """Return the goals whose nodes a step may move, or that it may say something about.
 
         Args:

@@ -99,14 +99,14 @@ class ProgressTracker:
             return None
         if self.moves is not None and progress.moment is not None:
             return self._follow_turn(self.moves, progress, progress.moment, step)
-        goals = graph.concerned(step, before ^ world)
+        goals = graph.goals_of(step, before ^ world)
         old = progress.nodes.take(goals)
         hit, places = graph.edges(old, step)
         movers = goals[hit], places[hit]
         if graph.one_label_each:
             says = movers
         else:
-            same, pairs = graph.labeled(old, graph.label[step])
+            same, pairs = graph.edges_of_label(old, graph.label[step])
             says = goals[same], pairs[same]
         n_next, shares = graph.n_next.take(progress.nodes), graph.log_shares.take(says[1])
         evidence = Evidence(says[0], shares, n_next, progress.doable.bit_count())

@@ -78,7 +78,7 @@ def array(body: memoryview, entry: Mapping[str, Any], dtype: str) -> NDArray[Any
     return np.frombuffer(body, dtype=dtype, count=size, offset=at).reshape(shape)
 
 
-def mapped(path: Path) -> memoryview:
+def map_file(path: Path) -> memoryview:
     """Return the bytes of a file, in memory that all processes share.
 
     The file may be removed or replaced by rename in the meantime, but not cut.

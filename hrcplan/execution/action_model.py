@@ -54,8 +54,8 @@ class BoundAction:
 class StartEffects:
     """What the start of an action changed; `ActionModel.revert` takes it back if it fails."""
 
-    added: frozenset[Fact]
-    removed: frozenset[Fact]
+    adds: frozenset[Fact]
+    deletes: frozenset[Fact]
     numbers: Mapping[FluentKey, Number]
 
 
@@ -169,7 +169,7 @@ class ActionModel:
 
     def revert(self, state: LiftedState, effects: StartEffects) -> LiftedState:
         """Return the state as if a step that failed had never begun."""
-        facts = frozenset(state.facts) - effects.added | effects.removed
+        facts = frozenset(state.facts) - effects.adds | effects.deletes
         return LiftedState(facts, {**state.values, **effects.numbers})
 
     def _state_after(

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as st_numpy
 
-from hrcplan.core.array_file import Arrays, Format, array, mapped
+from hrcplan.core.array_file import Arrays, Format, array, map_file
 from hrcplan.errors import InputError
 
 TOYS = Format(b"TOYSTOYS", 3, "toy", "box of toys", "buy one")
@@ -58,10 +58,10 @@ def test_files_are_mapped_and_arrays_of_them_are_read_only(tmp_path: Path) -> No
     arrays = Arrays()
     entry = arrays.add(np.arange(5), "<i4")
     (tmp_path / "file").write_bytes(TOYS.encode({}, arrays))
-    found = array(TOYS.decode(mapped(tmp_path / "file"), "file")[1], entry, "<i4")
+    found = array(TOYS.decode(map_file(tmp_path / "file"), "file")[1], entry, "<i4")
     assert found.tolist() == [0, 1, 2, 3, 4]
     assert not found.flags.writeable
     (tmp_path / "empty").touch()
-    assert mapped(tmp_path / "empty") == b""
+    assert map_file(tmp_path / "empty") == b""
     with pytest.raises(FileNotFoundError):
-        mapped(tmp_path / "missing")
+        map_file(tmp_path / "missing")

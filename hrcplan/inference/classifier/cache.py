@@ -22,7 +22,7 @@ import numpy as np
 
 from hrcplan.bank import Bank
 from hrcplan.bank.store import digest
-from hrcplan.core.array_file import HEADER_FAULTS, Arrays, Format, array, mapped
+from hrcplan.core.array_file import HEADER_FAULTS, Arrays, Format, array, map_file
 from hrcplan.core.files import write_atomically
 from hrcplan.errors import InputError, UsageError
 from hrcplan.inference.classifier.flat_forest import FlatForest
@@ -99,7 +99,7 @@ def load(path: Path, key: Key) -> TrainedClassifier:
         OSError: if there is no such file, or it may not be read.
         InputError: if it is damaged, or no forest, or that of another key.
     """
-    header, body = _FORMAT.decode(mapped(path), str(path))
+    header, body = _FORMAT.decode(map_file(path), str(path))
     try:
         if header["key"] != key:
             raise InputError(f"'{path}' is the forest of something else", code="not-a-forest")
