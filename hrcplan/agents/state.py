@@ -15,8 +15,9 @@ from functools import cached_property
 from hrcplan.core.numbers import Number, exact, number_text
 from hrcplan.errors import UsageError
 from hrcplan.pddl.conventions import agent_state_functions, robots
-from hrcplan.pddl.model import TOTAL_COST, Action, FluentKey, Function, Problem, functions_in
+from hrcplan.pddl.model import TOTAL_COST, Action, FluentKey, Function, Problem
 from hrcplan.pddl.semantics import ground_key
+from hrcplan.pddl.walks import functions_in
 
 LEAST, MOST = 0, 10
 _PLACES = 6  # decimals of a sensed value that are kept, so that journals hold it exactly

@@ -18,7 +18,7 @@ from hrcplan.assistance.explanation import (
     explanation_of,
 )
 from hrcplan.assistance.step_values import StepValues
-from hrcplan.bank import Bank, StepTable
+from hrcplan.bank import Bank
 from hrcplan.bank.progress import Progress, ProgressTracker
 from hrcplan.core.arrays import Floats
 from hrcplan.core.deprecation import Renamed, warn_old_name
@@ -27,6 +27,7 @@ from hrcplan.inference.belief import (
     Belief,
     BeliefState,
     HasProgress,
+    PlanFollower,
     S_contra,
     TracksProgress,
     after_wait,
@@ -102,7 +103,7 @@ class AssistantState(Generic[S]):
     track = Renamed("progress")
 
 
-class BankAssistant(ABC, Generic[S]):
+class BankAssistant(PlanFollower, ABC, Generic[S]):
     """What the built-in assistants share: the bank, the goals' progress, and the steps' values."""
 
     def __init__(self, bank: Bank, tracker: ProgressTracker | None = None) -> None:
@@ -111,16 +112,6 @@ class BankAssistant(ABC, Generic[S]):
         self.step_values = StepValues(self.tracker)
 
     outlook = Renamed("step_values")
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """The goals' names, in order."""
-        return self.bank.names
-
-    @property
-    def steps(self) -> StepTable:
-        """The steps that can be observed."""
-        return self.bank.table
 
     @abstractmethod
     def start(self) -> S:

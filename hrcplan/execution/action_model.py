@@ -21,7 +21,6 @@ from hrcplan.pddl.model import (
     FluentKey,
     Formula,
     Problem,
-    formula_functions,
 )
 from hrcplan.pddl.semantics import (
     Binding,
@@ -33,6 +32,7 @@ from hrcplan.pddl.semantics import (
     holds,
     unmet,
 )
+from hrcplan.pddl.walks import formula_functions
 from hrcplan.plans import PlannedAction, lane, occupied
 
 UNIT_S = 1  # how long a step of a domain without durations lasts

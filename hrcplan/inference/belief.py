@@ -159,6 +159,22 @@ class TracksProgress(Protocol):
         ...
 
 
+class PlanFollower:
+    """What follows the plan graphs of a bank: its goals and steps are those of the bank."""
+
+    tracker: ProgressTracker
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The goals' names, in order."""
+        return self.tracker.bank.names
+
+    @property
+    def steps(self) -> StepTable:
+        """The steps that can be observed."""
+        return self.tracker.bank.table
+
+
 @runtime_checkable
 class HasProgress(Protocol):
     """A state that knows where each goal is in its plan graph."""

@@ -7,15 +7,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from hrcplan.bank import Bank, StepTable
+from hrcplan.bank import Bank
 from hrcplan.bank.progress import Evidence, Progress, ProgressTracker
 from hrcplan.core.arrays import Floats
+from hrcplan.inference.belief import IMPOSSIBLE, UNEXPLAINED, PlanFollower
 from hrcplan.inference.probabilities import normalized
 
 MISTAKE_RATE = 0.01
 IMPROBABLE = -50.0  # the least logarithm of the share of a mistake
-UNEXPLAINED = "no goal explains this step"
-IMPOSSIBLE = "no agent can do this step here"
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,7 +31,7 @@ class ExactState:
         return self.progress.world
 
 
-class ExactBelief:
+class ExactBelief(PlanFollower):
     """Bayes over plans that are all equally likely, with a rate of mistakes.
 
     A step that a share s of a goal's remaining plans begins with has likelihood (1 - p) s. A
@@ -55,16 +54,6 @@ class ExactBelief:
         n_most = self.tracker.combined_graph.n_labels
         # By the number of steps that would be mistakes; the observed one is at least one of them.
         self._mistakes = self._wrong - np.log(np.maximum(1, np.arange(n_most + 1)))
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """The goals' names, in order."""
-        return self.tracker.bank.names
-
-    @property
-    def steps(self) -> StepTable:
-        """The steps that can be observed."""
-        return self.tracker.bank.table
 
     def start(self) -> ExactState:
         """Return the uniform belief in the initial state."""

@@ -7,10 +7,10 @@ from typing import Protocol
 
 import numpy as np
 
-from hrcplan.bank import Bank, StepTable
+from hrcplan.bank import Bank
 from hrcplan.bank.progress import Evidence, Progress, ProgressTracker
 from hrcplan.core.arrays import Floats
-from hrcplan.inference.belief import IMPOSSIBLE
+from hrcplan.inference.belief import IMPOSSIBLE, PlanFollower
 from hrcplan.inference.probabilities import weights_to_posterior
 
 STAY = 0.9
@@ -89,7 +89,7 @@ class RecursiveState:
         return self.progress.world
 
 
-class RecursiveBelief:
+class RecursiveBelief(PlanFollower):
     """Bayes' rule after each human step, with a goal that stays with probability ``stay``.
 
     Args:
@@ -104,16 +104,6 @@ class RecursiveBelief:
         self.tracker = ProgressTracker(bank)
         self.stay = stay if len(bank.names) > 1 else 1.0
         self.likelihood = likelihood or Needed()
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """The goals' names, in order."""
-        return self.tracker.bank.names
-
-    @property
-    def steps(self) -> StepTable:
-        """The steps that can be observed."""
-        return self.tracker.bank.table
 
     def start(self) -> RecursiveState:
         """Return the uniform belief in the initial state."""

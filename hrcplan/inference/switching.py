@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from hrcplan.bank import Bank, StepTable
+from hrcplan.bank import Bank
 from hrcplan.bank.progress import Evidence, Progress, ProgressTracker
 from hrcplan.core.arrays import Floats
-from hrcplan.inference.belief import IMPOSSIBLE, GoalChange
+from hrcplan.inference.belief import IMPOSSIBLE, GoalChange, PlanFollower
 from hrcplan.inference.changes import (
     HAZARD,
     NEVER,
@@ -49,7 +49,7 @@ class SwitchingState:
         return self.filter_state.n_declared
 
 
-class SwitchingBelief:
+class SwitchingBelief(PlanFollower):
     """The posterior of the present goal.
 
     A step of the goal has likelihood (1 - p) over the number of steps that could come next in its
@@ -72,16 +72,6 @@ class SwitchingBelief:
         self.tracker = ProgressTracker(bank)
         self.filter = ChangeFilter(len(bank.names), len(mistake_rates), hazard, never, settles)
         self.rates = np.array(mistake_rates)[:, None]
-
-    @property
-    def names(self) -> tuple[str, ...]:
-        """The goals' names, in order."""
-        return self.tracker.bank.names
-
-    @property
-    def steps(self) -> StepTable:
-        """The steps that can be observed."""
-        return self.tracker.bank.table
 
     def start(self) -> SwitchingState:
         """Return the uniform belief in the initial state."""

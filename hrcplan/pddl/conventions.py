@@ -9,18 +9,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from hrcplan.core.text import quote
-from hrcplan.pddl.model import (
-    TOTAL_COST,
-    Action,
-    Domain,
-    Effect,
-    Function,
-    Param,
-    Problem,
-    functions_in,
-)
+from hrcplan.pddl.model import TOTAL_COST, Action, Domain, Effect, Function, Param, Problem
 from hrcplan.pddl.reader import GroupNode, ParseNode
 from hrcplan.pddl.source import SourceText
+from hrcplan.pddl.walks import functions_in
 
 AGENT = "agent"
 ROBOT = "robot"

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from itertools import count, product
 
 from hrcplan.pddl.axioms import levels, uses
-from hrcplan.pddl.joins import FactIndex, Join, JoinBinding, conjuncts
+from hrcplan.pddl.joins import FactIndex, Join, JoinBinding
 from hrcplan.pddl.model import (
     Action,
     And,
@@ -21,13 +21,13 @@ from hrcplan.pddl.model import (
     Fact,
     Formula,
     Function,
-    Not,
     Or,
     Param,
     Problem,
     Quantified,
 )
 from hrcplan.pddl.semantics import LiftedState, ground_key, holds
+from hrcplan.pddl.walks import conjuncts, with_parts
 
 MAX_RULES = 256  # that one axiom is split into; beyond that its disjunctions stay as they are
 
@@ -192,16 +192,12 @@ def substitute(formula: Formula, terms: Mapping[str, str]) -> Formula:
             return Equal(term(left), term(right))
         case Compare(op, left_side, right_side):
             return Compare(op, _expression(left_side, terms), _expression(right_side, terms))
-        case Not(body):
-            return Not(substitute(body, terms))
-        case And(parts):
-            return And(tuple(substitute(part, terms) for part in parts))
-        case Or(parts):
-            return Or(tuple(substitute(part, terms) for part in parts))
         case Quantified(universal, params, body):
             bound = {p.name for p in params}
             free = {old: new for old, new in terms.items() if old not in bound}
             return Quantified(universal, params, substitute(body, free))
+        case _:
+            return with_parts(formula, lambda part: substitute(part, terms))
 
 
 def _expression(expression: Expr, terms: Mapping[str, str]) -> Expr:

@@ -9,7 +9,6 @@ from functools import reduce
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.model import (
     Action,
-    And,
     Arithmetic,
     Compare,
     Constant,
@@ -17,13 +16,9 @@ from hrcplan.pddl.model import (
     Effect,
     Expr,
     Formula,
-    Not,
-    Or,
     Problem,
-    Quantified,
-    formula_functions,
-    functions_in,
 )
+from hrcplan.pddl.walks import formula_functions, functions_in, with_parts
 
 _NUMERIC = frozenset([":fluents", ":numeric-fluents", ":action-costs"])
 
@@ -98,16 +93,8 @@ def _binary_formula(formula: Formula) -> Formula:
     match formula:
         case Compare(op, left, right):
             return Compare(op, _binary(left), _binary(right))
-        case Not(body):
-            return Not(_binary_formula(body))
-        case And(parts):
-            return And(tuple(map(_binary_formula, parts)))
-        case Or(parts):
-            return Or(tuple(map(_binary_formula, parts)))
-        case Quantified(universal, params, body):
-            return Quantified(universal, params, _binary_formula(body))
         case _:
-            return formula
+            return with_parts(formula, _binary_formula)
 
 
 def _binary(expression: Expr) -> Expr:

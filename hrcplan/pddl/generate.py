@@ -7,10 +7,11 @@ from dataclasses import replace
 
 from hrcplan.errors import PddlError
 from hrcplan.pddl.formulas import read_formula
-from hrcplan.pddl.model import And, Atom, Equal, Fact, Formula, Not, Or, Problem, Quantified
+from hrcplan.pddl.model import Atom, Equal, Fact, Formula, Problem
 from hrcplan.pddl.reader import read_nodes
 from hrcplan.pddl.scope import Scope
 from hrcplan.pddl.source import SourceText, in_order
+from hrcplan.pddl.walks import parts_of, with_parts
 
 
 def with_goal(problem: Problem, goal: str, name: str) -> Problem:
@@ -58,26 +59,12 @@ def rename(formula: Formula, names: Mapping[str, str]) -> Formula:
             return Atom(name, tuple(names.get(arg, arg) for arg in args))
         case Equal(left, right):
             return Equal(names.get(left, left), names.get(right, right))
-        case Not(body):
-            return Not(rename(body, names))
-        case And(parts):
-            return And(tuple(rename(part, names) for part in parts))
-        case Or(parts):
-            return Or(tuple(rename(part, names) for part in parts))
-        case Quantified(universal, params, body):
-            return Quantified(universal, params, rename(body, names))
         case _:
-            return formula
+            return with_parts(formula, lambda part: rename(part, names))
 
 
 def objects_in(formula: Formula) -> tuple[str, ...]:
     """Return the terms of a formula's atoms, each once, in order."""
-    match formula:
-        case Atom(_, args):
-            return tuple(dict.fromkeys(args))
-        case Not(body) | Quantified(_, _, body):
-            return objects_in(body)
-        case And(parts) | Or(parts):
-            return tuple(dict.fromkeys(term for part in parts for term in objects_in(part)))
-        case _:
-            return ()
+    if isinstance(formula, Atom):
+        return tuple(dict.fromkeys(formula.args))
+    return tuple(dict.fromkeys(term for part in parts_of(formula) for term in objects_in(part)))

@@ -40,8 +40,8 @@ from hrcplan.pddl.model import (
     Quantified,
     Signature,
     TimedChange,
-    functions_in,
 )
+from hrcplan.pddl.walks import functions_in, with_parts
 
 MAX_VALUES = 20_000
 """Missing values that are written as 0; of a function with more they stay missing."""
@@ -146,14 +146,8 @@ class _Guards:
                 return Or((*map(_negation, needs), formula))
             case Not(body):
                 return Not(self._formula(body, not positive))
-            case And(parts):
-                return And(tuple(self._formula(part, positive) for part in parts))
-            case Or(parts):
-                return Or(tuple(self._formula(part, positive) for part in parts))
-            case Quantified(universal, params, body):
-                return Quantified(universal, params, self._formula(body, positive))
             case _:
-                return formula
+                return with_parts(formula, lambda part: self._formula(part, positive))
 
     def _needs(self, *expressions: Expr | None) -> list[Formula]:
         """Return what must hold before expressions can be evaluated."""

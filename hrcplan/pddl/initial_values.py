@@ -16,7 +16,7 @@ from itertools import islice, product
 from math import prod
 
 from hrcplan.core.text import quote
-from hrcplan.pddl.joins import FactIndex, Join, conjuncts, needed_atoms
+from hrcplan.pddl.joins import FactIndex, Join, needed_atoms
 from hrcplan.pddl.model import (
     CONTINUOUS,
     DURATION,
@@ -40,8 +40,6 @@ from hrcplan.pddl.model import (
     Param,
     Problem,
     Quantified,
-    formula_functions,
-    functions_in,
 )
 from hrcplan.pddl.semantics import (
     Binding,
@@ -53,6 +51,7 @@ from hrcplan.pddl.semantics import (
     instances,
 )
 from hrcplan.pddl.source import SourceText
+from hrcplan.pddl.walks import conjuncts, formula_functions, functions_in
 
 MAX_BINDINGS = 20_000  # looked at per action; beyond that a gap is found when the task is grounded
 MAX_REPORTS = 20

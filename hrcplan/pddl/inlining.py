@@ -14,7 +14,6 @@ from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.axioms import levels, uses
 from hrcplan.pddl.constructs import AXIOMS, constructs
 from hrcplan.pddl.derivation import Derivation, substitute
-from hrcplan.pddl.joins import lifted_names
 from hrcplan.pddl.model import (
     Action,
     And,
@@ -22,12 +21,12 @@ from hrcplan.pddl.model import (
     Axiom,
     Equal,
     Formula,
-    Not,
     Or,
     Problem,
     Quantified,
 )
 from hrcplan.pddl.semantics import LiftedState
+from hrcplan.pddl.walks import lifted_names, with_parts
 
 
 def plain(problem: Problem) -> Problem:
@@ -127,16 +126,8 @@ class _Inliner:
             case Atom(name) if name in self.axioms:
                 bodies = [self._body(axiom, formula.args) for axiom in self.axioms[name]]
                 return bodies[0] if len(bodies) == 1 else Or(tuple(bodies))
-            case Not(body):
-                return Not(self.formula(body))
-            case And(parts):
-                return And(tuple(map(self.formula, parts)))
-            case Or(parts):
-                return Or(tuple(map(self.formula, parts)))
-            case Quantified(universal, params, body):
-                return Quantified(universal, params, self.formula(body))
             case _:
-                return formula
+                return with_parts(formula, self.formula)
 
     def _body(self, axiom: Axiom, args: Sequence[str]) -> Formula:
         """Return what an axiom says of some terms; its variables get names of their own."""
@@ -156,14 +147,8 @@ class _Inliner:
                 fresh = tuple(replace(p, name=self._name(p.name)) for p in params)
                 names = {old.name: new.name for old, new in zip(params, fresh, strict=True)}
                 return Quantified(universal, fresh, substitute(self._rename(body), names))
-            case Not(body):
-                return Not(self._rename(body))
-            case And(parts):
-                return And(tuple(map(self._rename, parts)))
-            case Or(parts):
-                return Or(tuple(map(self._rename, parts)))
             case _:
-                return formula
+                return with_parts(formula, self._rename)
 
     def _name(self, name: str) -> str:
         return f"{name}-{next(self.numbers)}_"

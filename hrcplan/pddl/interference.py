@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from hrcplan.pddl.model import Action, Fact, FluentKey, Formula, Problem, functions_in
+from hrcplan.pddl.model import Action, Fact, FluentKey, Formula, Problem
 from hrcplan.pddl.semantics import Binding, ground_key, instances, mentions
+from hrcplan.pddl.walks import functions_in
 
 _ROLE = {"add": "add", "delete": "delete", "increase": "sum", "decrease": "sum"}
 

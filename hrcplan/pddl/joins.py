@@ -7,17 +7,12 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from hrcplan.pddl.model import (
     Action,
-    And,
     Atom,
     Domain,
     Fact,
-    Formula,
-    Not,
-    Or,
     Problem,
-    Quantified,
-    formula_functions,
 )
+from hrcplan.pddl.walks import conjuncts, lifted_names
 
 JoinBinding = dict[str, str]
 
@@ -116,29 +111,6 @@ class Join:
             elif bound_value != value:
                 return None
         return wider
-
-
-def conjuncts(formula: Formula) -> Iterator[Formula]:
-    """Yield the parts of nested conjunctions."""
-    if isinstance(formula, And):
-        for part in formula.parts:
-            yield from conjuncts(part)
-    else:
-        yield formula
-
-
-def lifted_names(formula: Formula) -> Iterator[str]:
-    """Yield the names of the predicates and functions that a formula looks at."""
-    match formula:
-        case Atom(name):
-            yield name
-        case Not(body) | Quantified(_, _, body):
-            yield from lifted_names(body)
-        case And(parts) | Or(parts):
-            for part in parts:
-                yield from lifted_names(part)
-        case _:
-            yield from (function.name for function in formula_functions(formula))
 
 
 def needed_atoms(action: Action, domain: Domain) -> tuple[Atom, ...]:

@@ -456,27 +456,3 @@ class Problem:
 
 def _group(*parts: str | Formula | Expr | Param) -> str:
     return f"({' '.join(map(str, parts))})"
-
-
-def functions_in(expression: Expr | None) -> Iterator[Function]:
-    """Yield every function of an expression, from left to right."""
-    if isinstance(expression, Function):
-        yield expression
-    elif isinstance(expression, Arithmetic):
-        for part in expression.parts:
-            yield from functions_in(part)
-
-
-def formula_functions(formula: Formula) -> Iterator[Function]:
-    """Yield every function that a condition compares."""
-    match formula:
-        case Compare(_, left, right):
-            yield from functions_in(left)
-            yield from functions_in(right)
-        case Not(body) | Quantified(_, _, body):
-            yield from formula_functions(body)
-        case And(parts) | Or(parts):
-            for part in parts:
-                yield from formula_functions(part)
-        case _:
-            return

@@ -32,8 +32,8 @@ from hrcplan.pddl.model import (
     Param,
     Problem,
     Quantified,
-    functions_in,
 )
+from hrcplan.pddl.walks import functions_in, parts_of
 
 MAX_INSTANCES = 1_000_000
 MAX_BITS = 13_000  # of a number, about 3,900 digits: beyond that nothing prints it any more
@@ -195,29 +195,12 @@ def mentions(
         case Compare(_, left, right):
             for side in (left, right):
                 yield from ((False, ground_key(f, binding)) for f in functions_in(side))
-        case Not(body):
-            yield from mentions(body, binding, problem)
-        case And(parts) | Or(parts):
-            for part in parts:
-                yield from mentions(part, binding, problem)
         case Quantified(_, params, body):
             for inner in instances(params, binding, problem):
                 yield from mentions(body, inner, problem)
-        case Equal():
-            return
-
-
-def compares(formula: Formula) -> bool:
-    """Return whether a condition compares numbers anywhere; quantifiers are not expanded."""
-    match formula:
-        case Compare():
-            return True
-        case Not(body) | Quantified(_, _, body):
-            return compares(body)
-        case And(parts) | Or(parts):
-            return any(map(compares, parts))
         case _:
-            return False
+            for part in parts_of(formula):
+                yield from mentions(part, binding, problem)
 
 
 def instances(params: Sequence[Param], binding: Binding, problem: Problem) -> Iterator[Binding]:

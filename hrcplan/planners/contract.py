@@ -11,7 +11,8 @@ from typing import Protocol, runtime_checkable
 
 from hrcplan.core.numbers import Number
 from hrcplan.errors import LimitError, UnsupportedError
-from hrcplan.pddl.model import TOTAL_TIME, Problem, functions_in
+from hrcplan.pddl.model import TOTAL_TIME, Problem
+from hrcplan.pddl.walks import functions_in
 from hrcplan.plans import Plan
 from hrcplan.task import Task
 from hrcplan.validation import Report, validate
@@ -207,3 +208,11 @@ class Planner(Protocol):
 
     def solve(self, request: Request) -> Answer:
         """Return the planner's answer, at the latest shortly after the deadline."""
+
+
+class OwnPlanner:
+    """A planner that is part of this package: nothing has to be installed for it."""
+
+    def missing(self) -> str | None:
+        """Return None: it can run everywhere."""
+        return None

@@ -21,17 +21,9 @@ from hrcplan.core.numbers import Number, to_number
 from hrcplan.errors import LimitError, MissingPlannerError, PlannerError, UnsupportedError
 from hrcplan.pddl.dialect import with_binary_sums, with_effects
 from hrcplan.pddl.guards import guarded
-from hrcplan.pddl.model import (
-    TOTAL_COST,
-    TRUE,
-    Action,
-    Effect,
-    Fact,
-    Function,
-    Problem,
-    functions_in,
-)
+from hrcplan.pddl.model import TOTAL_COST, TRUE, Action, Effect, Fact, Function, Problem
 from hrcplan.pddl.semantics import ground_key, instances
+from hrcplan.pddl.walks import functions_in
 from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
 from hrcplan.planners.lowering import NO_SEQUENCE, Lowering, lower

@@ -19,17 +19,15 @@ from hrcplan.pddl.model import (
     TRUE,
     And,
     Atom,
-    Compare,
     Constant,
     Effect,
     Equal,
     Formula,
     Function,
     Not,
-    Or,
     Problem,
-    Quantified,
 )
+from hrcplan.pddl.walks import compares
 from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.planners.contract import Request
 from hrcplan.planners.lowering import Lowering, lower
@@ -121,7 +119,7 @@ def grounded_input(request: Request) -> DownwardInput:
 def _lifted_input(problem: Problem) -> DownwardInput | None:
     """Return a task in its own files; None if it has numbers other than costs, or time."""
     domain = problem.domain
-    if domain.is_temporal or any(_has_numbers(formula) for formula in _formulas(problem)):
+    if domain.is_temporal or any(compares(formula) for formula in _formulas(problem)):
         return None
     prices = list(_prices(problem))
     counts = TOTAL_COST in domain.functions
@@ -143,17 +141,6 @@ def _formulas(problem: Problem) -> Iterator[Formula]:
         yield from (condition.formula for condition in action.conditions)
         yield from (effect.condition for effect in action.effects)
     yield from (axiom.body for axiom in problem.domain.axioms)
-
-
-def _has_numbers(formula: Formula) -> bool:
-    match formula:
-        case Compare():
-            return True
-        case Not(body) | Quantified(_, _, body):
-            return _has_numbers(body)
-        case And(parts) | Or(parts):
-            return any(_has_numbers(part) for part in parts)
-    return False
 
 
 def _prices(problem: Problem) -> Iterator[int | None]:

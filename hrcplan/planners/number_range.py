@@ -9,18 +9,15 @@ from math import lcm
 from hrcplan.core.numbers import Number
 from hrcplan.pddl.model import (
     TOTAL_COST,
-    And,
     Arithmetic,
     Compare,
     Constant,
     Expr,
     Formula,
     Function,
-    Not,
-    Or,
     Problem,
-    Quantified,
 )
+from hrcplan.pddl.walks import parts_of
 
 _MARGIN = 8
 """Bits that are left for sums and products of the numbers in the files."""
@@ -109,14 +106,10 @@ def _deciding(problem: Problem) -> Iterator[Expr]:
 
 
 def _comparisons(formula: Formula) -> Iterator[Expr]:
-    match formula:
-        case Compare(_, left, right):
-            yield from (left, right)
-        case Not(body) | Quantified(_, _, body):
-            yield from _comparisons(body)
-        case And(parts) | Or(parts):
-            for part in parts:
-                yield from _comparisons(part)
+    if isinstance(formula, Compare):
+        yield from (formula.left, formula.right)
+    for part in parts_of(formula):
+        yield from _comparisons(part)
 
 
 def _parts(expression: Expr) -> Iterator[Expr]:

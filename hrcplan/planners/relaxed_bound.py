@@ -16,7 +16,7 @@ from hrcplan.core.numbers import Number, exact
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.constructs import ALL
 from hrcplan.pddl.model import TRUE, Domain
-from hrcplan.planners.contract import Answer, Capabilities, Request, Status
+from hrcplan.planners.contract import Answer, Capabilities, OwnPlanner, Request, Status
 from hrcplan.planners.exact.weights import metric
 from hrcplan.planners.lowering import lower
 from hrcplan.search.lm_cut import landmarks, longest_chain
@@ -27,24 +27,19 @@ from hrcplan.task.unreachable import is_out_of_reach
 MAX_ACTIONS = 20_000
 
 
-class RelaxedBound:
+class RelaxedBound(OwnPlanner):
     """Bounds the metric, or proves that there is no plan; it finds none itself."""
 
-    def __init__(self) -> None:
-        self.card = Capabilities(
-            "lm-cut",
-            "bounds the metric from below with landmarks, and finds no plans",
-            temporal=True,
-            numeric=True,
-            metric="none",
-            limits=True,
-            own=True,
-            constructs=ALL,
-        )
-
-    def missing(self) -> str | None:
-        """Return None: it is part of this package."""
-        return None
+    card = Capabilities(
+        "lm-cut",
+        "bounds the metric from below with landmarks, and finds no plans",
+        temporal=True,
+        numeric=True,
+        metric="none",
+        limits=True,
+        own=True,
+        constructs=ALL,
+    )
 
     def solve(self, request: Request) -> Answer:
         """Return a bound, or that even the relaxed task has no plan.

@@ -7,17 +7,9 @@ from fractions import Fraction
 from typing import Protocol
 
 from hrcplan.core.numbers import Number, exact
-from hrcplan.pddl.model import (
-    TOTAL_COST,
-    TOTAL_TIME,
-    TRUE,
-    FluentKey,
-    Formula,
-    Problem,
-    formula_functions,
-    functions_in,
-)
+from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, TRUE, FluentKey, Formula, Problem
 from hrcplan.pddl.semantics import LiftedState, Undefined, changes, evaluate, holds
+from hrcplan.pddl.walks import formula_functions, functions_in
 from hrcplan.planners.number_range import never_lowers_cost
 from hrcplan.plans import PlannedAction
 from hrcplan.task import Task

@@ -16,9 +16,10 @@ from typing import NamedTuple
 
 from hrcplan.core.numbers import Number, exact
 from hrcplan.errors import LimitError, UnsupportedError
-from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, Problem, functions_in
+from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, Problem
 from hrcplan.pddl.semantics import Undefined
-from hrcplan.planners.contract import Answer, Capabilities, Request, Status
+from hrcplan.pddl.walks import functions_in
+from hrcplan.planners.contract import Answer, Capabilities, OwnPlanner, Request, Status
 from hrcplan.planners.state_spaces import BitSpace, LiftedSpace, StateSpace
 from hrcplan.plans import Plan, PlannedAction
 from hrcplan.task.numbers import linear
@@ -26,23 +27,18 @@ from hrcplan.task.numbers import linear
 MAX_STATES = 400_000
 
 
-class UniformCost:
+class UniformCost(OwnPlanner):
     """Expands states by the metric of their path: small tasks, any metric, exact numbers."""
 
-    def __init__(self) -> None:
-        self.card = Capabilities(
-            "uniform-cost",
-            "exhaustive search with exact numbers: small classical tasks, any metric",
-            numeric=True,
-            metric="cost",
-            proves=True,
-            limits=True,
-            own=True,
-        )
-
-    def missing(self) -> str | None:
-        """Return None: it is part of this package."""
-        return None
+    card = Capabilities(
+        "uniform-cost",
+        "exhaustive search with exact numbers: small classical tasks, any metric",
+        numeric=True,
+        metric="cost",
+        proves=True,
+        limits=True,
+        own=True,
+    )
 
     def solve(self, request: Request) -> Answer:
         """Return a best plan with its proof, a proof that there is none, or a bound.

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from hrcplan.core.bits import single_bits
 from hrcplan.core.numbers import Number
 from hrcplan.errors import UnsupportedError
-from hrcplan.pddl.model import DURATION, TOTAL_COST, TRUE, Constant, Expr, FluentKey, functions_in
+from hrcplan.pddl.model import DURATION, TOTAL_COST, TRUE, Constant, Expr, FluentKey
 from hrcplan.pddl.semantics import Undefined, Values, evaluate, ground_key, instances
+from hrcplan.pddl.walks import functions_in
 from hrcplan.task.changing import (
     ValueSets,
     combinations,

@@ -9,7 +9,7 @@ from itertools import product
 
 from hrcplan.core.numbers import Number, number_text
 from hrcplan.errors import UnsupportedError
-from hrcplan.pddl.model import DURATION, Action, Fact, FluentKey, Formula, functions_in
+from hrcplan.pddl.model import DURATION, Action, Fact, FluentKey, Formula
 from hrcplan.pddl.semantics import (
     Binding,
     Undefined,
@@ -20,6 +20,7 @@ from hrcplan.pddl.semantics import (
     instances,
     mentions,
 )
+from hrcplan.pddl.walks import functions_in
 from hrcplan.task.conditions import ALWAYS, NEVER, Grounder, Tests
 from hrcplan.task.numbers import numeric_effects
 from hrcplan.task.reachable import SchemaInstance

@@ -9,7 +9,8 @@ from math import inf
 from hrcplan.core.numbers import Number
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, Constant, Fact, Problem
-from hrcplan.pddl.semantics import compares, ground_key, instances, mentions
+from hrcplan.pddl.semantics import ground_key, instances, mentions
+from hrcplan.pddl.walks import compares
 from hrcplan.task.actions import GroundAction, ground_actions
 from hrcplan.task.changing import ValueSets, combinations, reached_values, value_fact
 from hrcplan.task.conditions import Grounder, Tests, all_of, any_of

@@ -20,10 +20,9 @@ from hrcplan.pddl.model import (
     FluentKey,
     Formula,
     Function,
-    formula_functions,
-    functions_in,
 )
 from hrcplan.pddl.semantics import Binding, Values, ground_key
+from hrcplan.pddl.walks import formula_functions, functions_in
 
 Linear = Mapping[FluentKey, Number]
 """Coefficients by function; the constant stands under the empty key."""

@@ -14,9 +14,10 @@ from pathlib import Path
 from typing import NamedTuple
 
 from hrcplan.errors import LimitError
-from hrcplan.pddl.joins import FactIndex, Join, JoinBinding, conjuncts, lifted_names, needed_atoms
+from hrcplan.pddl.joins import FactIndex, Join, JoinBinding, needed_atoms
 from hrcplan.pddl.model import DURATION, Action, Atom, Domain, Fact, Formula, Problem
 from hrcplan.pddl.semantics import LiftedState, ground_key, holds, instances
+from hrcplan.pddl.walks import conjuncts, lifted_names
 
 MIN_FREE_BYTES = 512 << 20
 """What grounding leaves to others: with less memory free it gives up."""

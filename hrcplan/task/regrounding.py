@@ -13,7 +13,6 @@ from dataclasses import replace
 from itertools import pairwise, product
 
 from hrcplan.core.numbers import Number
-from hrcplan.pddl.joins import conjuncts
 from hrcplan.pddl.model import (
     DURATION,
     TOTAL_COST,
@@ -26,8 +25,6 @@ from hrcplan.pddl.model import (
     Formula,
     Function,
     Problem,
-    formula_functions,
-    functions_in,
 )
 from hrcplan.pddl.semantics import (
     Binding,
@@ -38,6 +35,7 @@ from hrcplan.pddl.semantics import (
     ground_key,
     holds,
 )
+from hrcplan.pddl.walks import conjuncts, formula_functions, functions_in
 from hrcplan.task.actions import GroundAction
 from hrcplan.task.changing import ValueSets, value_fact
 from hrcplan.task.grounding import Grounding

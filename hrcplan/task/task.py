@@ -12,8 +12,9 @@ from hrcplan.core.bits import positions
 from hrcplan.core.numbers import Number, exact
 from hrcplan.core.text import cut
 from hrcplan.pddl.inlining import plain
-from hrcplan.pddl.model import Fact, FluentKey, Formula, Problem, formula_functions
+from hrcplan.pddl.model import Fact, FluentKey, Formula, Problem
 from hrcplan.pddl.semantics import evaluate
+from hrcplan.pddl.walks import formula_functions
 from hrcplan.task.actions import GroundAction
 from hrcplan.task.changing import ValueSets
 from hrcplan.task.conditions import Test, meets

@@ -6,7 +6,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from math import inf
 
-from hrcplan.pddl.joins import lifted_names
 from hrcplan.pddl.model import (
     Action,
     And,
@@ -25,6 +24,7 @@ from hrcplan.pddl.model import (
     TimedChange,
 )
 from hrcplan.pddl.semantics import Binding, LiftedState, ground_key, holds, instances
+from hrcplan.pddl.walks import lifted_names
 from hrcplan.task.reachable import reachable
 
 

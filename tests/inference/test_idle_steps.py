@@ -3,7 +3,8 @@
 import pytest
 
 from hrcplan.bank import build_bank
-from hrcplan.inference.exact import UNEXPLAINED, ExactBelief
+from hrcplan.inference.belief import UNEXPLAINED
+from hrcplan.inference.exact import ExactBelief
 from tests.worlds import without_turns
 
 DOMAIN = """
