@@ -9,7 +9,9 @@ from hrcplan.pddl.model import (
     Action,
     Atom,
     Domain,
+    Equal,
     Fact,
+    Not,
     Problem,
 )
 from hrcplan.pddl.walks import conjuncts, lifted_names
@@ -50,11 +52,12 @@ class FactIndex:
 
 
 class Join:
-    """An action's parameters and the atoms that its bindings must satisfy."""
+    """An action's parameters, and the atoms and equalities that its bindings must satisfy."""
 
     def __init__(self, action: Action, atoms: Sequence[Atom], problem: Problem) -> None:
         self.action = action
         self.atoms = tuple(atoms)
+        self._equalities = list(_equalities(action))
         self._objects = {p.name: problem.objects_of(p.types) for p in action.params}
         self._domains = {name: frozenset(objects) for name, objects in self._objects.items()}
 
@@ -93,8 +96,11 @@ class Join:
         if missing is None:
             yield binding
             return
+        pairs = [p for p in self._equalities if missing in p[:2]]
         for value in self._objects[missing]:
-            yield from self._free({**binding, missing: value})
+            wider = {**binding, missing: value}
+            if all(_may_hold(pair, wider) for pair in pairs):
+                yield from self._free(wider)
 
     def _match(self, atom: Atom, fact: Fact, binding: JoinBinding) -> JoinBinding | None:
         """Return the binding with the variables of an atom bound to a fact; None if it differs."""
@@ -111,6 +117,24 @@ class Join:
             elif bound_value != value:
                 return None
         return wider
+
+
+def _equalities(action: Action) -> Iterator[tuple[str, str, bool]]:
+    """Yield the terms that an action compares, and whether they must be equal or differ."""
+    for condition in action.conditions:
+        for part in conjuncts(condition.formula):
+            match part:
+                case Equal(left, right):
+                    yield left, right, True
+                case Not(Equal(left, right)):
+                    yield left, right, False
+
+
+def _may_hold(pair: tuple[str, str, bool], binding: Mapping[str, str]) -> bool:
+    """Return whether two terms compare as they must; True if one of them is not bound yet."""
+    left, right = (binding.get(term, term) for term in pair[:2])
+    unbound = left.startswith("?") or right.startswith("?")
+    return unbound or (left == right) == pair[2]
 
 
 def needed_atoms(action: Action, domain: Domain) -> tuple[Atom, ...]:

@@ -26,6 +26,7 @@ from hrcplan.plans import Plan, find_plans
 from hrcplan.validation import objective, validate
 
 _NO_PLAN = re.compile(r"(?i)goal can be simplified to FALSE|problem proven unsolvable")
+_EMPTY = re.compile(r"(?i)goal can be simplified to TRUE|empty plan solves it")
 _SIGNAL = 128
 _CRASHED = (1, 2, 126, 127)  # other exit codes are a planner's way to say why it has no plan
 
@@ -91,14 +92,14 @@ class CommandPlanner:
             yield str(Path(word).absolute()) if is_file else word
 
     def _answer(self, problem: Problem, process: FinishedProcess, plans: list[Plan]) -> Answer:
-        name = self.card.name
+        name, output = self.card.name, process.stdout + process.stderr
         if process.end is ProcessEnd.MISSING:
             raise MissingPlannerError(f"{name} cannot be started: {process.stderr.strip()}")
-        if not plans and process.code == 0 and validate(problem, Plan()).valid:
+        nothing_to_do = process.code == 0 or _EMPTY.search(output) is not None
+        if not plans and nothing_to_do and validate(problem, Plan()).valid:
             plans = [Plan()]
         if plans:
             return Answer(Status.SOLVED, best_of(problem, plans))
-        output = process.stdout + process.stderr
         if process.end is not ProcessEnd.EXITED:
             return Answer(Status.UNSOLVED, note=f"stopped: {process.end.value}")
         if _NO_PLAN.search(output):

@@ -11,6 +11,7 @@ import contextlib
 import re
 import shutil
 import time
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from importlib.util import find_spec
@@ -21,6 +22,7 @@ from hrcplan.core.numbers import Number, to_number
 from hrcplan.errors import LimitError, MissingPlannerError, PlannerError, UnsupportedError
 from hrcplan.pddl.dialect import with_binary_sums, with_effects
 from hrcplan.pddl.guards import guarded
+from hrcplan.pddl.inlining import plain
 from hrcplan.pddl.model import TOTAL_COST, TRUE, Action, Effect, Fact, Function, Problem
 from hrcplan.pddl.semantics import ground_key, instances
 from hrcplan.pddl.walks import functions_in
@@ -120,27 +122,38 @@ def _inside(package: str, path: str) -> Path | None:
 
 def _input(request: Request) -> _Input:
     """Return the task as ENHSP understands it: as it is if possible, else lowered."""
-    problem = request.problem
+    problem = plain(request.problem)
     domain = problem.domain
     plain_metric = problem.metric == Function(TOTAL_COST) and not problem.maximize
     numeric = bool(domain.changed_functions - {TOTAL_COST})
     exact = decides_exactly(problem, _FLOAT_BITS) and never_lowers_cost(problem)
     clash = _may_undo_itself(request)
     counts = exact or request.any_plan  # rounding is no matter where nothing is proven
-    if domain.is_temporal or numeric or not plain_metric or not counts or clash:
+    varies = any(map(_is_varying_cost, _effects(problem)))
+    if domain.is_temporal or numeric or not plain_metric or not counts or clash or varies:
         with contextlib.suppress(*(() if domain.is_temporal else (UnsupportedError, LimitError))):
             lowering = lower(request.task)
             texts = lowering.domain_text, lowering.problem_text
             return _Input(*texts, lowering, True, not lowering.conditional)
-    moving = any(_reads_change(problem, e) for a in domain.actions for e in a.effects)
+    moving = varies or any(_reads_change(problem, effect) for effect in _effects(problem))
     if moving or not plain_metric:
         plain_domain = with_effects(domain, lambda effect: effect.target.name != TOTAL_COST)
         problem = replace(problem, domain=plain_domain, metric=None, maximize=False)
-    simple = all(_is_simple(problem, e) for a in problem.domain.actions for e in a.effects)
+    simple = all(_is_simple(problem, effect) for effect in _effects(problem))
     simple = simple and exact and not clash
     binary = with_binary_sums(guarded(problem))
     texts = domain_text(binary.domain), problem_text(binary)
     return _Input(*texts, None, plain_metric and not moving, simple)
+
+
+def _effects(problem: Problem) -> Iterator[Effect]:
+    return (effect for action in problem.domain.actions for effect in action.effects)
+
+
+def _is_varying_cost(effect: Effect) -> bool:
+    """Return whether a cost has a condition or a quantifier: ENHSP adds it up wrong."""
+    varies = effect.condition != TRUE or bool(effect.params)
+    return effect.target.name == TOTAL_COST and varies
 
 
 def _may_undo_itself(request: Request) -> bool:

@@ -22,6 +22,7 @@ from hrcplan.errors import (
     PlannerError,
     UnsupportedError,
 )
+from hrcplan.pddl import inlining
 from hrcplan.pddl.dialect import with_effects
 from hrcplan.pddl.guards import guarded
 from hrcplan.pddl.model import TOTAL_COST, Function, Problem
@@ -127,7 +128,7 @@ def _forms(request: Request) -> Iterator[_Form]:
     problem = request.problem
     temporal = problem.domain.is_temporal
     plain = problem.metric == Function(TOTAL_COST) and not problem.maximize
-    free = guarded(problem)
+    free = guarded(inlining.plain(problem))
     free = free if plain else _without_costs(free)
     texts = [domain_text(free.domain), problem_text(free)]
     lifted_form = _Form(texts, None, plain and not temporal)

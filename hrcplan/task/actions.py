@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+import contextlib
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import product
 
 from hrcplan.core.bits import single_bits
 from hrcplan.core.numbers import Number
@@ -23,6 +25,9 @@ from hrcplan.task.conditions import ALWAYS, Grounder, Tests, all_of, any_of, neg
 from hrcplan.task.numbers import ground_expression
 from hrcplan.task.reachable import SchemaInstance
 from hrcplan.task.transitions import BitEffect, Effects, Transition, net_effect
+
+MAX_COST_CONDITIONS = 4
+"""Conditions of one action's cost that the state decides: each doubles its ground actions."""
 
 _UNIT_COST: tuple[Expr, ...] = (Constant(1),)
 
@@ -76,11 +81,9 @@ def ground_actions(
     for instance in instances:
         for choice in combinations(keys_read(grounder, instance, value_sets), value_sets):
             try:
-                action = builder.build(len(actions), instance, choice)
+                actions += builder.build(len(actions), instance, choice)
             except Undefined:
                 continue  # what it needs has no value, so it can never run
-            if action is not None:
-                actions.append(action)
     return tuple(actions)
 
 
@@ -93,30 +96,33 @@ class _Builder:
 
     def build(
         self, index: int, instance: SchemaInstance, choice: Mapping[FluentKey, Number]
-    ) -> GroundAction | None:
-        """Return the ground action, or None if it can never run or never changes anything."""
+    ) -> list[GroundAction]:
+        """Return the ground action, numbered from ``index``; none if it can never do anything.
+
+        Where its cost depends on the state there is one for each cost.
+        """
         values = with_duration(instance, {**self.grounder.problem.values, **choice} if choice
                        else self.grounder.problem.values)  # fmt: skip
         start = self._conditions(instance, "start", values, choice)
         if not start:
-            return None
+            return []
         at_start, later = self._changes(instance, "start", values)
         over = self._conditions(instance, "all", later)
         end = self._conditions(instance, "end", later)
         at_end, _ = self._changes(instance, "end", later)
         tests = all_of([start, _before(all_of([over, end]), at_start)])
         if not tests or not (at_start or at_end):
-            return None
+            return []
         net = net_effect(at_start, at_end)
         agent, step = self._who(instance)
-        return GroundAction(
+        action = GroundAction(
             index=index,
             name=instance.action.name,
             args=instance.args,
             agent=agent,
             step=step,
             duration=values.get((DURATION,)) if instance.action.durative else 0,
-            costs=self._costs(instance, values, later),
+            costs=(),
             tests=tests,
             adds=net.adds,
             deletes=net.deletes,
@@ -128,6 +134,13 @@ class _Builder:
             conditional=any(c.tests != ALWAYS for c in (*at_start, *at_end)),
             values=choice,
         )
+        priced: list[GroundAction] = []
+        for extra, costs in self._costs(instance, values, later, at_start):
+            start, tests = (all_of([part, extra]) for part in (action.start, action.tests))
+            if tests:
+                place = index + len(priced)
+                priced.append(replace(action, index=place, costs=costs, start=start, tests=tests))
+        return priced
 
     def _who(self, instance: SchemaInstance) -> tuple[str | None, tuple[str, ...]]:
         """Return the agent, and the step: the action without its agent."""
@@ -187,34 +200,68 @@ class _Builder:
         """Return the bits of all values of a changing function."""
         return sum(self.grounder.bit(value_fact(key, value)) for value in self.value_sets[key])
 
-    def _costs(self, instance: SchemaInstance, values: Values, later: Values) -> tuple[Expr, ...]:
-        """Return what the action adds to total-cost, over ground functions that never change.
+    def _costs(
+        self,
+        instance: SchemaInstance,
+        values: Values,
+        later: Values,
+        at_start: Sequence[BitEffect],
+    ) -> Iterator[tuple[Tests, tuple[Expr, ...]]]:
+        """Yield what the action adds to total-cost, over ground functions that never change.
 
-        It is 1 if the domain has no total-cost.
+        With each sum the conditions under which it is that one. It is 1 if the domain has no
+        total-cost.
 
         Raises:
-            UnsupportedError: if a cost needs a duration that is not fixed.
+            UnsupportedError: if a cost needs a duration that is not fixed, or depends on more than
+                ``MAX_COST_CONDITIONS`` conditions.
             Undefined: if a cost needs a function without a value, or divides by zero.
         """
         if TOTAL_COST not in self.grounder.problem.domain.functions:
-            return _UNIT_COST
+            yield ALWAYS, _UNIT_COST
+            return
+        prices = list(self._prices(instance, values, later, at_start))
+        depends = [tests for tests, _ in prices if tests != ALWAYS]
+        if len(depends) > MAX_COST_CONDITIONS:
+            message = f"the cost of '{instance.action.name}' depends on {len(depends)} conditions"
+            raise UnsupportedError(message, hint="enhsp and kairos plan with such costs")
+        for choice in product((True, False), repeat=len(depends)):
+            chosen = iter(choice)
+            costs = tuple(cost for tests, cost in prices if tests == ALWAYS or next(chosen))
+            tests = [t if holds else negation(t) for t, holds in zip(depends, choice, strict=True)]
+            with contextlib.suppress(*([Undefined] if depends else ())):
+                for cost in costs:
+                    evaluate(cost, values, {})
+                yield all_of(tests) if tests else ALWAYS, costs
+
+    def _prices(
+        self,
+        instance: SchemaInstance,
+        values: Values,
+        later: Values,
+        at_start: Sequence[BitEffect],
+    ) -> Iterator[tuple[Tests, Expr]]:
+        """Yield each amount that may be added to total-cost, and what must hold before for it."""
         first, last = self._constants(values), self._constants(later)
-        duration = instance.action.fixed_duration
-        if duration is not None:
-            first[DURATION,] = last[DURATION,] = ground_expression(
-                duration, instance.binding, first
-            )
-        costs: list[Expr] = []
+        fixed = instance.action.fixed_duration
+        if fixed is not None:
+            first[DURATION,] = last[DURATION,] = ground_expression(fixed, instance.binding, first)
         for effect in instance.action.effects:
             if effect.target.name != TOTAL_COST or effect.value is None:
                 continue
-            constants = first if effect.when == "start" else last
-            costs.append(ground_expression(effect.value, instance.binding, constants))
-        if any(f.name == DURATION for cost in costs for f in functions_in(cost)):
-            raise UnsupportedError(f"the cost of '{instance.action.name}' needs a fixed duration")
-        for cost in costs:
-            evaluate(cost, values, {})
-        return tuple(costs)
+            for inner in instances(effect.params, instance.binding, self.grounder.problem):
+                tests = ALWAYS
+                if effect.condition != TRUE:
+                    tests = self.grounder.tests(effect.condition, inner, values)
+                    tests = tests if effect.when == "start" else _before(tests, at_start)
+                cost = ground_expression(
+                    effect.value, inner, first if effect.when == "start" else last
+                )
+                if any(function.name == DURATION for function in functions_in(cost)):
+                    message = f"the cost of '{instance.action.name}' needs a fixed duration"
+                    raise UnsupportedError(message)
+                if tests:
+                    yield tests, cost
 
     def _constants(self, values: Values) -> dict[FluentKey, Expr]:
         """Return the values of the changing functions, as expressions."""

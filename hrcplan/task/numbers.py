@@ -43,14 +43,25 @@ def check_supported(domain: Domain) -> None:
                 message = f"'{action.name}' changes ({name} …), which is not agent state"
                 raise UnsupportedError(message, hint="enhsp and kairos plan with such numbers")
         for effect in action.effects:
-            plain = effect.kind == "increase" and effect.condition == TRUE and not effect.params
-            if effect.target.name == TOTAL_COST and not plain:
+            if effect.target.name == TOTAL_COST and not _is_cost(effect, domain):
                 message = f"'{action.name}' does more with total-cost than increase it"
                 raise UnsupportedError(message, hint="enhsp and kairos plan with such costs")
         amounts = (f for effect in action.effects for f in functions_in(effect.value))
         if any(function.name == TOTAL_COST for function in (*functions_read(action), *amounts)):
             message = f"'{action.name}' looks at total-cost"
             raise UnsupportedError(message, hint="enhsp and kairos plan with such numbers")
+
+
+def _is_cost(effect: Effect, domain: Domain) -> bool:
+    """Return whether an effect on total-cost only adds to it, in a way that bits can hold.
+
+    Where actions change agent state, whether it adds may depend on nothing.
+    """
+    if effect.kind != "increase" or (effect.condition == TRUE and not effect.params):
+        return effect.kind == "increase"
+    names = {function.name for function in functions_in(effect.value)}
+    changes = any(True for action in domain.actions for _ in numeric_effects(action))
+    return not changes and names.isdisjoint(agent_state_functions(domain))
 
 
 def numeric_effects(action: Action, when: str | None = None) -> Iterator[Effect]:

@@ -21,7 +21,7 @@ from hrcplan.pddl.walks import conjuncts, lifted_names
 
 MIN_FREE_BYTES = 512 << 20
 """What grounding leaves to others: with less memory free it gives up."""
-_CHECK = 256  # ground actions between two looks at the clock
+_CHECK = 256  # bindings between two looks at the clock
 _CHECK_MEMORY = 4096
 _HINT = "use a planner that does not need them: enhsp, kairos"
 
@@ -68,6 +68,7 @@ class _ReachabilitySearch:
         self.deadline = deadline
         self.index = FactIndex()
         self.instances: dict[tuple[str, tuple[str, ...]], SchemaInstance] = {}
+        self._n_bindings = 0
         self._start = LiftedState(problem.facts, problem.values)
         self._rules = [_ReachabilityRule(action, problem) for action in problem.domain.actions]
         self._users: dict[str, list[tuple[_ReachabilityRule, int]]] = defaultdict(list)
@@ -94,21 +95,22 @@ class _ReachabilitySearch:
 
     def _take(self, rule: _ReachabilityRule, bindings: Iterator[JoinBinding]) -> None:
         for binding in bindings:
+            self._n_bindings += 1
+            self._check()
             args = tuple([binding[name] for name in rule.names])
             key = rule.action.name, args
             if key in self.instances or not self._can_hold(rule.static_parts, binding):
                 continue
             self.instances[key] = SchemaInstance(rule.action, args, binding)
-            self._check()
             for params, atom in rule.adds:
                 for inner in instances(params, binding, self.problem):
                     self._waiting.append(ground_key(atom, inner))
 
     def _check(self) -> None:
         n_instances = len(self.instances)
-        if n_instances % _CHECK == 0 and time.monotonic() > self.deadline:
+        if self._n_bindings % _CHECK == 0 and time.monotonic() > self.deadline:
             raise LimitError(f"no time for more than {n_instances} ground actions", hint=_HINT)
-        if n_instances % _CHECK_MEMORY == 0 and available_bytes() < MIN_FREE_BYTES:
+        if self._n_bindings % _CHECK_MEMORY == 0 and available_bytes() < MIN_FREE_BYTES:
             message = f"no memory for more than {n_instances} ground actions"
             raise LimitError(message, hint=_HINT)
 

@@ -124,6 +124,17 @@ def test_a_goal_that_holds_already_needs_no_lines(tmp_path: Path) -> None:
     assert answer.plan.actions == ()
 
 
+def test_ff_says_that_the_goal_is_true_already(tmp_path: Path) -> None:
+    problem = with_goal(read("transport", "two-boxes"), "(free human)", "idle")
+    words = "ff: goal can be simplified to TRUE. The empty plan solves it"
+    answer = solve(printing(tmp_path, words, "sys.exit(1)"), problem)
+    assert answer.status is Status.SOLVED
+    assert answer.plan is not None
+    assert not answer.plan.actions
+    with pytest.raises(PlannerError, match="exit code 1"):  # what it says is not true here
+        solve(printing(tmp_path, words, "sys.exit(1)"), read("transport", "two-boxes"))
+
+
 def test_a_program_that_is_not_there(boxes: Problem) -> None:
     planner = CommandPlanner("no-such-planner {domain} {problem}")
     assert "no-such-planner" in (planner.missing() or "")

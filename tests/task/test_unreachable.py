@@ -1,7 +1,10 @@
 """Goals that not even the relaxed problem reaches; and those that it must not give up."""
 
+import time
+
 import pytest
 
+from hrcplan.errors import LimitError
 from hrcplan.planners.contract import Status
 from hrcplan.planners.solve import solve
 from hrcplan.task.reachable import reachable
@@ -54,3 +57,25 @@ def test_what_two_actions_make_true_for_each_other_can_be_reached() -> None:
     instances, facts = reachable(problem)
     assert {i.action.name for i in instances} == {"light", "repair", "finish"}
     assert ("repaired",) in facts
+
+
+def test_equalities_are_looked_at_before_all_objects_are_tried() -> None:
+    names = " ".join(f"o{i}" for i in range(20))
+    domain = """(define (domain d) (:requirements :equality) (:constants o0)
+      (:predicates (same ?a ?b ?c ?d ?e ?f))
+      (:action pair :parameters (?a ?b ?c ?d ?e ?f)
+        :precondition (and (= ?a ?b) (= ?b ?c) (= ?c ?d) (= ?d ?e) (not (= ?e ?f)) (= ?f o0))
+        :effect (same ?a ?b ?c ?d ?e ?f)))"""
+    text = f"(define (problem p) (:domain d) (:objects {names}) (:init) (:goal (and)))"
+    instances, _ = reachable(problem_of(domain, text), deadline=time.monotonic() + 60)
+    assert len(instances) == 19  # of 64 million
+
+
+def test_grounding_looks_at_the_clock_where_every_binding_is_refused() -> None:
+    names = " ".join(f"o{i}" for i in range(30))
+    domain = """(define (domain d) (:requirements :fluents) (:predicates (p)) (:functions (n ?x))
+      (:action a :parameters (?a ?b ?c ?d ?e) :precondition (> (n ?e) 5) :effect (p)))"""
+    values = " ".join(f"(= (n {name}) 1)" for name in names.split())
+    text = f"(define (problem p) (:domain d) (:objects {names}) (:init {values}) (:goal (p)))"
+    with pytest.raises(LimitError, match="no time for more than 0 ground actions"):
+        reachable(problem_of(domain, text), deadline=time.monotonic() - 1)
