@@ -30,7 +30,9 @@ from hrcplan.inference.belief import (
     PlanFollower,
     S_contra,
     TracksProgress,
+    after_attempt,
     after_wait,
+    at_turn,
     n_declared,
 )
 
@@ -181,6 +183,17 @@ class BeliefAssistant(ValueAssistant[AssistantState[S]], Generic[S]):
         belief: S = after_wait(self.belief, state.belief)
         progress = self._progress_after(state.progress, belief, None)
         return replace(state, belief=belief, progress=progress)
+
+    def observe_attempt(self, state: AssistantState[S], step: int) -> AssistantState[S]:
+        """Return the state after a step that the human tried to do: evidence, but no progress."""
+        belief: S = after_attempt(self.belief, state.belief, step)
+        progress = self.tracker.attempt(state.progress, step)
+        return replace(state, belief=belief, progress=progress, ignored=belief.ignored)
+
+    def at_turn(self, state: AssistantState[S], agent: str) -> AssistantState[S]:
+        """Return the state as it is if it is an agent's turn, where agents take turns."""
+        belief: S = at_turn(self.belief, state.belief, agent)
+        return replace(state, belief=belief, progress=self.tracker.at_turn(state.progress, agent))
 
     def _progress_after(
         self, progress: Progress, belief: BeliefState, step: int | None

@@ -129,6 +129,22 @@ class ProgressTracker:
             return False
         return self.moves.is_robot[progress.moment.turn]
 
+    def at_turn(self, progress: Progress, agent: str) -> Progress:
+        """Return the progress as it is if it is an agent's turn, where agents take turns."""
+        moment = progress.moment
+        if self.moves is None or moment is None or agent not in self.bank.team:
+            return progress
+        turn = self.bank.team.index(agent)
+        if turn == moment.turn:
+            return progress
+        return self._in_turn(progress, progress.world, replace(moment, turn=turn))
+
+    def attempt(self, progress: Progress, step: int) -> Progress:
+        """Return the progress after a step that failed: where agents take turns, a turn is over."""
+        if self.moves is None or progress.moment is None:
+            return progress
+        return self._in_turn(progress, progress.world, self.moves.after(progress.moment, step))
+
     def wait(self, progress: Progress) -> tuple[Progress, Evidence] | None:
         """Return the progress and the evidence after a wait of the agent whose turn it is.
 

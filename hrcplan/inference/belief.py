@@ -80,6 +80,37 @@ def after_wait(belief: Belief[S], state: S) -> S:
     return belief.observe_wait(state) if isinstance(belief, ObservesWaits) else state
 
 
+@runtime_checkable
+class ObservesAttempts(Protocol[S]):
+    """A belief to which a step that failed says something, though it had no effect."""
+
+    def observe_attempt(self, state: S, step: int) -> S:
+        """Return the belief after a step that the human tried to do."""
+        ...
+
+
+@runtime_checkable
+class ActsInAnyTurn(Protocol[S]):
+    """A belief in which it can be any agent's turn, where agents take turns."""
+
+    def at_turn(self, state: S, agent: str) -> S:
+        """Return the belief as it is if it is an agent's turn."""
+        ...
+
+
+def after_attempt(belief: Belief[S], state: S, step: int) -> S:
+    """Return a belief after a step that failed; as it was if attempts say nothing to it."""
+    if isinstance(belief, ObservesAttempts):
+        after: S = belief.observe_attempt(state, step)
+        return after
+    return state
+
+
+def at_turn(belief: Belief[S], state: S, agent: str) -> S:
+    """Return a belief as it is in an agent's turn; as it was if it does not tell turns apart."""
+    return belief.at_turn(state, agent) if isinstance(belief, ActsInAnyTurn) else state
+
+
 @dataclass(frozen=True, slots=True)
 class GoalChange:
     """A change of goal just before observation ``at`` (0-based), and how probable it is.

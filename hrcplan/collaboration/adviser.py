@@ -1,0 +1,185 @@
+"""The adviser answers what the companion asks: which step, which plan, what words mean."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from hrcplan.assistance.assistant import Assistant, Explains
+from hrcplan.assistance.explanation import Explanation
+from hrcplan.bank import Bank, StepTable
+from hrcplan.collaboration import events as shared
+from hrcplan.collaboration.belief_fold import BeliefFold
+from hrcplan.collaboration.events import SharedCommand, SharedEvent
+from hrcplan.collaboration.history import History
+from hrcplan.collaboration.reading import Reader, Words, read_exactly
+from hrcplan.collaboration.run import CompanionRun
+from hrcplan.collaboration.setup import TURNS, CollaborationSetup
+from hrcplan.errors import UsageError
+from hrcplan.execution import events as ev
+from hrcplan.execution.driver import PlanProvider
+from hrcplan.execution.replanner import Replanner
+from hrcplan.inference.belief import n_declared
+from hrcplan.pddl.model import fact_text
+from hrcplan.plans import PlannedAction
+
+N_HELPED = 3  # goals that are named as reasons for a step
+
+
+class Adviser:
+    """Answers the questions of one collaboration.
+
+    The assistant is made when it is needed first: people can begin before it is ready.
+
+    Args:
+        setup: The collaboration.
+        bank: The plans of its goals.
+        make_assistant: Makes the assistant from the bank.
+        planner: Answers requests for plans; by default the built-in planners.
+        reader: Finds the action that a person means.
+    """
+
+    def __init__(
+        self, setup: CollaborationSetup, bank: Bank,
+        make_assistant: Callable[[Bank], Assistant[Any]], planner: PlanProvider | None = None,
+        reader: Reader = read_exactly,
+    ) -> None:  # fmt: skip
+        self.setup, self.bank, self.reader = setup, bank, reader
+        self._make, self._planner = make_assistant, planner
+        self.run: CompanionRun | None = None
+
+    @cached_property
+    def planner(self) -> PlanProvider:
+        """What answers requests for plans."""
+        return self._planner or Replanner(self.setup.model)
+
+    @cached_property
+    def fold(self) -> BeliefFold:
+        """The belief of the assistant."""
+        return BeliefFold(self.bank, self._make(self.bank), self.setup.pace == TURNS)
+
+    @property
+    def assistant(self) -> Assistant[Any]:
+        """The assistant."""
+        return self.fold.assistant
+
+    def watch(
+        self, run: CompanionRun, event: SharedEvent, commands: tuple[SharedCommand, ...]
+    ) -> None:
+        """Take note of the run that the next question is about."""
+        self.run = run
+
+    def answer(
+        self, ask: ev.AskPlan | shared.AskStep | shared.AskReading
+    ) -> ev.Planned | shared.Chosen | shared.Read:
+        """Return the event that answers a question."""
+        match ask:
+            case ev.AskPlan():
+                return self.planner.answer(ask)
+            case shared.AskStep():
+                return self.choose(ask, self.history)
+            case shared.AskReading():
+                return self.read(ask)
+
+    @property
+    def history(self) -> History:
+        """What was seen so far."""
+        return () if self.run is None else self.run.history
+
+    def choose(self, ask: shared.AskStep, history: History) -> shared.Chosen:
+        """Return what the assistant does after a history, and what it believes.
+
+        Raises:
+            UsageError: if it chooses what is no step, or what none of these robots can do.
+        """
+        state = self.fold.state(history)
+        goals = self.likeliest(state)
+        chosen = shared.Chosen(ask.t, goals=goals, n_declared=n_declared(state))
+        turns = ask.agents if self.fold.has_turns and self.setup.pace != TURNS else ask.agents[:1]
+        for agent in turns:
+            is_own = len(turns) > 1 or self.fold.has_turns
+            agents = frozenset((agent,) if is_own else ask.agents)
+            if self.setup.pace != TURNS:
+                state = self.fold.in_turn_of(state, agent)
+            action = self._action(state, agents)
+            if action is not None:
+                return self._explained(chosen, state, action)
+        return chosen
+
+    def likeliest(self, state: Any) -> tuple[tuple[str, float], ...]:
+        """Return every goal with its probability, the likeliest first."""
+        posterior = self.assistant.posterior(state)
+        order = np.argsort(-np.asarray(posterior), kind="stable").tolist()
+        return tuple((self.bank.names[goal], float(posterior[goal])) for goal in order)
+
+    def _action(self, state: Any, agents: frozenset[str]) -> PlannedAction | None:
+        """Return the ground action that the assistant wants one of the robots to do now."""
+        step = self.assistant.choose(state)
+        if step is None:
+            return None
+        table = self.bank.table
+        if not isinstance(step, int | np.integer) or not 0 <= step < len(table):
+            raise UsageError(f"{step!r} is no step", code="bad-step")
+        others = self.setup.robots - agents
+        action = table.doer(state.world, int(step), agents)
+        if action is None:
+            if table.doer(state.world, int(step), others) is not None:
+                return None  # another robot has to do it
+            who = " or ".join(sorted(agents))
+            message = f"{table[int(step)]} cannot be done by {who} here"
+            raise UsageError(message, code="bad-step")
+        ground = table.task.actions[action]
+        return PlannedAction(ground.name, ground.args)
+
+    def _explained(self, chosen: shared.Chosen, state: Any, action: PlannedAction) -> shared.Chosen:
+        """Return a choice with its action, its value and the goals that it helps."""
+        value: float | None = None
+        helps: tuple[str, ...] = ()
+        explanation = self.explain(state)
+        step = str(self.bank.table[self.bank.table.find((action.name, *action.args)) or 0])
+        for candidate in explanation.candidates if explanation else ():
+            if candidate.action == step:
+                value = float(candidate.value)
+                helps = tuple(name for name, _ in candidate.helps[:N_HELPED])
+        return shared.Chosen(
+            chosen.t, action.name, action.args, chosen.goals, chosen.n_declared, value, helps
+        )
+
+    def explain(self, state: Any) -> Explanation | None:
+        """Return what the assistant weighs in a state; None if it does not say."""
+        return self.assistant.explain(state) if isinstance(self.assistant, Explains) else None
+
+    # What people can do, and what they mean.
+
+    def possible(self, agents: Sequence[str]) -> list[Words]:
+        """Return the ground actions that people can begin now, in order."""
+        if self.run is None:
+            return []
+        model, table = self.setup.model.actions, self.bank.table
+        actions = (table.task.actions[i] for step in range(len(table)) for i in table[step].actions)
+        possible = []
+        for action in actions:
+            if action.agent is not None and action.agent not in agents:
+                continue
+            step = model.step(PlannedAction(action.name, action.args))
+            if step is not None and model.obstacle(self.run.run.state, step) is None:
+                possible.append((action.name, *action.args))
+        return possible
+
+    def read(self, ask: shared.AskReading) -> shared.Read:
+        """Return what a person means."""
+        steps = self.possible(ask.agents)
+        reading = self.reader(ask.text, steps, self.prior(steps))
+        return shared.Read(ask.t, reading.outcome, tuple(map(fact_text, reading.options)))
+
+    def prior(self, steps: Sequence[Words]) -> Mapping[Words, float]:
+        """Return how probable each of several next steps of a person is, as the belief says."""
+        return {}
+
+
+def next_step_words(table: StepTable, step: int) -> Words:
+    """Return the words of a step."""
+    return table[step].words

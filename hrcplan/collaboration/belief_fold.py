@@ -1,0 +1,94 @@
+"""An assistant's belief after a history: a fold, which remembers what it has folded last."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from hrcplan.assistance.assistant import Assistant, inform
+from hrcplan.bank import Bank
+from hrcplan.bank.team_moves import team_moves
+from hrcplan.collaboration.history import (
+    History,
+    PassedTurn,
+    SeenAction,
+    SeenEnd,
+    SeenMark,
+    WantedGoal,
+    evidence_in,
+)
+from hrcplan.inference.belief import IMPOSSIBLE, after_attempt, after_wait, at_turn
+
+_Folded = tuple[Any, frozenset[int]]
+"""A state, and the numbers of actions that were impossible in it when they began."""
+
+
+class BeliefFold:
+    """Folds histories of one collaboration.
+
+    Args:
+        bank: The plans.
+        assistant: Made from it.
+        takes_turns: Whether whoever acts has the turn (pace ``turns``); else whoever acts is put
+            in its turn first, where plans are team plans.
+    """
+
+    def __init__(self, bank: Bank, assistant: Assistant[Any], takes_turns: bool = True) -> None:
+        self.bank, self.assistant, self.takes_turns = bank, assistant, takes_turns
+        self.has_turns = team_moves(bank) is not None
+        self._seen: tuple[SeenMark, ...] = ()
+        self._states: list[_Folded] = [(assistant.start(), frozenset())]
+
+    def state(self, history: History) -> Any:
+        """Return the assistant's state after a history."""
+        seen = evidence_in(history)
+        n = 0
+        while n < min(len(seen), len(self._seen)) and seen[n] == self._seen[n]:
+            n += 1
+        del self._states[n + 1 :]
+        self._seen = seen
+        for mark in seen[n:]:
+            self._states.append(self._after(*self._states[-1], mark))
+        return self._states[-1][0]
+
+    def in_turn_of(self, state: Any, agent: str) -> Any:
+        """Return a state in which it is an agent's turn, where plans are team plans."""
+        return at_turn(self.assistant, state, agent) if self.has_turns else state
+
+    def _after(self, state: Any, impossible: frozenset[int], mark: SeenMark) -> _Folded:
+        match mark:
+            case SeenAction():
+                return self._after_action(state, impossible, mark)
+            case SeenEnd(number):
+                return self._after_end(state, impossible, number)
+            case PassedTurn(agent):
+                return self._after_pass(state, agent), impossible
+            case WantedGoal(goal):
+                return inform(self.assistant, state, self.bank.goal_index(goal)), impossible
+
+    def _after_action(self, state: Any, impossible: frozenset[int], mark: SeenAction) -> _Folded:
+        step = self.bank.table.find(mark.words)
+        if step is None:  # no plan of any goal could have it
+            return state, impossible
+        if not mark.happens:
+            return after_attempt(self.assistant, state, step), impossible
+        after = self.assistant.observe(state, step, robot=mark.is_robot)
+        if after.ignored == IMPOSSIBLE:
+            return state, impossible | {mark.number}
+        return after, impossible
+
+    def _after_end(self, state: Any, impossible: frozenset[int], number: int) -> _Folded:
+        if number not in impossible:
+            return state, impossible
+        seen = (m for m in self._seen if isinstance(m, SeenAction) and m.number == number)
+        action = next(seen)
+        step = self.bank.table.find(action.words)
+        assert step is not None
+        after = self.assistant.observe(state, step, robot=action.is_robot)
+        return after, impossible - {number}
+
+    def _after_pass(self, state: Any, agent: str) -> Any:
+        if not self.has_turns:
+            return state  # a wait says nothing where it is not known whose turn it is
+        if not self.takes_turns:
+            state = at_turn(self.assistant, state, agent)
+        return after_wait(self.assistant, state)

@@ -1,0 +1,170 @@
+"""What people report (events), and what the robot asks (commands), besides those of execution."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from hrcplan.core.numbers import Number
+from hrcplan.execution import codec
+from hrcplan.execution import events as ev
+from hrcplan.execution.driver import QUESTIONS
+from hrcplan.execution.events import Command, Event
+from hrcplan.pddl.model import Fact, FluentKey
+
+ACT, ASK, NONE = "act", "ask", "none"
+READINGS = (ACT, ASK, NONE)
+DONE, WHICH = "done", "which"
+YES, NO = "yes", "no"
+
+
+@dataclass(frozen=True, slots=True)
+class Begun:
+    """A person begins an action that nobody dispatched."""
+
+    t: float
+    agent: str
+    action: str
+    args: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Passed:
+    """A person does nothing now; "" is whoever has the turn."""
+
+    t: float
+    agent: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Said:
+    """A person says something; ``agent`` is "" if it is not known who."""
+
+    t: float
+    agent: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Read:
+    """The answer to `AskReading`: ``act`` (one option), ``ask`` (several), or ``none``.
+
+    Options are ground actions as text.
+    """
+
+    t: float
+    outcome: str
+    options: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Answered:
+    """A person answers the question that is open."""
+
+    t: float
+    choice: str
+
+
+@dataclass(frozen=True, slots=True)
+class Undone:
+    """A person takes a reported action back: it was not done."""
+
+    t: float
+    number: int
+
+
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """The goal that a person has now; only robots that know it use it."""
+
+    t: float
+    goal: str
+
+
+@dataclass(frozen=True, slots=True)
+class Paused:
+    """The robot is to begin nothing more."""
+
+    t: float
+
+
+@dataclass(frozen=True, slots=True)
+class Continued:
+    """The pause is over."""
+
+    t: float
+
+
+@dataclass(frozen=True, slots=True)
+class Chosen:
+    """The answer to `AskStep`: a ground action of a robot, or "" to wait; and what is believed.
+
+    Attributes:
+        t: When.
+        action: The action's name; "" to wait.
+        args: Its objects, the robot included.
+        goals: Every goal's name and probability, the likeliest first.
+        n_declared: How many changes of goal were declared so far.
+        value: How good the assistant finds the action; None if it does not say.
+        helps: The likeliest goals that the action helps.
+    """
+
+    t: float
+    action: str = ""
+    args: tuple[str, ...] = ()
+    goals: tuple[tuple[str, float], ...] = ()
+    n_declared: int = 0
+    value: float | None = None
+    helps: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class AskStep:
+    """Request for a step of one of these robots."""
+
+    t: float
+    agents: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class AskReading:
+    """Request for the action that one of these people means."""
+
+    t: float
+    agents: tuple[str, ...]
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Ask:
+    """A question to a person: ``done`` (do these goals end it?) or ``which`` (of these actions)."""
+
+    t: float
+    question: str
+    options: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Correct:
+    """The state is this: something that was reported has not happened."""
+
+    t: float
+    facts: frozenset[Fact]
+    numbers: Mapping[FluentKey, Number]
+    absent: frozenset[Fact] = frozenset()
+
+
+PersonEvent = (
+    Begun | Passed | Said | Answered | Undone | Wanted | Paused | Continued | ev.Sensed
+    | ev.Ended | ev.StopAsked
+)  # fmt: skip
+SharedEvent = Event | PersonEvent | Read | Chosen
+SharedCommand = Command | AskStep | AskReading | Ask | Correct
+
+KINDS: Mapping[str, type] = {
+    **codec.KINDS,
+    **{kind.__name__.lower(): kind
+       for kind in (Begun, Passed, Said, Read, Answered, Undone, Wanted, Paused, Continued, Chosen,
+                    AskStep, AskReading, Ask, Correct)},
+}  # fmt: skip
+SHARED_QUESTIONS: Mapping[type, type] = {**QUESTIONS, AskStep: Chosen, AskReading: Read}

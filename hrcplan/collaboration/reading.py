@@ -1,0 +1,55 @@
+"""The interface of readers: what a person says, to the action that is meant.
+
+`read_exactly` takes an action's own words. A reader of free text has the same signature.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+from hrcplan.collaboration.events import ACT, ASK, NONE
+
+MAX_OPTIONS = 4
+Words = tuple[str, ...]
+"""A ground action: its name and its objects."""
+
+
+@dataclass(frozen=True, slots=True)
+class StepReading:
+    """What was understood: ``act`` (one option), ``ask`` (which of the options?), or ``none``."""
+
+    outcome: str
+    options: tuple[Words, ...] = ()
+
+
+class Reader(Protocol):
+    """Finds the action that a person means."""
+
+    def __call__(
+        self, text: str, steps: Sequence[Words], prior: Mapping[Words, float]
+    ) -> StepReading:
+        """Return what a text means.
+
+        Args:
+            text: What was said.
+            steps: The ground actions that the person could begin now.
+            prior: How probable each of them is, as far as the belief says.
+        """
+
+
+def read_exactly(text: str, steps: Sequence[Words], prior: Mapping[Words, float]) -> StepReading:
+    """Return the action that a text names in PDDL: with or without parentheses and agent.
+
+    >>> read_exactly("get yogurt", [("get", "human", "yogurt")], {})
+    StepReading(outcome='act', options=(('get', 'human', 'yogurt'),))
+    """
+    words = tuple(text.lower().replace("(", " ").replace(")", " ").split())
+    fitting = [step for step in steps if words in (step, (step[0], *step[2:]))]
+    if not fitting or not words:
+        return StepReading(NONE)
+    if len(fitting) == 1:
+        return StepReading(ACT, (fitting[0],))
+    likeliest = sorted(fitting, key=lambda step: -prior.get(step, 0.0))
+    return StepReading(ASK, tuple(likeliest[:MAX_OPTIONS]))

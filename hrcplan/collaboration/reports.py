@@ -1,0 +1,198 @@
+"""What people report to the companion: actions, words, answers, corrections."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from hrcplan.collaboration import events as shared
+from hrcplan.collaboration.history import (
+    EndedAction,
+    PassedTurn,
+    begun_action,
+    state_after,
+    without,
+)
+from hrcplan.collaboration.run import CompanionPhase, CompanionRun, CompanionStep
+from hrcplan.collaboration.setup import FREE, TURNS, CollaborationSetup
+from hrcplan.core.numbers import Number
+from hrcplan.execution import events as ev
+from hrcplan.execution.action_model import UNIT_S, BoundAction
+from hrcplan.execution.decide import Decider
+from hrcplan.execution.observe import Observer
+from hrcplan.execution.run import Run, begin_action
+from hrcplan.pddl.model import fact_text
+from hrcplan.pddl.semantics import Undefined
+from hrcplan.planners.lanes import shortest_duration
+from hrcplan.plans import PlannedAction, parse_plan
+
+
+class Reports:
+    """Takes in what people report in one collaboration."""
+
+    def __init__(self, setup: CollaborationSetup, observer: Observer, decider: Decider) -> None:
+        self.setup, self.actions = setup, setup.model.actions
+        self.observer, self.decider = observer, decider
+
+    def begin(self, companion: CompanionRun, step: BoundAction) -> tuple[CompanionRun, ev.Dispatch]:
+        """Return the run when an action that can begin has begun."""
+        duration = self._duration(step)
+        lasts = float(duration if self.setup.pace == FREE and step.schema.durative else UNIT_S)
+        run, dispatch = begin_action(self.actions, companion.run, step, duration, lasts)
+        companion = replace(companion, run=run, has_acted=True)
+        return companion.with_dispatches((dispatch,), self.setup.robots), dispatch
+
+    def _duration(self, step: BoundAction) -> Number:
+        if not step.schema.durative:
+            return 0
+        try:
+            return shortest_duration(self.setup.problem, step.schema, step.binding)
+        except Undefined:
+            return UNIT_S
+
+    def obstacle(self, run: Run, step: BoundAction) -> str | None:
+        """Return what keeps an action from beginning now; None if nothing does."""
+        if step.busy & {agent for r in run.running for agent in r.step.busy}:
+            return "an agent that is busy"
+        return self.actions.obstacle(run.state, step, self.decider.planner_values(run))
+
+    def begun(self, companion: CompanionRun, event: shared.Begun) -> CompanionStep:
+        """Return the run when a person has begun an action; an impossible one is only reported."""
+        step = self.actions.step(PlannedAction(event.action, event.args))
+        text = fact_text((event.action, *event.args))
+        if step is None:
+            return _told(companion, "unknown-action", f"there is no action {text}")
+        agent = step.agent or event.agent
+        if agent not in self.setup.people or (step.agent and event.agent not in ("", step.agent)):
+            return _told(companion, "unknown-agent", f"{text} is no action of a person here")
+        if self.setup.has_one_goal and _runs(companion.run, step):
+            return _closed(companion), ()  # it was asked for
+        if not self._has_turn(companion, agent):
+            return _told(companion, "not-your-turn", f"it is not the turn of {agent}")
+        after, cancels = self._without_request(companion, agent)
+        obstacle = self.obstacle(after.run, step)
+        if obstacle is not None:
+            return _told(companion, "impossible", f"{text} needs {obstacle}")
+        after, dispatch = self.begin(_closed(after), step)
+        if self.setup.has_one_goal:
+            run = after.run.with_reason(ev.DEVIATION, f"{agent} does {text}")
+            after = replace(after, run=run)
+        return after, (*cancels, dispatch)
+
+    def _has_turn(self, companion: CompanionRun, agent: str) -> bool:
+        if self.setup.pace != TURNS or self.setup.has_one_goal:
+            return True
+        return agent in self.setup.slots[companion.slot] and not companion.has_acted
+
+    def _without_request(self, companion: CompanionRun, agent: str) -> CompanionStep:
+        """Return the run without what a plan asks an agent to do, and the commands for that."""
+        requests = [
+            r for r in companion.running if r.index is not None and agent in r.step.busy
+        ]  # fmt: skip
+        for request in requests:
+            ended = ev.Ended(companion.t, request.number, ev.CANCELLED)
+            run, _ = self.observer.outcome(companion.run, ended)
+            companion = replace(companion, run=run).plus(EndedAction(request.number, ev.CANCELLED))
+        return companion, tuple(ev.Cancel(companion.t, r.number) for r in requests)
+
+    def passed(self, companion: CompanionRun, event: shared.Passed) -> CompanionStep:
+        """Return the run when a person does nothing in their turn, or now."""
+        slot = self.setup.slots[companion.slot]
+        agent = event.agent or slot[0]
+        if self.setup.has_one_goal:
+            return _closed(companion), ()
+        if not self._has_turn(companion, agent):
+            return _told(companion, "not-your-turn", f"it is not the turn of {agent}")
+        return replace(_closed(companion), has_acted=True).plus(PassedTurn(agent)), ()
+
+    def said(self, companion: CompanionRun, event: shared.Said) -> CompanionStep:
+        """Return the run when a person has said something, and the question what it means."""
+        agents = (event.agent,) if event.agent else self._listeners(companion)
+        companion = replace(companion, phase=CompanionPhase.READING)
+        return companion, (shared.AskReading(companion.t, agents, event.text),)
+
+    def _listeners(self, companion: CompanionRun) -> tuple[str, ...]:
+        if self.setup.pace == TURNS and not self.setup.has_one_goal:
+            slot = self.setup.slots[companion.slot]
+            if not self.setup.robots.intersection(slot):
+                return slot
+        return self.setup.people
+
+    def read(self, companion: CompanionRun, event: shared.Read) -> CompanionStep:
+        """Return the run when the meaning of words has arrived: an action, a question, nothing."""
+        if companion.phase is not CompanionPhase.READING:
+            return _told(companion, "unasked-reading", "a reading that was not asked for")
+        is_asking = companion.question is not None
+        phase = CompanionPhase.ASKING if is_asking else CompanionPhase.LISTENING
+        companion = replace(companion, phase=phase)
+        if event.outcome == shared.ACT and len(event.options) == 1:
+            return self._begun_text(companion, event.options[0])
+        if event.outcome == shared.ASK and event.options:
+            ask = shared.Ask(companion.t, shared.WHICH, event.options)
+            return replace(companion, phase=CompanionPhase.ASKING, question=ask), (ask,)
+        return _told(companion, "not-understood", "this is no action that can be done now")
+
+    def _begun_text(self, companion: CompanionRun, text: str) -> CompanionStep:
+        action = parse_plan(text).actions[0]
+        return self.begun(companion, shared.Begun(companion.t, "", action.name, action.args))
+
+    def answered(self, companion: CompanionRun, event: shared.Answered) -> CompanionStep:
+        """Return the run when the open question has been answered."""
+        question = companion.question
+        if question is None:
+            return _told(companion, "unasked-answer", "an answer to no question")
+        if question.question == shared.WHICH:
+            if event.choice not in question.options:
+                return _told(companion, "unknown-answer", f"'{event.choice}' was no option")
+            return self._begun_text(_closed(companion), event.choice)
+        if event.choice != shared.YES:
+            return _closed(companion), ()
+        run, commands = self.decider.finish(companion.run, ev.GOAL, ", ".join(question.options))
+        reached = frozenset(question.options)
+        return replace(companion, run=run, question=None, reached=reached), commands
+
+    def undone(self, companion: CompanionRun, event: shared.Undone) -> CompanionStep:
+        """Return the run as if a person had never begun an action; what robots did remains."""
+        action = begun_action(companion.history, event.number)
+        if action is None or action.is_robot:
+            return _told(companion, "nothing-to-undo", "no action of a person can be taken back")
+        history = without(companion.history, event.number)
+        state, effects = state_after(history, self.actions)
+        running = tuple(
+            replace(r, start_effects=effects[r.number])
+            for r in companion.running if r.number != event.number
+        )  # fmt: skip
+        run = replace(companion.run, state=state, running=running)
+        if self.setup.has_one_goal:
+            text = fact_text(action.words)
+            run = run.with_reason(ev.DEVIATION, f"{text} was not done")
+        slot = next(i for i, s in enumerate(self.setup.slots) if action.agent in s)
+        companion = replace(
+            _closed(companion), run=run, history=history, slot=slot, has_acted=False,
+        )  # fmt: skip
+        cancel = (ev.Cancel(run.t, event.number),) if _is_running(companion, event) else ()
+        model = self.actions
+        correct = shared.Correct(run.t, model.changing(state), state.values, model.absent(state))
+        return companion, (*cancel, correct)
+
+
+def _is_running(companion: CompanionRun, event: shared.Undone) -> bool:
+    return companion.run.running_action(event.number) is not None
+
+
+def _runs(run: Run, step: BoundAction) -> bool:
+    return any(r.step == step for r in run.running)
+
+
+def _closed(companion: CompanionRun) -> CompanionRun:
+    """Return the run without an open question: whoever goes on has not ended it."""
+    question = companion.question
+    if question is None:
+        return companion
+    denied = companion.denied
+    if question.question == shared.DONE:
+        denied = denied | frozenset(question.options)
+    return replace(companion, question=None, denied=denied, phase=CompanionPhase.LISTENING)
+
+
+def _told(companion: CompanionRun, code: str, message: str) -> CompanionStep:
+    return companion, (ev.Tell(companion.t, code, message),)
