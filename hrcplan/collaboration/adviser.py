@@ -3,26 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from hrcplan.assistance.assistant import Assistant, Explains
+from hrcplan.assistance.assistant import Assistant, BankAssistant, Explains
 from hrcplan.assistance.explanation import Explanation
-from hrcplan.bank import Bank, StepTable
+from hrcplan.assistance.step_values import NextSteps
+from hrcplan.bank import Bank
 from hrcplan.collaboration import events as shared
 from hrcplan.collaboration.belief_fold import BeliefFold
 from hrcplan.collaboration.events import SharedCommand, SharedEvent
 from hrcplan.collaboration.history import History
-from hrcplan.collaboration.reading import Reader, Words, read_exactly
+from hrcplan.collaboration.reading import ActionWords, Reader, read_exactly
 from hrcplan.collaboration.run import CompanionRun
 from hrcplan.collaboration.setup import TURNS, CollaborationSetup
 from hrcplan.errors import UsageError
 from hrcplan.execution import events as ev
 from hrcplan.execution.driver import PlanProvider
 from hrcplan.execution.replanner import Replanner
-from hrcplan.inference.belief import n_declared
+from hrcplan.inference.belief import HasProgress, n_declared
 from hrcplan.pddl.model import fact_text
 from hrcplan.plans import PlannedAction
 
@@ -135,18 +137,21 @@ class Adviser:
         return PlannedAction(ground.name, ground.args)
 
     def _explained(self, chosen: shared.Chosen, state: Any, action: PlannedAction) -> shared.Chosen:
-        """Return a choice with its action, its value and the goals that it helps."""
-        value: float | None = None
+        """Return a choice with its action, and the likeliest goals that it helps."""
+        step = self.bank.table.find((action.name, *action.args))
+        following = self._following(state)
         helps: tuple[str, ...] = ()
-        explanation = self.explain(state)
-        step = str(self.bank.table[self.bank.table.find((action.name, *action.args)) or 0])
-        for candidate in explanation.candidates if explanation else ():
-            if candidate.action == step:
-                value = float(candidate.value)
-                helps = tuple(name for name, _ in candidate.helps[:N_HELPED])
-        return shared.Chosen(
-            chosen.t, action.name, action.args, chosen.goals, chosen.n_declared, value, helps
-        )
+        if following is not None:
+            goals = following.goals[following.steps == step].tolist()
+            names = {self.bank.names[goal] for goal in goals}
+            helps = tuple(name for name, _ in chosen.goals if name in names)[:N_HELPED]
+        return replace(chosen, action=action.name, args=action.args, helps=helps)
+
+    def _following(self, state: Any) -> NextSteps | None:
+        """Return what each goal has next; None if the assistant does not follow plan graphs."""
+        if isinstance(self.assistant, BankAssistant) and isinstance(state, HasProgress):
+            return self.assistant.step_values.next_steps(state.progress)
+        return None
 
     def explain(self, state: Any) -> Explanation | None:
         """Return what the assistant weighs in a state; None if it does not say."""
@@ -154,7 +159,7 @@ class Adviser:
 
     # What people can do, and what they mean.
 
-    def possible(self, agents: Sequence[str]) -> list[Words]:
+    def possible(self, agents: Sequence[str]) -> list[ActionWords]:
         """Return the ground actions that people can begin now, in order."""
         if self.run is None:
             return []
@@ -175,11 +180,21 @@ class Adviser:
         reading = self.reader(ask.text, steps, self.prior(steps))
         return shared.Read(ask.t, reading.outcome, tuple(map(fact_text, reading.options)))
 
-    def prior(self, steps: Sequence[Words]) -> Mapping[Words, float]:
-        """Return how probable each of several next steps of a person is, as the belief says."""
-        return {}
+    def prior(self, steps: Sequence[ActionWords]) -> Mapping[ActionWords, float]:
+        """Return how probable each of several next actions of a person is, as the belief says.
 
-
-def next_step_words(table: StepTable, step: int) -> Words:
-    """Return the words of a step."""
-    return table[step].words
+        The plans' next steps of a goal are equally likely; what no goal has next is left out.
+        """
+        if self.setup.has_one_goal:
+            return {}
+        state = self.fold.state(self.history)
+        following = self._following(state)
+        if following is None or not len(following.steps):
+            return {}
+        posterior = self.assistant.posterior(state)
+        n_next = np.maximum(1, np.bincount(following.goals, minlength=len(posterior)))
+        chances = np.bincount(
+            following.steps, (posterior / n_next).take(following.goals), len(self.bank.table)
+        )
+        by_step = ((words, self.bank.table.find(words)) for words in steps)
+        return {w: float(chances[s]) for w, s in by_step if s is not None and chances[s] > 0}

@@ -14,7 +14,7 @@ from hrcplan.bank.team_moves import team_moves
 from hrcplan.collaboration.adviser import Adviser
 from hrcplan.collaboration.companion import Companion
 from hrcplan.collaboration.events import SHARED_QUESTIONS, SharedCommand, SharedEvent
-from hrcplan.collaboration.persons import Person, SimulatedPerson
+from hrcplan.collaboration.persons import CooperativePerson, Person, SimulatedPerson
 from hrcplan.collaboration.run import CompanionRun
 from hrcplan.collaboration.setup import (
     PACES,
@@ -110,7 +110,9 @@ def simulated(
 ) -> CollaborationParts:  # fmt: skip
     """Return the parts of a collaboration with a simulated human of turn-taking episodes."""
     adviser = Adviser(setup, bank, make_assistant or assistant_of(setup))
-    tells = False if setup.has_one_goal else isinstance(adviser.assistant, KnowsGoal)
+    if setup.has_one_goal:
+        return parts_with(setup, bank, adviser, CooperativePerson(), nature)
+    tells = isinstance(adviser.assistant, KnowsGoal)
     person = SimulatedPerson(setup, bank, HUMANS.make(human, bank, course), course, tells)
     return parts_with(setup, bank, adviser, person, nature)
 

@@ -105,7 +105,6 @@ class Chosen:
         args: Its objects, the robot included.
         goals: Every goal's name and probability, the likeliest first.
         n_declared: How many changes of goal were declared so far.
-        value: How good the assistant finds the action; None if it does not say.
         helps: The likeliest goals that the action helps.
     """
 
@@ -114,7 +113,6 @@ class Chosen:
     args: tuple[str, ...] = ()
     goals: tuple[tuple[str, float], ...] = ()
     n_declared: int = 0
-    value: float | None = None
     helps: tuple[str, ...] = ()
 
 

@@ -32,6 +32,16 @@ class Person(Protocol):
         """Return what these people do now; nothing if they do not act before something happens."""
 
 
+class CooperativePerson:
+    """People who do what a plan asks for, and are content when its goal holds."""
+
+    is_live = False
+
+    def act(self, run: CompanionRun, agents: tuple[str, ...]) -> tuple[PersonEvent, ...]:
+        """Return the answer to an open question; nothing else is done unasked."""
+        return (shared.Answered(run.t, shared.YES),) if run.question is not None else ()
+
+
 class SimulatedPerson:
     """A simulated human of turn-taking episodes, who acts for all people.
 

@@ -12,7 +12,7 @@ from typing import Protocol
 from hrcplan.collaboration.events import ACT, ASK, NONE
 
 MAX_OPTIONS = 4
-Words = tuple[str, ...]
+ActionWords = tuple[str, ...]
 """A ground action: its name and its objects."""
 
 
@@ -21,14 +21,14 @@ class StepReading:
     """What was understood: ``act`` (one option), ``ask`` (which of the options?), or ``none``."""
 
     outcome: str
-    options: tuple[Words, ...] = ()
+    options: tuple[ActionWords, ...] = ()
 
 
 class Reader(Protocol):
     """Finds the action that a person means."""
 
     def __call__(
-        self, text: str, steps: Sequence[Words], prior: Mapping[Words, float]
+        self, text: str, steps: Sequence[ActionWords], prior: Mapping[ActionWords, float]
     ) -> StepReading:
         """Return what a text means.
 
@@ -39,7 +39,9 @@ class Reader(Protocol):
         """
 
 
-def read_exactly(text: str, steps: Sequence[Words], prior: Mapping[Words, float]) -> StepReading:
+def read_exactly(
+    text: str, steps: Sequence[ActionWords], prior: Mapping[ActionWords, float]
+) -> StepReading:
     """Return the action that a text names in PDDL: with or without parentheses and agent.
 
     >>> read_exactly("get yogurt", [("get", "human", "yogurt")], {})
