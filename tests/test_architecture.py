@@ -9,6 +9,7 @@ import tokenize
 from collections import defaultdict
 from collections.abc import Iterator
 from pathlib import Path
+from runpy import run_path
 
 import pytest
 
@@ -92,6 +93,12 @@ def test_no_imports_go_round() -> None:
         for name in leaves:
             del edges[name]
     assert edges == {}, "these modules import one another"
+
+
+def test_the_figure_shows_the_rooms_of_the_import_contract() -> None:
+    """After a change: ``python tools/make_pictures.py architecture``."""
+    drawing = run_path(str(ROOT / "tools" / "make_pictures.py"))["architecture"]()
+    assert (ROOT / "docs" / "images" / "architecture.svg").read_text("utf-8") == drawing
 
 
 def headings(document: Path) -> set[str]:

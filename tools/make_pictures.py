@@ -1,17 +1,20 @@
 """Make the pictures of the documents: ``python tools/make_pictures.py``.
 
-Every chart is what a command writes; only the figure of the architecture is drawn here.
+Every chart is what a command writes; only the figure of the architecture is drawn here, alone with
+``python tools/make_pictures.py architecture``.
 """
 
 from __future__ import annotations
 
 import subprocess
 import sys
+import tomllib
 from html import escape
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-IMAGES = Path(__file__).resolve().parent.parent / "docs" / "images"
+ROOT = Path(__file__).resolve().parent.parent
+IMAGES = ROOT / "docs" / "images"
 SEEN = """(get human yogurt)
 (get human berries)
 (turn_on human blender)
@@ -32,10 +35,6 @@ COMMANDS = [
     ["bank", "build", "kitchen", "-o", "kitchen.bank"],
     ["infer", "kitchen.bank", "seen.txt", "--plot", "images/posterior.svg"],
 ]  # fmt: skip
-FLOORS = [
-    "cli", "studies", "testing, pytest_plugin", "episodes | execution", "assistance", "inference",
-    "agents", "bank", "planners", "validation, plans", "search", "task", "pddl", "core, errors",
-]  # fmt: skip
 BOXES = [  # concept, what it is, x, y
     ("Task", "what can be done, by whom, at what cost", 10, 130),
     ("Plan", "who does what, when; replayed, proven", 300, 30),
@@ -47,11 +46,19 @@ ARROWS = [  # from, to, label
     (0, 1, "planners"), (1, 2, "execution"), (0, 3, "goals"), (3, 4, "observe"),
 ]  # fmt: skip
 WIDTH, HEIGHT = 205, 84
+TOP, BOTTOM = 36, 384  # of the floors
 
 
 def main() -> None:
-    """Run the commands and draw the figure."""
+    """Run the commands and draw the figure; with the word ``architecture`` the figure alone."""
     IMAGES.mkdir(exist_ok=True)
+    if "architecture" not in sys.argv:
+        make_charts()
+    (IMAGES / "architecture.svg").write_text(architecture(), "utf-8")
+
+
+def make_charts() -> None:
+    """Run the commands that write charts."""
     with TemporaryDirectory() as folder:
         Path(folder, "seen.txt").write_text(SEEN)
         Path(folder, "images").mkdir()
@@ -59,7 +66,14 @@ def main() -> None:
             subprocess.run([sys.executable, "-m", "hrcplan", *words], cwd=folder, check=True)
         for file in Path(folder, "images").iterdir():
             (IMAGES / file.name).write_bytes(file.read_bytes())
-    (IMAGES / "architecture.svg").write_text(architecture(), "utf-8")
+
+
+def floors() -> list[str]:
+    """Return the rooms of the package from the top, as the import contract lists them."""
+    settings = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
+    contracts = settings["tool"]["importlinter"]["contracts"]
+    layers = next(contract["layers"] for contract in contracts if "layers" in contract)
+    return [layer.strip("()") for layer in layers if layer != "__main__"]
 
 
 def architecture() -> str:
@@ -71,12 +85,17 @@ def architecture() -> str:
         parts += _box(name, words, x, y)
     parts += _arrow_from_file(BOXES[0][2:])
     parts.append(_text(825, 24, "floors, from the top", "#1a237e", 16))
-    for i, floor in enumerate(FLOORS):
-        y = 40 + 24 * i
-        shade = f"hsl(231 48% {94 - 3 * i}%)"
-        parts.append(f'<rect x="825" y="{y}" width="175" height="22" rx="3" fill="{shade}"/>')
-        color = "#111" if i < 10 else "#fff"
-        parts.append(_text(912, y + 16, floor, color, 14, "middle"))
+    rooms = floors()
+    height = (BOTTOM - TOP) / len(rooms)
+    for i, room in enumerate(rooms):
+        y = TOP + height * i
+        shade = f"hsl(231 48% {94 - 40 * i // len(rooms)}%)"
+        parts.append(
+            f'<rect x="825" y="{y:.1f}" width="175" height="{height - 2:.1f}" rx="3" '
+            f'fill="{shade}"/>'
+        )
+        color = "#111" if i < 0.7 * len(rooms) else "#fff"
+        parts.append(_text(912, round(y + height / 2 + 3), room, color, 12, "middle"))
     return (
         '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 1010 390" font-family="sans-serif" '
         'role="img"><title>The five concepts of hrcplan and the floors of its package</title>'
@@ -100,11 +119,12 @@ def _box(name: str, words: str, x: int, y: int) -> list[str]:
 
 def _arrow(start: tuple[int, int], end: tuple[int, int], label: str) -> list[str]:
     x1, y1, x2, y2 = start[0] + WIDTH, start[1] + 40, end[0], end[1] + 40
+    aside = 16 if y2 < y1 else 0
     below = 44 if y2 > y1 else (-10 if y2 == y1 else -34)
     return [
         f'<line x1="{x1}" y1="{y1}" x2="{x2 - 2}" y2="{y2}" stroke="#3949ab" stroke-width="2" '
         'marker-end="url(#head)"/>',
-        _text((x1 + x2) // 2, (y1 + y2) // 2 + below, label, "#333", 14, "middle"),
+        _text((x1 + x2) // 2 - aside, (y1 + y2) // 2 + below, label, "#333", 14, "middle"),
     ]
 
 

@@ -1,6 +1,6 @@
 """What the site makes from the code: the reference of all commands, and examples of docstrings.
 
-MkDocs calls ``on_config`` and ``on_files`` before it reads the pages.
+MkDocs calls ``on_config`` and ``on_files`` before it reads the pages, ``on_page_content`` after.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from markdown import Extension, Markdown
 from markdown.preprocessors import Preprocessor
 from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.structure.files import File, Files
+from mkdocs.structure.pages import Page
 
 from hrcplan.cli.main import main as hrcplan
 
@@ -63,6 +64,11 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     page = Path("reference/cli.md").as_posix()
     files.append(File.generated(config, page, content=commands_page()))
     return files
+
+
+def on_page_content(html: str, page: Page, config: MkDocsConfig, files: Files) -> str:
+    """Mark code of one short word: it is not broken at a hyphen, as in ``--json``."""
+    return re.sub(r"<code>([^<\s]{1,28})</code>", r'<code class="word">\1</code>', html)
 
 
 def commands_page() -> str:
