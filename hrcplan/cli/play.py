@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import rich_click as click
 
 from hrcplan.cli import options, output
 
 if TYPE_CHECKING:
+    from rich.table import Table
+
     from hrcplan.studies.changed_mind.script import NarratedEpisode, NarratedTurn
 
 
@@ -49,7 +51,7 @@ def command(script: str, methods: tuple[str, ...], show_why: bool) -> int:
     return 0
 
 
-def _side_by_side(narratives: Sequence[NarratedEpisode]) -> Any:
+def _side_by_side(narratives: Sequence[NarratedEpisode]) -> Table:
     """Return a table with a row per turn and a column per method."""
     from rich.markup import escape
     from rich.table import Table

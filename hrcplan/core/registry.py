@@ -14,14 +14,14 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Hashable, Iterable, Iterator, Mapping
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from functools import partial
 from importlib import import_module, invalidate_caches
 from importlib.metadata import EntryPoint, entry_points
 from importlib.util import find_spec
-from inspect import isclass, isfunction
+from inspect import isfunction
 from types import ModuleType
 from typing import Generic, ParamSpec, Protocol, TypeVar, cast
 
@@ -69,7 +69,7 @@ class PartNames:
     def _entry_points(self) -> Iterable[EntryPoint]:
         return entry_points(group=self.group)
 
-    def _entry(self, name: str) -> object | None:
+    def _entry(self, name: str) -> Hashable | None:
         """Return a built-in or installed part; None if there is none of this name.
 
         Raises:
@@ -86,7 +86,7 @@ class PartNames:
             message = f"{self.kind} '{name}' cannot be loaded from {place}: {_in_words(error)}"
             raise self.load_error(message, hint="is its package installed?") from error
 
-    def _own(self, name: str) -> object | None:
+    def _own(self, name: str) -> Hashable | None:
         """Return a user's own part, named as ``module:Class``; None if it is no such name.
 
         Raises:
@@ -100,7 +100,7 @@ class PartNames:
             hint = nearest(attribute, [n for n in vars(module) if not n.startswith("_")])
             message = f"module '{path}' has no '{attribute}'"
             raise UsageError(message, code=self._code, path=module.__file__, hint=hint)
-        part: object = vars(module)[attribute]
+        part: Hashable = vars(module)[attribute]
         return part
 
     @property
@@ -167,9 +167,9 @@ class Registry(PartNames, Generic[P, T]):
             raise self._unknown(name, is_typed)
         return self._check(name, part)
 
-    def _check(self, name: str, part: object) -> Callable[P, T]:
+    def _check(self, name: str, part: Hashable) -> Callable[P, T]:
         """Return a part if it is a class that has the methods of the protocol."""
-        if not isclass(part):
+        if not isinstance(part, type):
             raise UsageError(f"{name} is no class", code=f"not-a-{self.kind}")
         lacks = [n for n in methods(self.protocol) if n not in dir(part)]
         if lacks:
@@ -204,7 +204,7 @@ class ObjectRegistry(PartNames, Generic[T]):
         name = self.canonical(name)
         return self._check(name, self._entry(name), is_typed=False)
 
-    def _check(self, name: str, part: T | object | None, is_typed: bool) -> T:
+    def _check(self, name: str, part: T | Hashable | None, is_typed: bool) -> T:
         if part is None:
             raise self._unknown(name, is_typed)
         if not isinstance(part, self.protocol):
@@ -225,10 +225,10 @@ def methods(protocol: type) -> list[str]:
     return [name for name in members(protocol) if isfunction(getattr(protocol, name, None))]
 
 
-def _member(place: str) -> object:
+def _member(place: str) -> Hashable:
     """Return what ``module:name`` is in an installed module."""
     module, _, attribute = place.partition(":")
-    value: object = getattr(import_module(module), attribute)
+    value: Hashable = getattr(import_module(module), attribute)
     return value
 
 

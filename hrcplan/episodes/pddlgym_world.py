@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import io
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from types import ModuleType
 from typing import Any, Protocol
 
 from hrcplan.bank import Bank
@@ -40,8 +41,8 @@ class PddlgymWorld:
             raise UnsupportedError("pddlgym has no numbers, and an action changes one")
         self._core = _core()
         self._env = environment(replace(bank.goals.problem, goal=TRUE))
-        self._objects: dict[str, Any] = {}
-        self._literals: dict[int, Any] = {}
+        self._objects: dict[str, _Entity] = {}
+        self._literals: dict[int, _Literal] = {}
         self._now = self.begin()
 
     def begin(self) -> int:
@@ -71,7 +72,7 @@ class PddlgymWorld:
         self._now = self._bits()
         return self._now
 
-    def _literal(self, action: int) -> Any:
+    def _literal(self, action: int) -> _Literal:
         if action not in self._literals:
             ground = self._task.actions[action]
             predicate = self._env.domain.predicates[ground.name]
@@ -103,12 +104,40 @@ class _Literal(Protocol):
     def variables(self) -> Sequence[_Entity]: ...
 
 
+class _State(Protocol):
+    """What is read of a state of pddlgym."""
+
+    @property
+    def objects(self) -> Iterable[_Entity]: ...
+
+    @property
+    def literals(self) -> Iterable[_Literal]: ...
+
+
+class _Domain(Protocol):
+    @property
+    def predicates(self) -> Mapping[str, Callable[..., _Literal]]: ...
+
+
+class _Environment(Protocol):
+    """What is used of an environment of pddlgym."""
+
+    @property
+    def domain(self) -> _Domain: ...
+
+    def reset(self) -> tuple[_State, Mapping[str, Any]]: ...
+
+    def get_state(self) -> _State: ...
+
+    def set_state(self, state: _State) -> None: ...
+
+
 def fact_of(literal: _Literal) -> Fact:
     """Return a literal of pddlgym as a fact, or an action of its as name and arguments."""
     return (literal.predicate.name, *(entity.name for entity in literal.variables))
 
 
-def environment(problem: Problem) -> Any:
+def environment(problem: Problem) -> _Environment:
     """Return pddlgym's environment of a problem, its operators as actions; ``reset()`` begins.
 
     The files that it reads are gone afterwards; its own messages about them name them still.
@@ -126,12 +155,13 @@ def environment(problem: Problem) -> Any:
         Path(folder, "domain.pddl").write_text(domain)
         (problems / "problem.pddl").write_text(text)
         try:
-            return core.PDDLEnv(
+            made: _Environment = core.PDDLEnv(
                 str(Path(folder, "domain.pddl")), str(problems),
                 operators_as_actions=True, dynamic_action_space=True,
             )  # fmt: skip
         except Exception as error:
             raise UnsupportedError(f"pddlgym cannot hold this problem: {error}") from error
+    return made
 
 
 def _check_conditions(problem: Problem) -> None:
@@ -148,7 +178,7 @@ def _check_conditions(problem: Problem) -> None:
                     raise UnsupportedError(f"pddlgym never looks at {atom} in '{action.name}'")
 
 
-def _core() -> Any:
+def _core() -> ModuleType:
     with _silence():
         try:
             from pddlgym import core
@@ -156,7 +186,8 @@ def _core() -> Any:
             message = f"pddlgym cannot be imported: {error}"
             hint = "pip install 'hrcplan[pddlgym]', on a Python before 3.12"
             raise UsageError(message, code="missing-extra", hint=hint) from error
-    return core
+    module: ModuleType = core
+    return module
 
 
 @contextmanager

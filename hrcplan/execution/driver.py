@@ -162,9 +162,12 @@ class Driver(Generic[R, E, C]):
             run, ask = self._step(run, self._answer(ask))
         return run
 
-    def _answer(self, ask: C) -> Any:
-        answer: Any = self.record.recorded_answer(self.questions[type(ask)])
-        return self.planner.answer(ask) if answer is None else answer
+    def _answer(self, ask: C) -> E:
+        answer: E | None = self.record.recorded_answer(self.questions[type(ask)])
+        if answer is None:
+            answer = self.planner.answer(ask)
+        assert answer is not None
+        return answer
 
     def _step(
         self, run: R, event: E | ev.Overdue | ev.Settled | ev.StopAsked

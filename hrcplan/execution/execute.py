@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from html import escape
 from pathlib import Path
@@ -196,7 +196,7 @@ def _planners(planner: str | Planner) -> tuple[str | Planner, ...]:
     return names
 
 
-def _check_type(name: str, value: object, *types: type) -> None:
+def _check_type(name: str, value: Hashable, *types: type) -> None:
     if not isinstance(value, types) or isinstance(value, bool):
         types_text = " or ".join("None" if t is type(None) else t.__name__ for t in types)
         raise TypeError(f"{name} is {types_text}, not {type_text(value)}")

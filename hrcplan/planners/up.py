@@ -281,7 +281,7 @@ def _solve(job: Mapping[str, Any]) -> dict[str, Any]:
     return {"unsupported": "; ".join(dict.fromkeys(faults))}
 
 
-def _build(form_input: list[str] | UpTable) -> Any:
+def _build(form_input: list[str] | UpTable) -> UpProblem:
     from unified_planning import model
 
     return _read(*form_input) if isinstance(form_input, list) else Build(model, form_input).problem

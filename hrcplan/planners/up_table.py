@@ -7,12 +7,16 @@ does not import unified-planning (only ``up.py`` does): it is given its ``model`
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any, Protocol
+from types import ModuleType
+from typing import TYPE_CHECKING, Any, Protocol
 
 from hrcplan.planners.instantaneous import unsure_changes
 from hrcplan.planners.lowering import Lowering
 from hrcplan.task import BitEffect, GroundAction, Task
 from hrcplan.task.conditions import Test
+
+if TYPE_CHECKING:
+    from unified_planning.model import Problem as UpProblem
 
 UpTable = Mapping[str, Any]
 
@@ -64,7 +68,7 @@ class _UpModel(Protocol):
     @property
     def InstantaneousAction(self) -> Callable[[str], _UpAction]: ...  # noqa: N802
     @property
-    def metrics(self) -> Any: ...
+    def metrics(self) -> ModuleType: ...
 
 
 class Build:
@@ -90,7 +94,7 @@ class Build:
             self._problem.add_quality_metric(model.metrics.MinimizeActionCosts(prices))
 
     @property
-    def problem(self) -> Any:
+    def problem(self) -> UpProblem:
         """The ``unified_planning.model.Problem``."""
         return self._problem
 
@@ -104,15 +108,17 @@ class Build:
             for atom in self._of(deletes):
                 action.add_effect(atom, False, condition)
 
-    def _parts(self, tests: Sequence[Test]) -> Sequence[Any]:
+    def _parts(self, tests: Sequence[Test]) -> Sequence[_UpExpression]:
         return self._literals(*tests[0]) if len(tests) == 1 else [self._any(tests)]
 
-    def _any(self, tests: Sequence[Test]) -> Any:
-        return self._expressions.Or([self._expressions.And(self._literals(*t)) for t in tests])
+    def _any(self, tests: Sequence[Test]) -> _UpExpression:
+        alternatives = [self._expressions.And(self._literals(*t)) for t in tests]
+        either: _UpExpression = self._expressions.Or(alternatives)
+        return either
 
-    def _literals(self, mask: int, value: int) -> list[Any]:
+    def _literals(self, mask: int, value: int) -> list[_UpExpression]:
         wrong = [self._expressions.Not(atom) for atom in self._of(mask & ~value)]
         return [*self._of(value), *wrong]
 
-    def _of(self, bits: int) -> list[Any]:
+    def _of(self, bits: int) -> list[_UpExpression]:
         return [atom for position, atom in enumerate(self._atoms) if bits >> position & 1]

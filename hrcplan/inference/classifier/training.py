@@ -35,7 +35,7 @@ class Predictor(Protocol):
 class Classifier(Predictor, Protocol):
     """A classifier with probabilities, as in scikit-learn."""
 
-    def fit(self, rows: Rows, goals: Ids) -> object:
+    def fit(self, rows: Rows, goals: Ids) -> Predictor:
         """Learn goals from rows of features."""
         ...
 
