@@ -6,17 +6,17 @@ step costs. So the sets that a sequence has not met yet bound from below what it
 
 from __future__ import annotations
 
-import heapq
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from heapq import heapify, heappop, heappush
 
 from hrcplan.search.delete_relaxation import RelaxedRule, literals, relaxed_rules
 from hrcplan.task.conditions import Tests
 from hrcplan.task.steps import Operator
 
 MAX_LANDMARKS = 256
-
-_INFINITE = float("inf")
+UNREACHABLE = 1 << 300
+"""Above every cost: not reachable even if nothing true ever becomes false."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,17 +33,12 @@ def landmarks(ops: Sequence[Operator], state: int, goal: Tests) -> tuple[Landmar
     The largest costs first, at most ``MAX_LANDMARKS``. None is only returned if the goal is out
     of reach even if nothing true ever becomes false.
     """
-    relaxation = _Relaxation(ops, state, goal)
-    cuts: list[Landmark] = []
-    while True:
-        values = relaxation.h_max()
-        bound = values[relaxation.goal]
-        if bound == _INFINITE:
-            return None
-        if not bound:
-            break
-        cuts.append(relaxation.cut(values))
-    cuts.sort(key=lambda landmark: -landmark.cost)
+    relaxation = RelaxedTask(ops, goal)
+    start = relaxation.start(state)
+    costs = [*(op.cost for op in ops), 0]
+    if relaxation.h_max(start, costs) == UNREACHABLE:
+        return None
+    cuts = sorted(relaxation.cuts(start, costs), key=lambda landmark: -landmark.cost)
     return tuple(cuts[:MAX_LANDMARKS])
 
 
@@ -52,102 +47,136 @@ def longest_chain(ops: Sequence[Operator], state: int, goal: Tests) -> int | Non
 
     None if the goal is out of reach even if nothing true ever becomes false.
     """
-    relaxation = _Relaxation(ops, state, goal)
-    bound = relaxation.h_max()[relaxation.goal]
-    return None if bound == _INFINITE else int(bound)
+    relaxation = RelaxedTask(ops, goal)
+    bound = relaxation.h_max(relaxation.start(state), [*(op.cost for op in ops), 0])
+    return None if bound == UNREACHABLE else bound
 
 
-class _Relaxation:
-    """The relaxed task, whose costs are used up by the landmarks that are cut out of it."""
+class RelaxedTask:
+    """Operators without what they make false, and a goal; states and costs come with each question.
 
-    def __init__(self, ops: Sequence[Operator], state: int, goal: Tests) -> None:
-        self.costs = [*(op.cost for op in ops), 0]
+    Costs are lists with one entry per operator and a last one, 0, for reaching the goal.
+    """
+
+    def __init__(self, ops: Sequence[Operator], goal: Tests) -> None:
         rules = list(relaxed_rules(ops, admissible=True))
         goals = [literals(test) for test in goal]
         literals_in_rules = [x for rule in rules for x in (*rule.needs, *rule.gives)]
-        n_literals = max(
-            [2 * state.bit_length(), *(x + 2 & ~1 for x in (*literals_in_rules, *sum(goals, ())))]
-        )
+        n_literals = max([0, *(x + 2 & ~1 for x in (*literals_in_rules, *sum(goals, ())))])
         self.goal, self.true = n_literals, n_literals + 1
         rules += [RelaxedRule(len(ops), needs, (self.goal,)) for needs in goals]
         # What needs nothing needs the literal that is always true, so that it has a supporter.
         self.rules = [replace(rule, needs=rule.needs or (self.true,)) for rule in rules]
+        needs = {self.goal}.union(*(rule.needs for rule in self.rules))
+        self.op = [rule.op for rule in self.rules]
+        self.gives = [tuple(x for x in rule.gives if x in needs) for rule in self.rules]
+        self.n_needs = [len(rule.needs) for rule in self.rules]
         self.users: list[list[int]] = [[] for _ in range(n_literals + 2)]
         self.makers: list[list[int]] = [[] for _ in range(n_literals + 2)]
         for i, rule in enumerate(self.rules):
             for literal in rule.needs:
                 self.users[literal].append(i)
-            for literal in rule.gives:
+            for literal in self.gives[i]:
                 self.makers[literal].append(i)
-        start = {2 * i + (not state >> i & 1) for i in range(n_literals // 2)} | {self.true}
-        self.start = {literal for literal in start if self.users[literal]}
-        self.supporter: list[int] = []
+        self._supporter: list[int] = []
+        self._values: list[int] = []
 
-    def h_max(self) -> list[float]:
-        """Return the cost of the costliest precondition chain to every literal."""
-        values = [_INFINITE] * len(self.users)
-        waiting = [len(rule.needs) for rule in self.rules]
-        self.supporter = [-1] * len(self.rules)
-        queue: list[tuple[float, int]] = [(0, literal) for literal in sorted(self.start)]
-        for literal in self.start:
+    def start(self, state: int) -> list[int]:
+        """Return the literals that hold in a state and that some rule needs, in order."""
+        true = (2 * i + (not state >> i & 1) for i in range(self.goal // 2))
+        return [literal for literal in (*true, self.true) if self.users[literal]]
+
+    def is_free(self, start: Sequence[int], costs: Sequence[int]) -> bool:
+        """Return whether steps that cost nothing lead to the goal."""
+        users, op, gives, waiting = self.users, self.op, self.gives, self.n_needs[:]
+        is_reached = bytearray(len(users))
+        for literal in start:
+            is_reached[literal] = 1
+        stack = list(start)
+        while stack:
+            for i in users[stack.pop()]:
+                waiting[i] -= 1
+                if waiting[i] or costs[op[i]]:
+                    continue
+                for effect in gives[i]:
+                    if not is_reached[effect]:
+                        is_reached[effect] = 1
+                        stack.append(effect)
+        return bool(is_reached[self.goal])
+
+    def h_max(self, start: Sequence[int], costs: Sequence[int]) -> int:
+        """Return the cost of the costliest precondition chain to the goal, or ``UNREACHABLE``."""
+        users, op, gives, waiting = self.users, self.op, self.gives, self.n_needs[:]
+        values = self._values = [UNREACHABLE] * len(users)
+        supporter = self._supporter = [-1] * len(op)
+        for literal in start:
             values[literal] = 0
+        size = len(users)  # an entry of the queue is a value and a literal in one number
+        queue = list(start)
+        heapify(queue)
         while queue:
-            value, literal = heapq.heappop(queue)
+            value, literal = divmod(heappop(queue), size)
             if value > values[literal]:
                 continue
-            for i in self.users[literal]:
+            for i in users[literal]:
                 waiting[i] -= 1
                 if waiting[i]:
                     continue
-                self.supporter[i] = literal  # the last to come is the most expensive
-                cost = value + self.costs[self.rules[i].op]
-                for effect in self.rules[i].gives:
+                supporter[i] = literal  # the last to come is the most expensive
+                cost = value + costs[op[i]]
+                for effect in gives[i]:
                     if cost < values[effect]:
                         values[effect] = cost
-                        heapq.heappush(queue, (cost, effect))
-        return values
+                        heappush(queue, cost * size + effect)
+        return values[self.goal]
 
-    def cut(self, values: list[float]) -> Landmark:
+    @property
+    def reaches_goal(self) -> bool:
+        """Whether the goal could be reached when `h_max` or `cuts` last looked."""
+        return self._values[self.goal] < UNREACHABLE
+
+    def cuts(self, start: Sequence[int], costs: list[int]) -> Iterator[Landmark]:
+        """Yield landmarks until the goal costs nothing; their costs are taken off ``costs``.
+
+        None is found where the goal is out of reach (see ``reaches_goal``).
+        """
+        while 0 < self.h_max(start, costs) < UNREACHABLE:
+            crossing = self._crossing(start, costs)
+            cost = min(costs[op] for op in crossing)
+            for op in crossing:
+                costs[op] -= cost
+            yield Landmark(frozenset(crossing), cost)
+
+    def _crossing(self, start: Sequence[int], costs: Sequence[int]) -> set[int]:
         """Return the steps that lead into the part of the task from which the goal is free."""
-        zone = self._zone()
-        before = self._before(zone)
-        crossing = {
-            self.rules[i].op
-            for literal in before
-            for i in self.users[literal]
-            if self.supporter[i] == literal and any(g in zone for g in self.rules[i].gives)
-        }
-        cost = min(self.costs[group] for group in crossing)
-        for group in crossing:
-            self.costs[group] -= cost
-        return Landmark(frozenset(crossing), cost)
+        users, op, gives, supporter = self.users, self.op, self.gives, self._supporter
+        zone = self._zone(costs)
+        entering = {i for literal in zone for i in self.makers[literal]}
+        before = set(start) - zone
+        stack = list(before)
+        crossing: set[int] = set()
+        while stack:
+            literal = stack.pop()
+            for i in users[literal]:
+                if supporter[i] != literal:
+                    continue
+                if i in entering:
+                    crossing.add(op[i])
+                    continue
+                for effect in gives[i]:
+                    if effect not in before:
+                        before.add(effect)
+                        stack.append(effect)
+        return crossing
 
-    def _zone(self) -> set[int]:
+    def _zone(self, costs: Sequence[int]) -> set[int]:
         """Return the literals from which zero-cost steps lead to the goal."""
         zone, waiting = {self.goal}, [self.goal]
         while waiting:
             literal = waiting.pop()
             for i in self.makers[literal]:
-                need = self.supporter[i]
-                if need >= 0 and need not in zone and not self.costs[self.rules[i].op]:
+                need = self._supporter[i]
+                if need >= 0 and need not in zone and not costs[self.op[i]]:
                     zone.add(need)
                     waiting.append(need)
         return zone
-
-    def _before(self, zone: set[int]) -> set[int]:
-        """Return the literals reached from the start without entering the zone."""
-        literals = set(self.start) - zone
-        waiting = list(literals)
-        while waiting:
-            literal = waiting.pop()
-            for i in self.users[literal]:
-                if self.supporter[i] != literal:
-                    continue
-                gives = self.rules[i].gives
-                if any(effect in zone for effect in gives):
-                    continue
-                for effect in gives:
-                    if effect not in literals:
-                        literals.add(effect)
-                        waiting.append(effect)
-        return literals

@@ -7,9 +7,12 @@ conditions is reachable. It errs only towards more overlap.
 
 from __future__ import annotations
 
+import time
 from dataclasses import dataclass
+from math import inf
 
 from hrcplan.core.bits import holders, positions, union
+from hrcplan.errors import LimitError
 
 
 @dataclass(frozen=True)
@@ -50,13 +53,22 @@ class ReachablePairs:
         self._stops = [union(deleters[p] for p in positions(d & ~late)) << self._shift
                        for d, late in zip(masks.deletes, masks.late, strict=True)]  # fmt: skip
 
-    def admit(self, initial: int) -> None:
-        """Take in an initial state and all that can follow it."""
+    def admit(self, initial: int, deadline: float = inf) -> None:
+        """Take in an initial state and all that can follow it.
+
+        Raises:
+            LimitError: at the deadline, by ``time.monotonic()``; the next call goes on from there.
+        """
         self._possible_facts |= initial
         for position in positions(initial):
             self._with[position] |= initial
-        while sum(self._start(a) + self._end(a) for a in range(len(self.masks.adds))):
-            pass
+        grows = True
+        while grows:
+            grows = False
+            for action in range(len(self.masks.adds)):
+                if time.monotonic() > deadline:
+                    raise LimitError("out of time while looking for actions that can overlap")
+                grows |= self._start(action) | self._end(action)
 
     def running_at_start(self, action: int) -> int:
         """Return, as bits, the actions that can run when ``action`` starts."""

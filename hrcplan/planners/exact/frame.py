@@ -14,18 +14,22 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from math import gcd, lcm
+from math import gcd, inf, lcm
 
 from hrcplan.core.bits import common, holders, positions, union
 from hrcplan.core.numbers import Number, number_text
 from hrcplan.errors import LimitError, UnsupportedError
 from hrcplan.pddl.model import TOTAL_COST, TRUE, fact_text
+from hrcplan.planners.exact.clock import check_time
 from hrcplan.search.reachable_pairs import DurativeMasks
 from hrcplan.task import GroundAction, Task
 from hrcplan.task.conditions import Test
 
 MAX_ACTIONS = 2000
 HINT = "kairos plans such tasks, without a proof"
+
+RunningActions = tuple[tuple[int, int], ...]
+"""Ticks that are left and action, of each running action; the next to end comes first."""
 
 
 @dataclass(frozen=True)
@@ -50,17 +54,18 @@ class StaticMasks(DurativeMasks):
     dependent: tuple[int, ...]
 
 
-def frame(task: Task) -> StaticMasks:
+def frame(task: Task, deadline: float = inf) -> StaticMasks:
     """Return the masks of a task.
 
     Raises:
         UnsupportedError: naming the first action outside the class, and why it is.
-        LimitError: if there are too many actions to compare in pairs.
+        LimitError: if there are too many actions to compare in pairs, or at the deadline.
     """
     check_schemas(task)
     if len(task.actions) > MAX_ACTIONS:
         raise LimitError(f"more than {MAX_ACTIONS:,} ground actions")
     for action in task.actions:
+        check_time(deadline, "while looking at the actions")
         _check(task, action)
     tests = tuple(action.tests for action in task.actions)
     over = tuple(tuple(t for t in a.over if t != (0, 0)) for a in task.actions)

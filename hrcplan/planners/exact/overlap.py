@@ -2,25 +2,32 @@
 
 from __future__ import annotations
 
+from math import inf
+
 from hrcplan.core.bits import holders, positions, union
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.model import fact_text
+from hrcplan.planners.exact.clock import check_time
 from hrcplan.planners.exact.frame import HINT, StaticMasks
 from hrcplan.search.reachable_pairs import ReachablePairs
 from hrcplan.task import Task
 
 
-def check_overlap(task: Task, pairs: ReachablePairs, frame: StaticMasks) -> None:
+def check_overlap(
+    task: Task, pairs: ReachablePairs, frame: StaticMasks, deadline: float = inf
+) -> None:
     """Raise unless no overlap of two actions is required, or hidden from the sequential reading.
 
     Raises:
         UnsupportedError: naming two actions that can overlap, and what is wrong with that.
+        LimitError: at the deadline.
     """
     adders = holders(frame.adds, frame.n_facts)
     shunners = holders(frame.over_shuns, frame.n_facts)
     lanes = lane_members(frame)
     _check_late(task, pairs, frame)
     for late, agent in enumerate(frame.agents):
+        check_time(deadline, "while comparing actions in pairs")
         running = pairs.running_at_start(late)
         change = frame.deletes[late] | frame.shuns[late]
         hiding = union(adders[p] for p in positions(change)) & running

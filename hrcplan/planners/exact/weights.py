@@ -67,13 +67,18 @@ class Weights:
     In every tick some agent is busy: if each agent gets a share of ``tick``, the shares
     of all busy agents are at most what the time costs. ``share`` is the sum over the agents that an
     action keeps busy, and ``work`` what the action adds at least: its cost and its time's share.
-    ``scale`` is what the metric was multiplied with.
+    ``ticks`` is what an action lasts, ``n_lanes`` how many agents it keeps busy, and ``busy`` the
+    product of both. ``scale`` is what the metric was multiplied with.
     """
 
     cost: tuple[int, ...]
     tick: int
     share: tuple[int, ...]
     work: tuple[int, ...]
+    ticks: tuple[int, ...]
+    n_lanes: tuple[int, ...]
+    busy: tuple[int, ...]
+    n_agents: int
     scale: int
 
 
@@ -96,7 +101,10 @@ def weights(
     parts = shares(whole, _rates(frame, costs))
     share = tuple(sum(parts[agent] for agent in agents) for agents in lanes)
     work = tuple(c + s * t for c, s, t in zip(costs, share, frame.ticks, strict=True))
-    return Weights(costs, whole, share, work, scale)
+    n_lanes = tuple(len(agents) for agents in lanes)
+    busy = tuple(n * t for n, t in zip(n_lanes, frame.ticks, strict=True))
+    n_agents = max(1, len(set(frame.agents)))
+    return Weights(costs, whole, share, work, frame.ticks, n_lanes, busy, n_agents, scale)
 
 
 def _rates(frame: StaticMasks, costs: Sequence[int]) -> dict[str, int]:

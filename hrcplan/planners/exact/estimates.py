@@ -1,0 +1,201 @@
+"""What follows a state of the sequential reading costs at least this much.
+
+Two sources: distances in the whole graph, where it is small; else landmarks. A landmark is a set of
+actions of which every plan holds one (``search/lm_cut.py``). Those that a path has not met yet are
+landmarks of the state at its end, too. So a state inherits what is left of its parent's landmarks,
+and more are looked for only when the search comes to it (Pommerening and Helmert, ICAPS 2013).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple, Protocol
+
+from hrcplan.core.bits import positions
+from hrcplan.planners.exact.clock import check_time
+from hrcplan.planners.exact.graph import FAR, Graph
+from hrcplan.planners.exact.weights import Weights
+from hrcplan.search.lm_cut import RelaxedTask
+from hrcplan.task import Task
+from hrcplan.task.steps import Operator
+
+
+class Estimate(NamedTuple):
+    """Lower bounds on the actions that follow a state, up to a goal.
+
+    ``work`` is the sum of their costs and shares of time, or ``FAR`` if there is no goal; ``cost``
+    the sum of their costs; ``busy`` the sum of their ticks, for each agent that they keep busy;
+    ``chain`` the ticks of those that cannot overlap, one after the other.
+    """
+
+    work: int
+    cost: int = 0
+    busy: int = 0
+    chain: int = 0
+
+
+class Estimates(Protocol):
+    """Estimates of the states of a graph, by index."""
+
+    def __getitem__(self, state: int) -> Estimate:
+        """Return the estimate of a state that was inherited or refined."""
+
+    def inherit(self, parent: int, action: int, child: int) -> None:
+        """Note that an action leads from a refined state to another one."""
+
+    def refine(self, state: int) -> bool:
+        """Improve the estimate of a state; return False if that was done before."""
+
+
+class Distances:
+    """The least work from every state to a goal, which nothing improves.
+
+    Args:
+        least: The distances of all states.
+    """
+
+    def __init__(self, least: Sequence[int]) -> None:
+        self._estimates = [Estimate(work) for work in least]
+
+    def __getitem__(self, state: int) -> Estimate:
+        return self._estimates[state]
+
+    def inherit(self, parent: int, action: int, child: int) -> None:
+        """Do nothing."""
+
+    def refine(self, state: int) -> bool:
+        """Return False."""
+        return False
+
+
+class _Landmark(NamedTuple):
+    """Actions, and the shares of their work, cost and ticks that no other landmark counts."""
+
+    actions: tuple[int, ...]
+    shares: Estimate
+
+
+class Landmarks:
+    """Estimates from landmarks; sets of them are bits over all that were ever found.
+
+    Args:
+        task: The task.
+        graph: The states, by index.
+        weights: What actions cost.
+        deadline: When to give up, by ``time.monotonic()``.
+    """
+
+    def __init__(self, task: Task, graph: Graph, weights: Weights, deadline: float) -> None:
+        self._graph, self._weights, self._deadline = graph, weights, deadline
+        self._relaxed = RelaxedTask(_operators(task), task.goal)
+        self._limits = tuple([*costs, 0] for costs in (weights.work, weights.cost, weights.busy))
+        self._ticks = [*weights.ticks, 0]
+        self._landmarks: list[_Landmark] = []
+        self._hit_by = [0] * len(self._ticks)
+        self._estimates: dict[int, Estimate] = {}
+        self._ahead: dict[int, int] = {}
+        self._final: set[int] = set()
+
+    def __getitem__(self, state: int) -> Estimate:
+        return self._estimates.get(state, _NOTHING)
+
+    def inherit(self, parent: int, action: int, child: int) -> None:
+        """Give a state what its parent's estimate says about it, unless it has a better one."""
+        if child in self._final:
+            return
+        ahead = self._ahead[parent]
+        hits = ahead & self._hit_by[action]
+        work, cost, busy, chain = self._estimates[parent]
+        for i in positions(hits):
+            shares = self._landmarks[i].shares
+            work -= shares.work
+            cost -= shares.cost
+            busy -= shares.busy
+        before = self._estimates.get(child)
+        if before is None or before.work < work:
+            chain = max(0, chain - self._ticks[action])
+            self._estimates[child] = Estimate(work, cost, busy, chain)
+            self._ahead[child] = ahead & ~hits
+
+    def refine(self, state: int) -> bool:
+        """Look for more landmarks, and for a longer chain; return False if that was done before.
+
+        Raises:
+            LimitError: at the deadline.
+        """
+        if state in self._final:
+            return False
+        start = self._relaxed.start(self._graph.states[state])
+        estimate = self[state]
+        more = self._more_landmarks(state, start, estimate)
+        if more.work < FAR and self._may_wait(more):
+            chain = self._relaxed.h_max(start, self._ticks)
+            more = more._replace(chain=max(more.chain, chain))
+        self._estimates[state] = more
+        self._final.add(state)
+        return True
+
+    def _may_wait(self, estimate: Estimate) -> bool:
+        """Return whether a chain may take longer than the agents are busy: it is no small look."""
+        if not self._weights.tick:
+            return False
+        return not self._final or 2 * estimate.chain * self._weights.n_agents >= estimate.busy
+
+    def _more_landmarks(self, state: int, start: Sequence[int], estimate: Estimate) -> Estimate:
+        ahead = self._ahead.setdefault(state, 0)
+        left = self._left(ahead, 0)
+        if self._relaxed.is_free(start, left):
+            return estimate
+        costs, ticks = self._left(ahead, 1), self._left(ahead, 2)
+        work, cost, busy, chain = estimate
+        for cut in self._relaxed.cuts(start, left):
+            check_time(self._deadline, "while looking for landmarks")
+            actions = tuple(sorted(cut.ops))
+            shares = Estimate(cut.cost, _take(costs, actions), _take(ticks, actions))
+            ahead |= self._add(_Landmark(actions, shares))
+            work, cost, busy = work + cut.cost, cost + shares.cost, busy + shares.busy
+        self._ahead[state] = ahead
+        return Estimate(work if self._relaxed.reaches_goal else FAR, cost, busy, chain)
+
+    def _left(self, ahead: int, part: int) -> list[int]:
+        """Return what a set of landmarks leaves of the actions' work, cost or ticks."""
+        left = list(self._limits[part])
+        for i in positions(ahead):
+            actions, shares = self._landmarks[i]
+            share = shares[part]
+            for action in actions:
+                left[action] -= share
+        return left
+
+    def _add(self, landmark: _Landmark) -> int:
+        """Return the bit of a new landmark."""
+        bit = 1 << len(self._landmarks)
+        self._landmarks.append(landmark)
+        for action in landmark.actions:
+            self._hit_by[action] |= bit
+        return bit
+
+
+_NOTHING = Estimate(0)
+
+
+def _take(costs: list[int], actions: Sequence[int]) -> int:
+    """Return what the cheapest of some actions costs, after taking it off all of them."""
+    share = min(costs[action] for action in actions)
+    for action in actions:
+        costs[action] -= share
+    return share
+
+
+def _operators(task: Task) -> list[Operator]:
+    """Return the actions without conditions that hold in every state that can be reached."""
+    always = task.initial
+    for action in task.actions:
+        always &= ~action.deletes
+    return [
+        Operator(
+            tuple((mask & ~always, value & ~always) for mask, value in action.tests),
+            *action.sequential, action.index, 1,
+        )
+        for action in task.actions
+    ]  # fmt: skip
