@@ -47,7 +47,7 @@ class Estimates(Protocol):
         """Improve the estimate of a state; return False if that was done before."""
 
 
-class Distances:
+class GraphDistances:
     """The least work from every state to a goal, which nothing improves.
 
     Args:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hrcplan.planners.exact.estimates import Distances, Estimates, Landmarks
+from hrcplan.planners.exact.estimates import GraphDistances, Estimates, Landmarks
 from hrcplan.planners.exact.frame import StaticMasks, frame
 from hrcplan.planners.exact.gaps import Gaps
 from hrcplan.planners.exact.graph import Graph
@@ -18,7 +18,7 @@ MAX_KEPT_STATES = 100_000
 """States of other structures than the one that is asked for."""
 
 
-class Memory:
+class TaskMemory:
     """All that replans of one grounding share: masks, pairs, the graph, what actions touch."""
 
     def __init__(self, task: Task, deadline: float) -> None:
@@ -53,7 +53,9 @@ class Memory:
         """
         self._n_asked += 1
         if self._n_asked > 1 and self.graph.complete(task, MAX_GRAPH, deadline):
-            return Distances(self.graph.distances(weights.work, self._goals_of(task), deadline))
+            return GraphDistances(
+                self.graph.distances(weights.work, self._goals_of(task), deadline)
+            )
         return Landmarks(task, self.graph, weights, deadline)
 
     def _goals_of(self, task: Task) -> list[int]:
@@ -67,13 +69,13 @@ class Memory:
         return self._goals
 
 
-class Memories:
-    """Memories of the last structures, the most recent one last."""
+class TaskMemories:
+    """TaskMemories of the last structures, the most recent one last."""
 
     def __init__(self) -> None:
-        self.memories: list[Memory] = []
+        self.memories: list[TaskMemory] = []
 
-    def of(self, task: Task, deadline: float) -> Memory:
+    def of(self, task: Task, deadline: float) -> TaskMemory:
         """Return the memory of a task's structure; those of others may be given up for it.
 
         Raises:
@@ -84,5 +86,5 @@ class Memories:
         self.memories = [m for m in self.memories if m is not memory]
         while sum(len(m.graph.states) for m in self.memories) > MAX_KEPT_STATES:
             del self.memories[0]  # frees the graph of another task first
-        self.memories.append(memory or Memory(task, deadline))
+        self.memories.append(memory or TaskMemory(task, deadline))
         return self.memories[-1]

@@ -6,7 +6,7 @@ import time
 
 from hrcplan.errors import LimitError, UnsupportedError
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
-from hrcplan.planners.exact.memory import Memories
+from hrcplan.planners.exact.memory import TaskMemories
 from hrcplan.planners.exact.proof import Proof, Wish
 from hrcplan.planners.exact.weights import metric
 from hrcplan.task import Task
@@ -38,7 +38,7 @@ class ExactPlanner:
             limits=True,
             own=True,
         )
-        self._memories = Memories()
+        self._memories = TaskMemories()
 
     def missing(self) -> str | None:
         """Return None: it is part of this package."""

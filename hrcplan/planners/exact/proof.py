@@ -12,7 +12,7 @@ from hrcplan.pddl.model import TOTAL_COST
 from hrcplan.planners.contract import Answer, Status
 from hrcplan.planners.exact.first_plan import first_path
 from hrcplan.planners.exact.gaps import starts
-from hrcplan.planners.exact.memory import Memory
+from hrcplan.planners.exact.memory import TaskMemory
 from hrcplan.planners.exact.search import WAIT, Search
 from hrcplan.planners.exact.symmetry import symmetries
 from hrcplan.planners.exact.weights import Metric, weights
@@ -48,7 +48,7 @@ class Proof:
         LimitError: at the deadline, before the search has begun.
     """
 
-    def __init__(self, task: Task, memory: Memory, metric: Metric, wish: Wish) -> None:
+    def __init__(self, task: Task, memory: TaskMemory, metric: Metric, wish: Wish) -> None:
         self._task, self._memory, self._metric, self._wish = task, memory, metric, wish
         self._weights = weights(task, metric, memory.frame, memory.lanes)
         self._ahead = memory.estimates(task, self._weights, wish.deadline)

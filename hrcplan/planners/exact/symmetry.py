@@ -1,7 +1,7 @@
 """Objects that can change places: nodes that are images of each other are searched once.
 
 A *swap* exchanges pairs of objects. It is a symmetry if it turns every ground action into one of
-the same cost and duration, with its conditions and effects turned likewise, and the goal into
+the same cost and duration, with its conditions and effects turned the same way, and the goal into
 itself. The initial state may look different: what is left to do from a node costs as much as from
 its image (orbit search: Domshlak, Katz and Shleyfman, ICAPS 2012).
 """
