@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hrcplan.planners.exact.estimates import GraphDistances, Estimates, Landmarks
+from hrcplan.planners.exact.estimates import Estimates, GraphDistances, Landmarks
 from hrcplan.planners.exact.frame import StaticMasks, frame
 from hrcplan.planners.exact.gaps import Gaps
 from hrcplan.planners.exact.graph import Graph
