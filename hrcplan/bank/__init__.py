@@ -4,7 +4,8 @@ The short way: ``build_bank("kitchen")``. A `Bank` has `Goals` (names, task, goa
 `StepTable` (the steps, numbered alike for all goals) and a `PlanGraph` for each goal.
 """
 
-from hrcplan.bank.bank import Bank, BuildOptions, build, build_bank
+from hrcplan.bank.bank import Bank, BuildOptions
+from hrcplan.bank.builder import build, build_bank
 from hrcplan.bank.goals import Goals, from_problems
 from hrcplan.bank.graph import PlanGraph
 from hrcplan.bank.search import BuildLimits

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from hrcplan.bank.bank import Bank
 from hrcplan.bank.graph import PlanGraph
-from hrcplan.bank.search import group_rows
+from hrcplan.bank.state_tables import group_rows
 from hrcplan.bank.team import ANY_AGENT, step_owners
 from hrcplan.core.arrays import Bools, Ids, Words
 from hrcplan.search.packed_states import PackedRules

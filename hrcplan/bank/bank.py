@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 
 import numpy as np
 
 from hrcplan.bank import walk
-from hrcplan.bank.construct import NO_LIMITS, bounded_graph, optimal_graph
+from hrcplan.bank.construct import NO_LIMITS, optimal_graph
 from hrcplan.bank.goals import Goals
 from hrcplan.bank.graph import PlanGraph
-from hrcplan.bank.search import MAX_MIB, BuildLimits
-from hrcplan.bank.sources import read_goals
+from hrcplan.bank.search import BuildLimits
 from hrcplan.bank.team import team_graph
-from hrcplan.core.text import plural
+from hrcplan.core.text import nearest, plural
 from hrcplan.errors import UsageError
 from hrcplan.pddl.conventions import robots
 from hrcplan.plans import Plan, PlannedAction
@@ -58,6 +56,9 @@ class BuildOptions:
             raise UsageError("a sample has at least one plan")
 
 
+OPTIMAL_PLANS = BuildOptions()
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class Bank:
     """Plan graphs of goals, in order; ``graphs[g]`` belongs to goal ``g``.
@@ -68,7 +69,7 @@ class Bank:
     goals: Goals
     table: StepTable
     graphs: tuple[PlanGraph, ...]
-    recipe: BuildOptions = BuildOptions()
+    recipe: BuildOptions = OPTIMAL_PLANS
     build_s: float = 0.0
     _graphs: dict[tuple[int, int, int | None], PlanGraph] = field(default_factory=dict)
 
@@ -97,8 +98,6 @@ class Bank:
         Raises:
             UsageError: if there is no such goal; the hint names the nearest.
         """
-        from hrcplan.core.text import nearest
-
         if name not in self.names:
             hint = nearest(name, self.names) or f"goals: {', '.join(self.names[:40])}"
             raise UsageError(f"the bank has no goal '{name}'", code="unknown-goal", hint=hint)
@@ -275,70 +274,3 @@ def _variants(state: int, facts: int) -> Iterator[int]:
         if not subset:
             return
         subset = (subset - 1) & facts
-
-
-def build_bank(
-    domain: str, goals: str | None = None, recipe: BuildOptions = BuildOptions(), *,
-    only: Sequence[str] | None = None, mib: int = MAX_MIB, timeout_s: float = float("inf"),
-    report: Callable[[PlanGraph], None] | None = None,
-) -> Bank:  # fmt: skip
-    """Return the policy bank of the goals of a folder, or of a domain's shipped problems.
-
-    Args:
-        domain: A path or a shipped name.
-        goals: A folder of problem files, or one with ``template.pddl`` and ``hyps.dat``.
-        recipe: What goes into the graphs.
-        only: Names of goals, if not all are wanted.
-        mib: MiB of arrays that one graph may need.
-        timeout_s: Seconds for all graphs together.
-        report: Is called with every graph that is done.
-
-    Raises:
-        InputError: if a file is missing or has faults, or the goals are not in one world.
-        UnsupportedError: if bits cannot hold the task.
-        LimitError: if time or memory runs out.
-        UsageError: if ``only`` names no goal.
-    """
-    goal_set = read_goals(domain, goals)
-    if only is not None:
-        goal_set = goal_set.only(only)
-    return build(goal_set, recipe, mib=mib, timeout_s=timeout_s, report=report)
-
-
-def build(
-    goals: Goals, recipe: BuildOptions = BuildOptions(), *, mib: int = MAX_MIB,
-    timeout_s: float = float("inf"), report: Callable[[PlanGraph], None] | None = None,
-) -> Bank:  # fmt: skip
-    """Return the policy bank of goals that are in memory; see ``build_bank``."""
-    started_s = time.monotonic()
-    table = StepTable(goals.task, recipe.cost)
-    limits = BuildLimits(mib, started_s + timeout_s)
-    bank = Bank(goals, table, (), recipe)
-    graphs: list[PlanGraph] = []
-    for goal in range(len(goals)):
-        graphs.append(_graph(bank, goal, limits))
-        if report is not None:
-            report(graphs[-1])
-    return replace(bank, graphs=tuple(graphs), build_s=time.monotonic() - started_s)
-
-
-def _graph(bank: Bank, goal: int, limits: BuildLimits) -> PlanGraph:
-    recipe, name = bank.recipe, bank.names[goal]
-    tests = bank.goals.tests[goal]
-    if recipe.alternatives is not None:
-        from hrcplan.bank.alternatives import alternatives_graph
-
-        return alternatives_graph(
-            bank.table, tests, bank.initial, recipe.alternatives, name=name, limits=limits
-        )
-    if recipe.sample is not None:
-        from hrcplan.bank.enumerated import sampled_graph
-
-        return sampled_graph(bank.table, bank.goals, goal, recipe.sample, limits=limits)
-    if recipe.quality > 1:
-        return bounded_graph(
-            bank.table, tests, bank.initial, recipe.quality, name=name, limits=limits
-        )
-    takes_turns = bank.agents == "kept" and bank.goals.problem.agents and recipe.cost == STEPS
-    build_graph = team_graph if takes_turns else optimal_graph
-    return build_graph(bank.table, tests, bank.initial, name=name, limits=limits)

@@ -9,7 +9,8 @@ from typing import Protocol
 import numpy as np
 
 from hrcplan.bank.graph import PlanGraph
-from hrcplan.bank.search import BuildLimits, Explorer, StateSpaceLayers, group_rows
+from hrcplan.bank.search import BuildLimits, Explorer, StateSpaceLayers
+from hrcplan.bank.state_tables import group_rows
 from hrcplan.core.arrays import Ids, SmallIds, Words
 from hrcplan.core.numbers import Number
 from hrcplan.search.lm_cut import Landmark, landmarks

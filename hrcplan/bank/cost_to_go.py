@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hrcplan.bank.bank import Bank
-from hrcplan.bank.search import SeenStates, group_rows
+from hrcplan.bank.state_tables import SeenStates, group_rows
 from hrcplan.bank.team import ANY_AGENT, step_owners
 from hrcplan.core.arrays import Ids, Words
 from hrcplan.errors import LimitError, UsageError
