@@ -3,21 +3,30 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import rich_click as click
 
 from hrcplan.cli import output
+
+if TYPE_CHECKING:
+    from hrcplan.collaboration.outcome import CollaborationOutcome
+    from hrcplan.execution.journal import Journal
+    from hrcplan.execution.outcome import Outcome
+    from hrcplan.execution.replay import Replayed
 
 
 @click.command("replay")
 @click.argument("journal", type=click.Path(path_type=Path))
 @output.common_options
 def command(journal: Path) -> int:
-    """Check that every decision in JOURNAL follows from what was written before it."""
-    from hrcplan.execution.journal import read_journal
-    from hrcplan.execution.replay import replay
+    """Check that every decision in JOURNAL follows from what was written before it.
 
-    check = replay(read_journal(journal))
+    JOURNAL was written by 'hrcplan execute' or 'hrcplan collaborate'.
+    """
+    from hrcplan.execution.journal import read_journal
+
+    check = _replay(read_journal(journal))
     difference = check.difference
     if output.JSON:
         place = difference and {
@@ -34,3 +43,12 @@ def command(journal: Path) -> int:
         output.result(f"{journal}:{difference.line}: this does not follow")
         output.result(f"  expected  {difference.expected}\n  found     {difference.recorded}")
     return 0 if difference is None else 1
+
+
+def _replay(journal: Journal) -> Replayed[Outcome] | Replayed[CollaborationOutcome]:
+    from hrcplan.collaboration.journal import is_collaboration, replay_collaboration
+    from hrcplan.execution.replay import replay
+
+    if is_collaboration(journal):
+        return replay_collaboration(journal)
+    return replay(journal)

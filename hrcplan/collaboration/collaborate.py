@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
+import os
+import random
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any
 
 from hrcplan.agents import load_profile
 from hrcplan.assistance.assistant import Assistant, KnowsGoal
 from hrcplan.assistance.registry import ASSISTANTS
-from hrcplan.bank import Bank
+from hrcplan.bank import Bank, Goals, StepTable, read_goals
+from hrcplan.bank.cache import cached_bank
 from hrcplan.bank.team_moves import team_moves
 from hrcplan.collaboration.adviser import Adviser
 from hrcplan.collaboration.companion import Companion
-from hrcplan.collaboration.events import SHARED_QUESTIONS, SharedCommand, SharedEvent
+from hrcplan.collaboration.events import KINDS, SHARED_QUESTIONS, SharedCommand, SharedEvent
+from hrcplan.collaboration.journal import FORMAT, RecordedPerson, check_same_goals, setup_of
+from hrcplan.collaboration.outcome import CollaborationOutcome, collaboration_outcome
 from hrcplan.collaboration.persons import CooperativePerson, Person, SimulatedPerson
 from hrcplan.collaboration.run import CompanionRun
 from hrcplan.collaboration.setup import (
@@ -28,6 +34,7 @@ from hrcplan.core.text import nearest
 from hrcplan.episodes.humans import HUMANS, Course
 from hrcplan.errors import UsageError
 from hrcplan.execution.driver import Driver, NullRecord, RunRecord
+from hrcplan.execution.journal import Journal, JournalWriter, open_journal
 from hrcplan.execution.worlds.simulated import Nature
 
 CollaborationWatch = Callable[[CompanionRun, SharedEvent, tuple[SharedCommand, ...]], None]
@@ -124,3 +131,164 @@ def parts_with(
     """Return the parts of a collaboration with somebody who acts for the people."""
     world = SharedWorld(setup, nature or Nature(setup.seed), person)
     return CollaborationParts(setup, bank, adviser, world)
+
+
+def bank_for(goals: Goals) -> Bank:
+    """Return the bank of goals, built or from the cache; of one goal only its steps.
+
+    Raises:
+        UnsupportedError: if bits cannot hold the task.
+        LimitError: if time or memory runs out.
+    """
+    if len(goals) == 1:
+        return Bank(goals, StepTable(goals.task), ())
+    return cached_bank(goals)
+
+
+def course_of(bank: Bank, seed: int) -> Course:
+    """Return a course drawn from a seed: one goal, and another one from some turn on."""
+    chance = random.Random(f"{seed}/collaboration")
+    n_goals = len(bank.names)
+    goals = tuple(chance.sample(range(n_goals), min(2, n_goals)))
+    if len(goals) < 2:
+        return Course(goals, seed=str(seed))
+    most = max(1, bank.graphs[goals[0]].n_steps // 2)
+    return Course(goals, turns=(chance.randint(1, most),), seed=str(seed))
+
+
+@dataclass(frozen=True)
+class Collaboration:
+    """A finished collaboration.
+
+    Attributes:
+        outcome: What it came to.
+        run: The last state of the machine, with the history.
+        setup: What it depends on.
+        n_resumed: How many lines of a journal it was resumed from; 0 for a new one.
+    """
+
+    outcome: CollaborationOutcome
+    run: CompanionRun
+    setup: CollaborationSetup
+    n_resumed: int = 0
+
+    def __repr__(self) -> str:
+        done, goals = self.outcome, ", ".join(self.outcome.reached) or "no goal"
+        n = f"{done.done_human} human and {done.done_robot} robot actions"
+        return f"<Collaboration: {done.ending}, {goals}, {n}>"
+
+
+PartsMaker = Callable[[CollaborationSetup], CollaborationParts]
+"""Makes the parts of a collaboration; called with the setup of the journal if one is resumed."""
+
+
+def carry_out_collaboration(
+    setup: CollaborationSetup, make_parts: PartsMaker, *, journal: Path | None = None,
+    resume: bool = False, watch: CollaborationWatch | None = None,
+) -> Collaboration:  # fmt: skip
+    """Return the finished collaboration; a resumed one takes the setup of its journal.
+
+    Args:
+        setup: What it depends on.
+        make_parts: Makes its parts.
+        journal: Where to write it down.
+        resume: Continue the collaboration in the journal, if there is one.
+        watch: Is called after every step of the machine that is not repeated from a journal.
+
+    Raises:
+        InputError: if the journal is damaged or of other PDDL.
+        UsageError: if it exists and ``resume`` was not asked for, or cannot be written.
+    """
+    file, past = open_journal(journal, resume)
+    try:
+        if past is not None:
+            setup = _with_setup_of(past, setup)
+        parts = make_parts(setup)
+        if past is not None and parts.world.person.is_live:
+            parts.world.person = RecordedPerson(past, parts.world.person)
+        writer = None
+        if file is not None and past is None:
+            writer = JournalWriter.begin(file, setup, FORMAT, KINDS)
+        elif file is not None and past is not None:
+            writer = JournalWriter.resume(file, past, KINDS)
+        run = parts.run(writer, _watch_after(writer, watch))
+        outcome = collaboration_outcome(run)
+        if writer is not None:
+            writer.finish(outcome)
+        return Collaboration(outcome, run, setup, 0 if past is None else len(past.lines))
+    finally:
+        if file is not None:
+            file.close()
+
+
+def _watch_after(
+    writer: JournalWriter | None, watch: CollaborationWatch | None
+) -> CollaborationWatch | None:
+    """Return a watch that does not see what is repeated from a journal."""
+    if writer is None or watch is None:
+        return watch
+
+    def new_only(
+        run: CompanionRun, event: SharedEvent, commands: tuple[SharedCommand, ...]
+    ) -> None:
+        if not writer.is_repeating:
+            watch(run, event, commands)
+
+    return new_only
+
+
+def _with_setup_of(past: Journal, setup: CollaborationSetup) -> CollaborationSetup:
+    """Return a setup as a journal has it, but with the problem as it was read.
+
+    Raises:
+        InputError: if the journal is of other PDDL.
+        UsageError: if it names code that the user did not name.
+    """
+    check_same_goals(past, setup)
+    theirs = setup_of(past)
+    if theirs.method != setup.method:
+        ASSISTANTS.find_listed(theirs.method)  # a journal must not choose which code runs
+    return replace(theirs, problem=setup.problem, goals=setup.goals)
+
+
+def collaborate(
+    source: str | Bank, goals: str | None = None, *, human: str | Person = "frontier",
+    pace: str = TURNS, method: str = ROBOT, seed: int = 0,
+    journal: str | os.PathLike[str] | None = None, resume: bool = False,
+    watch: CollaborationWatch | None = None,
+) -> Collaboration:  # fmt: skip
+    """Let a robot help people whose goal it does not know, and return what came of it.
+
+    Args:
+        source: A bank, or a domain: a path or a shipped name.
+        goals: The goals of the domain; see ``build_bank``.
+        human: The name of a simulated human (``frontier``, ``cc-htn``, ``plans``, or
+            ``module:Class``), or an object that acts for the people. A simulated human has two
+            goals one after the other, drawn from the seed.
+        pace: ``turns``, or ``free``: anybody begins at any time.
+        method: The robot: a name in ``assistants``, or ``module:Class``.
+        seed: All random draws follow from it.
+        journal: Where to write it down.
+        resume: Continue the collaboration in the journal, if there is one.
+        watch: Is called with the run, the event and the commands after every step.
+
+    Raises:
+        InputError: if a file is missing or has faults.
+        UsageError: if a name is unknown.
+        UnsupportedError: if a construct in the PDDL is not held.
+        LimitError: if the plans of a goal do not fit.
+
+    >>> collaborate("kitchen", seed=1).outcome.ending
+    'goal reached'
+    """
+    bank = source if isinstance(source, Bank) else bank_for(read_goals(source, goals))
+    spec = {"name": human} if isinstance(human, str) else {"name": type(human).__name__}
+    setup = make_setup(bank, pace=pace, method=method, seed=seed, human=spec)
+
+    def make_parts(setup: CollaborationSetup) -> CollaborationParts:
+        if isinstance(human, str):
+            return simulated(setup, bank, course_of(bank, setup.seed), human)
+        return parts_with(setup, bank, Adviser(setup, bank, assistant_of(setup)), human)
+
+    path = None if journal is None else Path(journal)
+    return carry_out_collaboration(setup, make_parts, journal=path, resume=resume, watch=watch)

@@ -64,6 +64,8 @@ class Companion:
                 return self.reports.answered(run, event)
             case shared.Undone():
                 return self.reports.undone(run, event)
+            case shared.StateTold(t, values):
+                return self._observed(run, ev.Sensed(t, values))
             case shared.Wanted():
                 return run.plus(WantedGoal(event.goal)), ()
             case shared.Paused() | shared.Continued():

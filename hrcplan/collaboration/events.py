@@ -67,10 +67,19 @@ class Answered:
 
 @dataclass(frozen=True, slots=True)
 class Undone:
-    """A person takes a reported action back: it was not done."""
+    """A person takes a reported action back: it was not begun, or (``attempted``) it failed."""
 
     t: float
     number: int
+    attempted: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class StateTold:
+    """A person says how an agent is; ``values`` are those of its agent state."""
+
+    t: float
+    values: Mapping[FluentKey, float | Number]
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,8 +162,8 @@ class Correct:
 
 
 PersonEvent = (
-    Begun | Passed | Said | Answered | Undone | Wanted | Paused | Continued | ev.Sensed
-    | ev.Ended | ev.StopAsked
+    Begun | Passed | Said | Answered | Undone | StateTold | Wanted | Paused | Continued
+    | ev.StopAsked
 )  # fmt: skip
 SharedEvent = Event | PersonEvent | Read | Chosen
 SharedCommand = Command | AskStep | AskReading | Ask | Correct
@@ -162,7 +171,7 @@ SharedCommand = Command | AskStep | AskReading | Ask | Correct
 KINDS: Mapping[str, type] = {
     **codec.KINDS,
     **{kind.__name__.lower(): kind
-       for kind in (Begun, Passed, Said, Read, Answered, Undone, Wanted, Paused, Continued, Chosen,
-                    AskStep, AskReading, Ask, Correct)},
+       for kind in (Begun, Passed, Said, Read, Answered, Undone, StateTold, Wanted, Paused,
+                    Continued, Chosen, AskStep, AskReading, Ask, Correct)},
 }  # fmt: skip
 SHARED_QUESTIONS: Mapping[type, type] = {**QUESTIONS, AskStep: Chosen, AskReading: Read}

@@ -82,6 +82,18 @@ def without(history: History, number: int) -> History:
     )
 
 
+def as_failed(history: History, number: int) -> History:
+    """Return a history in which an action has failed, when it ended or just now."""
+    if all(not isinstance(mark, EndedAction) or mark.number != number for mark in history):
+        return (*history, EndedAction(number, ev.FAILED))
+    return tuple(
+        EndedAction(number, ev.FAILED)
+        if isinstance(mark, EndedAction) and mark.number == number
+        else mark
+        for mark in history
+    )
+
+
 def begun_action(history: History, number: int) -> BegunAction | None:
     """Return the action with a number; None if the history has none."""
     return next((mark for mark in actions_in(history) if mark.number == number), None)

@@ -7,7 +7,9 @@ from dataclasses import replace
 from hrcplan.collaboration import events as shared
 from hrcplan.collaboration.history import (
     EndedAction,
+    History,
     PassedTurn,
+    as_failed,
     begun_action,
     state_after,
     without,
@@ -151,32 +153,38 @@ class Reports:
         return replace(companion, run=run, question=None, reached=reached), commands
 
     def undone(self, companion: CompanionRun, event: shared.Undone) -> CompanionStep:
-        """Return the run as if a person had never begun an action; what robots did remains."""
-        action = begun_action(companion.history, event.number)
+        """Return the run as if a person had never begun an action, or as if it had failed.
+
+        What robots did since remains.
+        """
+        number = event.number
+        action = begun_action(companion.history, number)
         if action is None or action.is_robot:
             return _told(companion, "nothing-to-undo", "no action of a person can be taken back")
-        history = without(companion.history, event.number)
+        change = as_failed if event.attempted else without
+        is_running = companion.run.running_action(number) is not None
+        companion = self._corrected(_closed(companion), change(companion.history, number), number)
+        if self.setup.has_one_goal:
+            reason = f"{fact_text(action.words)} was not done"
+            companion = replace(companion, run=companion.run.with_reason(ev.DEVIATION, reason))
+        if not event.attempted:  # the turn has not been used
+            slot = next(i for i, s in enumerate(self.setup.slots) if action.agent in s)
+            companion = replace(companion, slot=slot, has_acted=False)
+        cancel = (ev.Cancel(companion.t, number),) if is_running else ()
+        model, state = self.actions, companion.run.state
+        facts, absent = model.changing(state), model.absent(state)
+        return companion, (*cancel, shared.Correct(companion.t, facts, state.values, absent))
+
+    def _corrected(self, companion: CompanionRun, history: History, number: int) -> CompanionRun:
+        """Return the run with another history, in which an action does not run any more."""
         state, effects = state_after(history, self.actions)
         running = tuple(
             replace(r, start_effects=effects[r.number])
-            for r in companion.running if r.number != event.number
-        )  # fmt: skip
+            for r in companion.running
+            if r.number != number
+        )
         run = replace(companion.run, state=state, running=running)
-        if self.setup.has_one_goal:
-            text = fact_text(action.words)
-            run = run.with_reason(ev.DEVIATION, f"{text} was not done")
-        slot = next(i for i, s in enumerate(self.setup.slots) if action.agent in s)
-        companion = replace(
-            _closed(companion), run=run, history=history, slot=slot, has_acted=False,
-        )  # fmt: skip
-        cancel = (ev.Cancel(run.t, event.number),) if _is_running(companion, event) else ()
-        model = self.actions
-        correct = shared.Correct(run.t, model.changing(state), state.values, model.absent(state))
-        return companion, (*cancel, correct)
-
-
-def _is_running(companion: CompanionRun, event: shared.Undone) -> bool:
-    return companion.run.running_action(event.number) is not None
+        return replace(companion, run=run, history=history)
 
 
 def _runs(run: Run, step: BoundAction) -> bool:

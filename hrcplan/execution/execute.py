@@ -17,7 +17,7 @@ from hrcplan.errors import MissingPlannerError, UsageError
 from hrcplan.execution.changes import WorldChange
 from hrcplan.execution.driver import PlanProvider, RunWatch
 from hrcplan.execution.events import FAILED, Command, Event
-from hrcplan.execution.journal import Journal, JournalFile, JournalWriter, RunSetup
+from hrcplan.execution.journal import Journal, JournalFile, JournalWriter, RunSetup, open_journal
 from hrcplan.execution.model import ExecutionModel
 from hrcplan.execution.monitor import Monitor
 from hrcplan.execution.natures import STEADY, NatureSource, nature_for
@@ -212,7 +212,7 @@ def carry_out(
         InputError: if the journal is damaged or of another run.
         UsageError: if it exists and ``resume`` was not asked for, or cannot be written.
     """
-    file, past = _open(journal, resume)
+    file, past = open_journal(journal, resume)
     try:
         return _carry_out(prepared_run, file, past, watch)
     finally:
@@ -244,27 +244,6 @@ def _carry_out(
     if writer is not None:
         writer.finish(outcome)
     return Execution(outcome, run, timeline, 0 if past is None else len(past.lines))
-
-
-def _open(path: Path | None, resume: bool) -> tuple[JournalFile | None, Journal | None]:
-    """Return the file to write, and the journal in it to continue, if there are any."""
-    if path is None:
-        if resume:
-            hint = "--journal FILE --resume"
-            raise UsageError("to resume a run its journal is needed", hint=hint)
-        return None, None
-    file = JournalFile(path)
-    if not resume or not file.n_bytes:
-        return file, None
-    try:
-        past = file.journal()
-        if past.is_empty:  # killed before the first line was complete
-            file.cut(0)
-            return file, None
-    except BaseException:
-        file.close()
-        raise
-    return file, past
 
 
 def _with_setup_of(past: Journal, prepared_run: PreparedRun) -> PreparedRun:

@@ -3,18 +3,23 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 from hrcplan.execution import events as ev
-from hrcplan.execution.codec import from_json, to_json
+from hrcplan.execution.codec import KINDS, Item, from_json, to_json
+from hrcplan.execution.driver import DrivenRun, Machine
 from hrcplan.execution.journal import Journal
+from hrcplan.execution.journal.writer import HasJson
 from hrcplan.execution.model import ExecutionModel
 from hrcplan.execution.monitor import Monitor
 from hrcplan.execution.outcome import Outcome, outcome_of
-from hrcplan.execution.run import Run
+from hrcplan.pddl.model import Problem
 from hrcplan.validation import validate
+
+R = TypeVar("R", bound=DrivenRun)
+O = TypeVar("O", bound=HasJson)  # noqa: E741
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,16 +32,16 @@ class Difference:
 
 
 @dataclass(frozen=True, slots=True)
-class Replayed:
+class Replayed(Generic[O]):
     """What came of a replay; ``row`` is the one derived, of an unfinished run as far as it came."""
 
     n_events: int
     n_decisions: int
-    row: Outcome
+    row: O
     difference: Difference | None = None
 
 
-def replay(journal: Journal) -> Replayed:
+def replay(journal: Journal) -> Replayed[Outcome]:
     """Return what follows from the events of a journal, compared with what it says.
 
     Raises:
@@ -44,7 +49,26 @@ def replay(journal: Journal) -> Replayed:
     """
     setup = journal.setup()
     monitor = Monitor(ExecutionModel(setup.problem), setup.profile, setup.sensing)
-    run = monitor.begin()
+    return derive(
+        journal, monitor, lambda run: outcome_of(run, monitor.model.agents.robots),
+        monitor.decider.problem_now,
+    )  # fmt: skip
+
+
+def derive(
+    journal: Journal, machine: Machine[R, Any, Any], outcome: Callable[[R], O],
+    problem_now: Callable[[R], Problem], kinds: Mapping[str, type] = KINDS,
+) -> Replayed[O]:  # fmt: skip
+    """Return what follows from the events of a journal, compared with what it says.
+
+    Args:
+        journal: The journal.
+        machine: What decides.
+        outcome: Returns the outcome of a run.
+        problem_now: Returns the problem that plans of a run solve.
+        kinds: The classes of events and commands by ``kind``.
+    """
+    run = machine.begin()
     due: list[dict[str, Any]] | None = None
     n_events = n_decisions = 0
     difference: Difference | None = None
@@ -54,17 +78,30 @@ def replay(journal: Journal) -> Replayed:
             n_decisions += difference is None
             due = None
         elif "row" in line:
-            row = outcome_of(run, monitor.model.agents.robots).to_json()
-            difference = _differs(number, {"row": row}, line)
+            difference = _differs(number, {"row": _as_read(outcome(run).to_json())}, line)
         else:
-            difference = _without_reason(number, line, run, monitor)
+            event, difference = _event(number, line, kinds)
+            difference = difference or _without_reason(number, line, event, run, problem_now)
             if difference is None:
-                run, commands = monitor.step(run, from_json(line["event"]))
-                due = json.loads(json.dumps([to_json(command) for command in commands]))
+                run, commands = machine.step(run, event)
+                due = _as_read([to_json(command) for command in commands])
                 n_events += 1
         if difference is not None:
             break
-    return Replayed(n_events, n_decisions, outcome_of(run, monitor.model.agents.robots), difference)
+    return Replayed(n_events, n_decisions, outcome(run), difference)
+
+
+def _as_read(value: Any) -> Any:
+    return json.loads(json.dumps(value))
+
+
+def _event(
+    number: int, line: Mapping[str, Any], kinds: Mapping[str, type]
+) -> tuple[Any, Difference | None]:
+    try:
+        return from_json(line["event"], kinds), None
+    except (KeyError, ValueError):
+        return None, Difference(number, "an event", json.dumps({**line}))
 
 
 def _differs(
@@ -77,17 +114,14 @@ def _differs(
 
 
 def _without_reason(
-    number: int, line: Mapping[str, Any], run: Run, monitor: Monitor
-) -> Difference | None:
-    """Return what is wrong with an event as such: it cannot be read, or its plan is not valid."""
-    try:
-        event = from_json(line["event"])
-    except (KeyError, ValueError):
-        return Difference(number, "an event", json.dumps({**line}))
-    if run.is_over:
+    number: int, line: Mapping[str, Any], event: Item, run: R,
+    problem_now: Callable[[R], Problem],
+) -> Difference | None:  # fmt: skip
+    """Return what is wrong with an event as such: the run is over, or its plan is not valid."""
+    if run.is_over and not isinstance(event, ev.Settled):
         return Difference(number, "nothing: the run is over", json.dumps({**line}))
     if isinstance(event, ev.Planned) and event.plan is not None:
-        report = validate(monitor.decider.problem_now(run), event.plan)
+        report = validate(problem_now(run), event.plan)
         if not report.valid:
             return Difference(number, "a valid plan", f"{report.reason}")
     return None

@@ -6,7 +6,7 @@ on disk before a decision is acted on (``writer.py``). A process that is killed 
 incomplete last line, which is removed when the run is resumed (``reader.py``).
 """
 
-from hrcplan.execution.journal.file import JournalFile
+from hrcplan.execution.journal.file import JournalFile, open_journal
 from hrcplan.execution.journal.reader import FORMAT, Journal, read_journal
 from hrcplan.execution.journal.setup import RunSetup, setup_from_json
 from hrcplan.execution.journal.writer import JournalWriter
@@ -17,6 +17,7 @@ __all__ = [
     "JournalFile",
     "JournalWriter",
     "RunSetup",
+    "open_journal",
     "read_journal",
     "setup_from_json",
 ]

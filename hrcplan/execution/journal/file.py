@@ -87,3 +87,29 @@ class JournalFile:
     def close(self) -> None:
         """Let other processes in."""
         os.close(self._handle)
+
+
+def open_journal(path: Path | None, resume: bool) -> tuple[JournalFile | None, Journal | None]:
+    """Return the file to write, and the journal in it to continue, if there are any.
+
+    Raises:
+        UsageError: if a run is to be resumed without a file, or the file cannot be written.
+        InputError: if the journal is damaged.
+    """
+    if path is None:
+        if resume:
+            hint = "--journal FILE --resume"
+            raise UsageError("to resume a run its journal is needed", hint=hint)
+        return None, None
+    file = JournalFile(path)
+    if not resume or not file.n_bytes:
+        return file, None
+    try:
+        past = file.journal()
+        if past.is_empty:  # killed before the first line was complete
+            file.cut(0)
+            return file, None
+    except BaseException:
+        file.close()
+        raise
+    return file, past
