@@ -12,7 +12,7 @@ import os
 from pathlib import Path
 
 from hrcplan import __version__
-from hrcplan.bank.bank import Bank, build
+from hrcplan.bank import Bank, build
 from hrcplan.bank.goals import Goals
 from hrcplan.bank.store import TEAM_VERSION, load, save
 from hrcplan.core.files import cache_folder
