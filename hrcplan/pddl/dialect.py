@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from functools import reduce
 
@@ -18,6 +18,8 @@ from hrcplan.pddl.model import (
     Formula,
     Problem,
 )
+from hrcplan.pddl.renaming import renamed
+from hrcplan.pddl.semantics import instances
 from hrcplan.pddl.walks import formula_functions, functions_in, with_parts
 
 _NUMERIC = frozenset([":fluents", ":numeric-fluents", ":action-costs"])
@@ -71,6 +73,27 @@ def with_binary_sums(problem: Problem) -> Problem:
         goal=_binary_formula(problem.goal),
         metric=None if problem.metric is None else _binary(problem.metric),
     )
+
+
+def with_ground_sums(problem: Problem) -> Problem:
+    """Return a problem whose effects on numbers stand for one object each, not for all of a type.
+
+    Raises:
+        LimitError: if a quantifier has too many instances.
+    """
+    actions = (
+        replace(a, effects=tuple(e for effect in a.effects for e in _instances(effect, problem)))
+        for a in problem.domain.actions
+    )
+    return replace(problem, domain=replace(problem.domain, actions=tuple(actions)))
+
+
+def _instances(effect: Effect, problem: Problem) -> Iterator[Effect]:
+    if effect.value is None or not effect.params:
+        yield effect
+        return
+    for binding in instances(effect.params, {}, problem):
+        yield replace(renamed(effect, binding), params=())
 
 
 def _binary_action(action: Action) -> Action:

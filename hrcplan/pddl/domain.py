@@ -24,6 +24,11 @@ _UNSUPPORTED = {
     ":axiom": "axioms of PDDL 1.2",
 }
 _CURES = {":axiom": "write (:derived (p ?x) CONDITION)"}
+_KEYWORDS = frozenset([
+    "and", "or", "not", "imply", "forall", "exists", "when", "preference", "increase",
+    "decrease", "assign", "scale-up", "scale-down", "is-violated", "always", "sometime",
+    "within",
+])  # fmt: skip
 _REPEATED = ACTIONS | PLUS | {DERIVED}
 _SECTIONS = (":requirements", ":types", ":constants", ":predicates", ":functions", SECTION,
              *_REPEATED)  # fmt: skip
@@ -233,6 +238,9 @@ def _signatures(
         name = node[0]
         assert isinstance(name, WordNode)
         params = params_of(node[1:], source, types, declaration=True)
+        if name in _KEYWORDS:
+            message = f"many readers refuse a {kind} called {quote(name)}"
+            source.warn(name.at, "keyword-name", message, "give it another name")
         if name in signatures:
             same = [p.types for p in params] == [p.types for p in signatures[name].params]
             report = source.warn if same else source.error

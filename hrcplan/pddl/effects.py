@@ -41,6 +41,8 @@ def read_effects(node: ParseNode, scope: Scope, when: str | None) -> Iterator[Ef
     match node.head:
         case "":
             return
+        case _ if scope.is_atom(node) and when is not None:
+            yield from _literal(node, scope, when)
         case "and":
             for part in node[1:]:
                 yield from read_effects(part, scope, when)
@@ -123,7 +125,7 @@ def _both(outer: Formula, inner: Formula) -> Formula:
 
 def _literal(node: GroupNode, scope: Scope, when: str) -> Iterator[Effect]:
     inner: ParseNode = node
-    if node.head == "not" and len(node) == 2:
+    if node.head == "not" and len(node) == 2 and not scope.is_atom(node):
         inner = node[1]
     if not isinstance(inner, GroupNode) or not inner.head or _is_no_effect(inner, scope):
         message = "'not' takes one predicate in an effect"
@@ -143,7 +145,7 @@ def _literal(node: GroupNode, scope: Scope, when: str) -> Iterator[Effect]:
 
 
 def _is_no_effect(node: GroupNode, scope: Scope) -> bool:
-    return node.head in _NO_EFFECTS | _LOGIC and node.head not in scope.domain.predicates
+    return node.head in _NO_EFFECTS | _LOGIC and not scope.is_atom(node)
 
 
 def _cure(node: GroupNode, inner: ParseNode) -> str | None:

@@ -63,6 +63,8 @@ def read_formula(node: ParseNode, scope: Scope) -> Formula:
     match node.head:
         case "":
             return TRUE
+        case _ if scope.is_atom(node):
+            return read_atom(node, scope) or TRUE
         case "and":
             return And(tuple(read_formula(part, scope) for part in node[1:]))
         case "or":
@@ -138,7 +140,8 @@ def _has_time(node: GroupNode) -> bool:
 
 def is_unsupported(node: GroupNode, scope: Scope) -> bool:
     """Report a construct that hrcplan does not know, unless its word is a predicate here."""
-    if node.head not in UNSUPPORTED or node.head in scope.domain.predicates:
+    declared = node.head in scope.domain.predicates or node.head in scope.domain.functions
+    if node.head not in UNSUPPORTED or declared:
         return False
     scope.source.error(node.at, "unsupported", f"{UNSUPPORTED[node.head]} are not supported")
     return True

@@ -21,19 +21,18 @@ def read_preferences(
 
     ``durative`` is None for a goal, else it says whether the tree is a durative action's condition.
     """
-    if not _mentions(node):
+    if not _mentions(node, scope):
         return node, ()
     scope.source.use(":preferences", node.at)
     preferences: list[Preference] = []
     return _without(node, scope, (), durative, preferences), tuple(preferences)
 
 
-def _mentions(node: ParseNode) -> bool:
-    if not isinstance(node, GroupNode):
+def _mentions(node: ParseNode, scope: Scope) -> bool:
+    if not isinstance(node, GroupNode) or scope.is_atom(node):
         return False
-    return node.head == "preference" or (
-        node.head in ("and", "forall") and any(map(_mentions, node[1:]))
-    )
+    inner = node[1:] if node.head in ("and", "forall") else []
+    return node.head == "preference" or any(_mentions(part, scope) for part in inner)
 
 
 def _without(
@@ -43,7 +42,7 @@ def _without(
     durative: bool | None,
     preferences: list[Preference],
 ) -> ParseNode:
-    if not isinstance(node, GroupNode) or not _mentions(node):
+    if not isinstance(node, GroupNode) or not _mentions(node, scope):
         return node
     if node.head == "preference":
         preferences.extend(_preference(node, scope, params, durative))

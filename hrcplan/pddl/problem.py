@@ -113,7 +113,9 @@ class _Init:
 
     def take(self, node: ParseNode) -> None:
         source = self.scope.source
-        if isinstance(node, WordNode) or not node.head or node.head in _LOGIC:
+        if isinstance(node, GroupNode) and self.scope.is_atom(node):
+            self._fact(node)
+        elif isinstance(node, WordNode) or not node.head or node.head in _LOGIC:
             source.error(node.at, "not-a-fact", "a fact such as (p a b) is expected here")
         elif node.head == "=":
             self._value(node)

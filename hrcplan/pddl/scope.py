@@ -72,6 +72,16 @@ class Scope:
         """Return this scope with a further special value."""
         return replace(self, numbers=self.numbers | {number})
 
+    def is_atom(self, node: GroupNode) -> bool:
+        """Return whether a group is a declared predicate with words, whatever its name.
+
+        So is ``(when ?x)``, if there is such a predicate; ``(and)`` and ``(or)`` never are.
+        """
+        if node.head not in self.domain.predicates or not node:
+            return False
+        words = all(isinstance(part, WordNode) for part in node)
+        return words and (len(node) > 1 or node.head not in ("and", "or"))
+
     def types_of(self, term: WordNode) -> tuple[str, ...] | None:
         """Return the types of a variable or object; None, with an error, if it is unknown."""
         if term.startswith("?"):

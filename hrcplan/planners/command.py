@@ -17,10 +17,9 @@ from tempfile import NamedTemporaryFile, TemporaryDirectory
 from hrcplan.core.numbers import Number
 from hrcplan.errors import MissingPlannerError, PlannerError, UsageError
 from hrcplan.pddl.constructs import ALL
-from hrcplan.pddl.guards import guarded
 from hrcplan.pddl.model import Problem
-from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
+from hrcplan.planners.handover import Handover
 from hrcplan.planners.process import FinishedProcess, ProcessEnd, ProcessLimits, run
 from hrcplan.plans import Plan, find_plans
 from hrcplan.validation import objective, validate
@@ -70,15 +69,16 @@ class CommandPlanner:
         if missing is not None:
             raise MissingPlannerError(f"{self.card.name}: {missing}")
         problem = request.problem
-        given = guarded(problem)
+        handover = Handover.of(problem)
         with TemporaryDirectory(prefix="hrcplan-") as folder:
             cwd = Path(folder)
-            (cwd / "domain.pddl").write_text(domain_text(given.domain))
-            (cwd / "problem.pddl").write_text(problem_text(given))
+            for name, text in zip(("domain", "problem"), handover.texts, strict=True):
+                (cwd / f"{name}.pddl").write_text(text)
             limits = ProcessLimits(request.time_left_s, request.memory_bytes)
             process = run(list(self._argv(cwd, limits.time_s)), cwd=cwd, limits=limits)
             texts = [process.stdout, *_plan_files(cwd, limits.output_bytes)]
-        plans = [plan for text in texts for plan in find_plans(text, problem)]
+        found = (plan for text in texts for plan in find_plans(text, handover.problem))
+        plans = [handover.restored(plan) for plan in found]
         return self._answer(problem, process, plans)
 
     def _argv(self, cwd: Path, time_s: float) -> Iterator[str]:

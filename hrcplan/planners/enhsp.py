@@ -20,18 +20,16 @@ from tempfile import TemporaryDirectory
 
 from hrcplan.core.numbers import Number, to_number
 from hrcplan.errors import LimitError, MissingPlannerError, PlannerError, UnsupportedError
-from hrcplan.pddl.dialect import with_binary_sums, with_effects
-from hrcplan.pddl.guards import guarded
+from hrcplan.pddl.dialect import with_binary_sums, with_effects, with_ground_sums
 from hrcplan.pddl.inlining import plain
 from hrcplan.pddl.model import TOTAL_COST, TRUE, Action, Effect, Fact, Function, Problem
 from hrcplan.pddl.semantics import ground_key, instances
 from hrcplan.pddl.walks import functions_in
-from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
+from hrcplan.planners.handover import Handover
 from hrcplan.planners.lowering import NO_SEQUENCE, Lowering, lower
 from hrcplan.planners.number_range import decides_exactly, never_lowers_cost, prices_exactly
 from hrcplan.planners.process import FinishedProcess, ProcessEnd, ProcessLimits, run
-from hrcplan.plans import parse_plan
 from hrcplan.task.reachable import SchemaInstance, reachable
 from hrcplan.validation import objective, validate
 
@@ -52,6 +50,7 @@ class _Input:
     domain: str
     problem: str
     lowering: Lowering | None
+    handover: Handover
     costs: bool
     whole: bool
 
@@ -134,16 +133,15 @@ def _input(request: Request) -> _Input:
         with contextlib.suppress(*(() if domain.is_temporal else (UnsupportedError, LimitError))):
             lowering = lower(request.task)
             texts = lowering.domain_text, lowering.problem_text
-            return _Input(*texts, lowering, True, not lowering.conditional)
+            return _Input(*texts, lowering, Handover(problem), True, not lowering.conditional)
     moving = varies or any(_reads_change(problem, effect) for effect in _effects(problem))
     if moving or not plain_metric:
         plain_domain = with_effects(domain, lambda effect: effect.target.name != TOTAL_COST)
         problem = replace(problem, domain=plain_domain, metric=None, maximize=False)
     simple = all(_is_simple(problem, effect) for effect in _effects(problem))
     simple = simple and exact and not clash
-    binary = with_binary_sums(guarded(problem))
-    texts = domain_text(binary.domain), problem_text(binary)
-    return _Input(*texts, None, plain_metric and not moving, simple)
+    handover = Handover.of(with_binary_sums(with_ground_sums(problem)))
+    return _Input(*handover.texts, None, handover, plain_metric and not moving, simple)
 
 
 def _effects(problem: Problem) -> Iterator[Effect]:
@@ -245,7 +243,8 @@ def _answer(
 
 
 def _solution(request: Request, texts: _Input, proof: bool, output: str, text: str) -> Answer:
-    plan = parse_plan(text) if texts.lowering is None else texts.lowering.plan(text)
+    source = texts.handover if texts.lowering is None else texts.lowering
+    plan = source.plan(text)
     exact = texts.costs if texts.lowering is None else texts.lowering.exact_for_metric
     is_optimal = proof and texts.whole and exact and not request.problem.domain.is_temporal
     value = objective(request.problem, validate(request.problem, plan))

@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 from hrcplan.core.numbers import Number
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.dialect import with_effects, without_numbers
-from hrcplan.pddl.guards import guarded
 from hrcplan.pddl.inlining import remaining
 from hrcplan.pddl.model import (
     TOTAL_COST,
@@ -30,6 +29,7 @@ from hrcplan.pddl.model import (
 from hrcplan.pddl.walks import compares
 from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.planners.contract import Request
+from hrcplan.planners.handover import Handover
 from hrcplan.planners.lowering import Lowering, lower
 from hrcplan.plans import Plan, parse_plan
 
@@ -51,10 +51,13 @@ class DownwardInput:
     exact: bool
     proof: str
     is_solved: bool = False
+    handover: Handover | None = None
 
     def plan(self, text: str) -> Plan:
         """Return Fast Downward's plan in the names of the task."""
-        return parse_plan(text) if self.lowering is None else self.lowering.plan(text)
+        if self.lowering is not None:
+            return self.lowering.plan(text)
+        return parse_plan(text) if self.handover is None else self.handover.plan(text)
 
     def objective(self, cost: int, problem: Problem) -> Number | None:
         """Return the problem's metric of a plan with this cost; None where it is another thing."""
@@ -79,7 +82,7 @@ def downward_input(request: Request) -> DownwardInput:
         LimitError: if the task cannot be grounded within the limits, and has to be.
     """
     problem = request.problem
-    lifted_input = _lifted_input(guarded(problem))
+    lifted_input = _lifted_input(Handover.of(problem))
     if remaining(problem):
         if lifted_input is None:
             raise UnsupportedError("fast-downward knows no numbers with derived predicates")
@@ -116,8 +119,9 @@ def grounded_input(request: Request) -> DownwardInput:
     )  # fmt: skip
 
 
-def _lifted_input(problem: Problem) -> DownwardInput | None:
+def _lifted_input(handover: Handover) -> DownwardInput | None:
     """Return a task in its own files; None if it has numbers other than costs, or time."""
+    problem = handover.problem
     domain = problem.domain
     if domain.is_temporal or any(compares(formula) for formula in _formulas(problem)):
         return None
@@ -132,7 +136,7 @@ def _lifted_input(problem: Problem) -> DownwardInput | None:
         problem = without_numbers(problem)
     small = max((price for price in prices if price is not None), default=0) <= _MAX_PRICE
     texts = domain_text(problem.domain), problem_text(problem)
-    return DownwardInput(*texts, None, exact and small, _proof(problem))
+    return DownwardInput(*texts, None, exact and small, _proof(problem), handover=handover)
 
 
 def _formulas(problem: Problem) -> Iterator[Formula]:

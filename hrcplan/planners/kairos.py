@@ -16,13 +16,12 @@ from typing import TYPE_CHECKING
 from hrcplan.core.numbers import Number
 from hrcplan.errors import LimitError, MissingPlannerError, PlannerError, UnsupportedError
 from hrcplan.pddl.constructs import ALL
-from hrcplan.pddl.guards import guarded
 from hrcplan.pddl.model import TOTAL_COST, Function
-from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
+from hrcplan.planners.handover import Handover
 from hrcplan.planners.lowering import Lowering, lower
 from hrcplan.planners.number_range import decides_exactly, never_lowers_cost, prices_exactly
-from hrcplan.plans import Plan, parse_plan
+from hrcplan.plans import Plan
 from hrcplan.validation import Report, objective
 
 if TYPE_CHECKING:
@@ -83,6 +82,7 @@ class _Portfolio:
     def __init__(self, request: Request) -> None:
         self.request = request
         self.lowering = _lowering(request)
+        self.handover = Handover.of(request.problem)
         self.best: tuple[Number, Plan, Number | None] | None = None
         self.invalid: Report | None = None
         self.is_proven = False
@@ -117,8 +117,7 @@ class _Portfolio:
         if self.lowering is not None:
             texts = self.lowering.domain_text, self.lowering.problem_text
         else:
-            given = guarded(self.request.problem)
-            texts = domain_text(given.domain), problem_text(given)
+            texts = self.handover.texts
         try:
             return kairos.parse_problem(texts[1], kairos.parse_domain(texts[0]))
         except kairos.PddlError as error:
@@ -152,7 +151,8 @@ class _Portfolio:
         if text == self.last:
             return  # the search ends with the plan that it has shown before
         self.last = text
-        plan = self.lowering.plan(text) if self.lowering is not None else _plan_of(text)
+        source = self.handover if self.lowering is None else self.lowering
+        plan = source.plan(_without_end(text))
         if self.request.problem.domain.is_continuous:
             self.best = 0, plan, None  # hrcplan cannot judge it
             return
@@ -236,9 +236,9 @@ class _Portfolio:
         return Answer(Status.UNSOLVABLE)
 
 
-def _plan_of(text: str) -> Plan:
-    """Return a plan; the line that says when a plan of PDDL+ ends is no action."""
-    return parse_plan("\n".join(line for line in text.splitlines() if "@" not in line))
+def _without_end(text: str) -> str:
+    """Return a plan without the line that says when a plan of PDDL+ ends: it is no action."""
+    return "\n".join(line for line in text.splitlines() if "@" not in line)
 
 
 def _lowering(request: Request) -> Lowering | None:

@@ -18,6 +18,7 @@ from hrcplan.core.numbers import Number, exact
 from hrcplan.errors import PlanFormatError, UnsupportedError
 from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME
 from hrcplan.pddl.write import decimal_text
+from hrcplan.planners.handover import KEYWORDS
 from hrcplan.planners.instantaneous import unsure_changes
 from hrcplan.plans import Plan, PlannedAction, parse_plan
 from hrcplan.task import GroundAction, Task
@@ -127,7 +128,7 @@ def lower(task: Task) -> Lowering:
     scale = lcm(*(Fraction(price).denominator for price in metric.prices))
     costs = tuple(int(price * scale) for price in metric.prices)
     scale = -scale if task.problem.maximize else scale
-    names = _Names(task.problem.domain.name, task.problem.name)
+    names = _Names(*KEYWORDS, task.problem.domain.name, task.problem.name)
     facts = [names.take(_fact_words(fact)) for fact in task.facts]
     actions = {names.take((a.name, *a.args)): a for a in task.actions}
     text = _Text(facts)

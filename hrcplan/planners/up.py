@@ -24,14 +24,13 @@ from hrcplan.errors import (
 )
 from hrcplan.pddl import inlining
 from hrcplan.pddl.dialect import with_effects
-from hrcplan.pddl.guards import guarded
 from hrcplan.pddl.model import TOTAL_COST, Function, Problem
 from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
+from hrcplan.planners.handover import Handover
 from hrcplan.planners.lowering import Lowering, lower
 from hrcplan.planners.process import FinishedProcess, ProcessEnd, ProcessLimits, run
 from hrcplan.planners.up_table import Build, UpTable, table
-from hrcplan.plans import parse_plan
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -105,7 +104,8 @@ class UnifiedPlanning:
         status = reply["status"]
         if reply["plan"] is not None:
             lowering = form.lowering
-            plan = parse_plan(reply["plan"]) if lowering is None else lowering.plan(reply["plan"])
+            source = form.handover if lowering is None else lowering
+            plan = source.plan(reply["plan"])
             is_optimal = status == "SOLVED_OPTIMALLY" and form.exact
             return Answer(Status.OPTIMAL if is_optimal else Status.SOLVED, plan)
         if status == "UNSOLVABLE_PROVEN":
@@ -121,6 +121,7 @@ class _Form:
 
     input: list[str] | UpTable
     lowering: Lowering | None
+    handover: Handover
     exact: bool
 
 
@@ -128,10 +129,10 @@ def _forms(request: Request) -> Iterator[_Form]:
     problem = request.problem
     temporal = problem.domain.is_temporal
     plain = problem.metric == Function(TOTAL_COST) and not problem.maximize
-    free = guarded(inlining.plain(problem))
-    free = free if plain else _without_costs(free)
+    handover = Handover.of(inlining.plain(problem))
+    free = handover.problem if plain else _without_costs(handover.problem)
     texts = [domain_text(free.domain), problem_text(free)]
-    lifted_form = _Form(texts, None, plain and not temporal)
+    lifted_form = _Form(texts, None, handover, plain and not temporal)
     if temporal:
         yield lifted_form
     try:
@@ -140,8 +141,8 @@ def _forms(request: Request) -> Iterator[_Form]:
         lowering = None
     if lowering is not None:
         exact = lowering.exact_for_metric and not temporal
-        yield _Form(table(request.task, lowering, costs=True), lowering, exact)
-        yield _Form(table(request.task, lowering, costs=False), lowering, False)
+        yield _Form(table(request.task, lowering, costs=True), lowering, handover, exact)
+        yield _Form(table(request.task, lowering, costs=False), lowering, handover, False)
     if not temporal:
         yield lifted_form
 

@@ -11,7 +11,7 @@ from hrcplan.errors import PlannerError, UnsupportedError
 from hrcplan.pddl.generate import with_goal
 from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import Problem
-from hrcplan.planners import enhsp
+from hrcplan.planners import enhsp, handover
 from hrcplan.planners.contract import Answer, Request, Status
 from hrcplan.planners.enhsp import Enhsp
 from hrcplan.planners.fast_downward import FastDownward
@@ -92,7 +92,7 @@ def test_unsolvable_is_not_believed_of_a_task_it_was_not_made_for(tmp_path: Path
 def test_what_it_cannot_parse_is_an_error_not_unsolvable(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(enhsp, "problem_text", lambda problem: "(define (problem trip)")
+    monkeypatch.setattr(handover, "problem_text", lambda problem: "(define (problem trip)")
     with pytest.raises(PlannerError, match="enhsp failed"):
         solve(tank(tmp_path))
 
@@ -172,3 +172,15 @@ def test_derived_predicates_are_compiled_away() -> None:
     answer = solve(problem_of(domain, text))
     assert answer.plan is not None
     assert [action.name for action in answer.plan.actions] == ["lift", "lift", "finish"]
+
+
+def test_a_number_that_changes_for_all_objects_is_read() -> None:
+    domain = """(define (domain d) (:requirements :adl :fluents) (:predicates (done))
+      (:functions (level ?x))
+      (:action fill :parameters () :effect (forall (?y) (increase (level ?y) 1)))
+      (:action finish :parameters (?x) :precondition (>= (level ?x) 2) :effect (done)))"""
+    text = """(define (problem p) (:domain d) (:objects a b)
+      (:init (= (level a) 0) (= (level b) -1)) (:goal (and (done) (>= (level b) 1))))"""
+    answer = solve(problem_of(domain, text))
+    assert answer.plan is not None
+    assert sorted(action.name for action in answer.plan.actions) == ["fill", "fill", "finish"]

@@ -155,7 +155,9 @@ def test_any_plan_is_the_first() -> None:
 
 
 def test_what_it_does_not_read_is_unsupported(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("hrcplan.planners.kairos.problem_text", lambda problem: "(define (problem")
+    monkeypatch.setattr(
+        "hrcplan.planners.handover.problem_text", lambda problem: "(define (problem"
+    )
     with pytest.raises(UnsupportedError, match="does not read"):
         solve(read("transport", "two-boxes"))
 

@@ -1,0 +1,82 @@
+"""Problems as planners are given them: with guards, and without names that are keywords.
+
+Plans come back in the names of the task.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Set
+from dataclasses import dataclass, field, replace
+from itertools import count
+
+from hrcplan.pddl.guards import guarded
+from hrcplan.pddl.model import Problem
+from hrcplan.pddl.renaming import renamed
+from hrcplan.pddl.write import domain_text, problem_text
+from hrcplan.plans import Plan, PlannedAction, parse_plan
+
+KEYWORDS = frozenset([
+    "all", "always", "always-within", "and", "assign", "at-most-once", "decrease", "define",
+    "domain", "either", "end", "exists", "forall", "hold-after", "hold-during", "imply",
+    "increase", "is-violated", "maximize", "minimize", "not", "number", "oneof", "or", "over",
+    "preference", "problem", "scale-down", "scale-up", "sometime", "sometime-after",
+    "sometime-before", "start", "when", "within",
+])  # fmt: skip
+"""Words that the grammar of some planner knows wherever they stand."""
+
+
+@dataclass(frozen=True)
+class Handover:
+    """A problem as a planner is to read it, and the old names by the new ones.
+
+    What may have no value is guarded, and nothing is called like a keyword.
+    """
+
+    problem: Problem
+    names: Mapping[str, str] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, problem: Problem) -> Handover:
+        """Return the form of a problem for planners; most problems stay as they are.
+
+        >>> from hrcplan.pddl.inputs import read
+        >>> problem = read("transport", "two-boxes")
+        >>> Handover.of(problem).problem is problem
+        True
+        """
+        problem = guarded(problem)
+        words = set(_names(problem))
+        unsafe = sorted(words & KEYWORDS)
+        if not unsafe:
+            return cls(problem)
+        new = {word: _unused(word, words) for word in unsafe}
+        return cls(renamed(problem, new), {name: word for word, name in new.items()})
+
+    @property
+    def texts(self) -> tuple[str, str]:
+        """The domain and the problem as PDDL."""
+        return domain_text(self.problem.domain), problem_text(self.problem)
+
+    def plan(self, text: str) -> Plan:
+        """Return the plan of a text in the names of the task."""
+        return self.restored(parse_plan(text))
+
+    def restored(self, plan: Plan) -> Plan:
+        """Return a plan of the planner in the names of the task."""
+        return Plan(tuple(map(self._action, plan.actions))) if self.names else plan
+
+    def _action(self, action: PlannedAction) -> PlannedAction:
+        args = tuple(self.names.get(arg, arg) for arg in action.args)
+        return replace(action, name=self.names.get(action.name, action.name), args=args)
+
+
+def _names(problem: Problem) -> Iterator[str]:
+    """Yield what a problem and its domain declare."""
+    domain = problem.domain
+    yield from (*domain.types, *problem.all_objects, *domain.predicates, *domain.functions)
+    yield from (action.name for action in (*domain.actions, *domain.processes, *domain.events))
+    yield from (domain.name, problem.name)
+
+
+def _unused(word: str, words: Set[str]) -> str:
+    return next(name for i in count(1) if (name := f"{word}-{i}") not in words)
