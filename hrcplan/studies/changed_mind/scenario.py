@@ -217,7 +217,11 @@ def inputs(options: StudyOptions) -> str:
     tasks = dict.fromkeys(
         task_of(options, name) for table in data()["tables"] for name in humans(table, options)
     )
-    goals = [bank_of(*task).goals for task in tasks]
+    # A user's goals are checked with their plans; those of the file are known to have some.
+    goals = [
+        bank_of(*task).goals if task[1] == options["goals"] else goals_of(*task[:2])
+        for task in tasks
+    ]
     texts = [text for one in goals for text in (*one.names, *map(str, one.formulas))]
     texts.append(f"rows of format {ROW_FORMAT}")
     keys = ("study", "humans", "methods", "tables")
