@@ -18,6 +18,7 @@ from hrcplan.assistance.explanation import (
     explanation_of,
 )
 from hrcplan.assistance.step_values import StepValues
+from hrcplan.assistance.team_help import for_likeliest_goal
 from hrcplan.bank import Bank
 from hrcplan.bank.progress import Progress, ProgressTracker
 from hrcplan.core.arrays import Floats
@@ -142,6 +143,14 @@ class ValueAssistant(BankAssistant[P], Generic[P]):
     def choose(self, state: P) -> int | None:
         """Return the step that the robot should do now, or None to wait."""
         return self.options(state).best
+
+    def in_turn(self, choice: StepChoice, state: P) -> StepChoice:
+        """Return a choice as it is; in a team that takes turns, what helps the likeliest goal."""
+        moves, progress = self.tracker.moves, state.progress
+        if moves is None or not any(moves.is_robot):
+            return choice
+        moment = self.step_values.next_robot(progress)
+        return for_likeliest_goal(choice, moves, progress.world, moment, self.posterior(state))
 
     def explain(self, state: P, n_goals: int = 3, n_steps: int = 5) -> Explanation:
         """Return why it chooses what it chooses, with that many goals and steps at most."""

@@ -65,10 +65,11 @@ class DecisionPoints(LookaheadAssistant[Any]):
             branches += [(step, response) for response, _ in responses] or [(step,)]
             parts += [(place, chance) for _, chance in responses] or [(place, 1.0)]
         if not steps:
-            return StepChoice()
+            return self.in_turn(StepChoice(), state)
         after = futures(self.belief, state.belief, branches)
         drops = float(entropy(present)) - entropy(after)
         values = self.support * shares(root, present).take(steps)
         for (place, chance), drop in zip(parts, drops.tolist(), strict=True):
             values[place] += chance * drop
-        return StepChoice(tuple(steps), tuple(values.tolist()), wait=-math.inf)
+        choice = StepChoice(tuple(steps), tuple(values.tolist()), wait=-math.inf)
+        return self.in_turn(choice, state)

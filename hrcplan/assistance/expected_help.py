@@ -12,10 +12,8 @@ import numpy as np
 
 from hrcplan.assistance.assistant import AssistantState, BeliefAssistant
 from hrcplan.assistance.explanation import StepChoice
-from hrcplan.assistance.step_values import DEAD_END
+from hrcplan.assistance.team_help import TeamHelp
 from hrcplan.bank import Bank
-from hrcplan.bank.progress import Progress
-from hrcplan.bank.team_moves import TeamChoices
 from hrcplan.inference.belief import Belief
 from hrcplan.inference.switching import SwitchingBelief
 
@@ -27,7 +25,8 @@ class ExpectedHelp(BeliefAssistant[Any]):
     """Does the step that saves most steps in expectation; waits if no step has a positive value.
 
     The value of a step is the number of steps it saves each goal, weighted by the goals'
-    probabilities, minus ``waste_price`` times the probability that no goal needs it.
+    probabilities, minus ``waste_price`` times the probability that no goal needs it. In a team that
+    takes turns it is the expected number of timesteps that it saves (`TeamHelp`).
 
     Args:
         bank: The plans.
@@ -43,6 +42,9 @@ class ExpectedHelp(BeliefAssistant[Any]):
     ) -> None:  # fmt: skip
         super().__init__(bank, SwitchingBelief(bank) if belief is None else belief)
         self.waste_price, self.look_ahead = waste_price, look_ahead
+        moves = self.tracker.moves
+        takes_turns = moves is not None and any(moves.is_robot)
+        self.team_help = TeamHelp(moves) if moves is not None and takes_turns else None
 
     def options(self, state: AssistantState[Any]) -> StepChoice:
         """Return the steps that some goal could have next, and what each is expected to save."""
@@ -75,9 +77,10 @@ class ExpectedHelp(BeliefAssistant[Any]):
         return float(saving / total)
 
     def _now(self, state: AssistantState[Any]) -> StepChoice:
-        choices = self.step_values.in_turn(state.progress)
-        if choices is not None:
-            return self._in_turn(choices, state)
+        progress = state.progress
+        if self.team_help is not None:
+            moment = self.step_values.next_robot(progress)
+            return self.team_help.options(progress.world, moment, self.posterior(state))
         next_steps = self.step_values.next_steps(state.progress)
         steps = self.step_values.candidates(state.progress, next_steps)
         savings, needs = self.step_values.expected_saving(
@@ -85,22 +88,3 @@ class ExpectedHelp(BeliefAssistant[Any]):
         )
         worth = savings - self.waste_price * (1 - needs)
         return StepChoice(tuple(steps), tuple(worth.tolist()))
-
-    def _in_turn(self, choices: TeamChoices, state: AssistantState[Any]) -> StepChoice:
-        """Return what each step is expected to save a team that takes turns.
-
-        Where the humans wait and the robot would, too, only the likeliest goal that it can help
-        counts.
-        """
-        posterior, steps = self.posterior(state), tuple(choices.steps.tolist())
-        savings = np.nan_to_num(choices.savings.clip(-DEAD_END, DEAD_END))
-        worth = posterior @ savings - self.waste_price * (1 - posterior @ choices.is_next)
-        if steps and worth.max() <= 0 and self._humans_wait(state.progress):
-            # Of the goals that a step helps, which a goal that is reached already is not.
-            worth = savings[int(np.where(savings.max(axis=1) > 0, posterior, -1.0).argmax())]
-        return StepChoice(steps, tuple(worth.tolist()))
-
-    def _humans_wait(self, progress: Progress) -> bool:
-        """Return whether no human has acted in its last turn."""
-        moment = progress.moment
-        return moment is not None and moment.without_human >= len(self.bank.team) - 1

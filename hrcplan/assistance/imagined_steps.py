@@ -36,7 +36,7 @@ class ImaginedSteps:
 
     def begin(self, progress: Progress) -> Progress:
         """Return the progress to begin from: goals off their graph get one, if there is one."""
-        if not progress.off:
+        if not progress.off or self.tracker.moves is not None:
             return progress
         off: dict[int, OffGraph] = {}
         for goal, place in progress.off.items():
@@ -60,8 +60,7 @@ class ImaginedSteps:
         if world is None or world == before:
             return progress
         if self.tracker.moves is not None:
-            next_progress = self.tracker.after_turn(self.tracker.moves, progress, step)
-            return replace(next_progress, off=self._off(progress, step, world))
+            return self.tracker.after_turn(self.tracker.moves, progress, step)
         goals = graph.goals_of(step, before ^ world)
         hit, places = graph.edges(progress.nodes.take(goals), step)
         nodes = progress.nodes.copy()

@@ -63,13 +63,14 @@ class InformationGain(LookaheadAssistant[Any]):
         present = self.posterior(state)
         branches, agreed = self._tree(self.lookahead.root(state), present)
         if not branches:
-            return StepChoice()
+            return self.in_turn(StepChoice(), state)
         after = futures(self.belief, state.belief, branches)
         values = float(entropy(present)) - entropy(after) + self.alignment * np.array(agreed)
         best: dict[int, float] = {}
         for branch, value in zip(branches, values.tolist(), strict=True):
             best[branch[0]] = max(value, best.get(branch[0], -math.inf))
-        return StepChoice(tuple(best), tuple(best.values()), wait=-math.inf)
+        choice = StepChoice(tuple(best), tuple(best.values()), wait=-math.inf)
+        return self.in_turn(choice, state)
 
     def _tree(self, root: TreePosition, present: Floats) -> tuple[list[StepSequence], list[int]]:
         """Return all branches, and by how many more of their robot steps agree than do not."""

@@ -9,7 +9,7 @@ import numpy as np
 
 from hrcplan.bank import PlanGraph
 from hrcplan.bank.progress import OffGraph, Progress, ProgressTracker
-from hrcplan.bank.team_moves import TeamChoices
+from hrcplan.bank.team_moves import Moment, TeamChoices
 from hrcplan.bank.walk import shortest
 from hrcplan.core.arrays import Floats, Ids
 from hrcplan.core.deprecation import Renamed
@@ -44,7 +44,9 @@ class StepValues:
 
     def next_steps(self, progress: Progress) -> NextSteps:
         """Return the steps that can come next in the plans of each goal, by any agent."""
-        all_graphs = self.tracker.combined_graph
+        all_graphs, moves = self.tracker.combined_graph, self.tracker.moves
+        if moves is not None:
+            return NextSteps(*moves.next_steps(progress.world, progress.moment or Moment()))
         begins = all_graphs.first.take(progress.nodes)
         lengths = all_graphs.first.take(progress.nodes + 1) - begins
         goals = self._all_goals.repeat(lengths)
@@ -57,17 +59,22 @@ class StepValues:
             steps, goals = np.append(steps, more), np.append(goals, [goal] * len(more))
         return NextSteps(steps.astype(np.int64), goals.astype(np.int64, copy=False))
 
+    def next_robot(self, progress: Progress) -> Moment:
+        """Return the moment of the next turn of a robot; the humans before it are taken to wait."""
+        moves, moment = self.tracker.moves, progress.moment or Moment()
+        while moves is not None and not moves.is_robot[moment.turn]:
+            moment = moves.after(moment, None)
+        return moment
+
     def in_turn(self, progress: Progress) -> TeamChoices | None:
         """Return what the next robot in turn can do; None where agents do not take turns.
 
         If it is not a robot's turn, the humans before it are taken to wait.
         """
-        moves, moment = self.tracker.moves, progress.moment
-        if moves is None or moment is None or not any(moves.is_robot):
+        moves = self.tracker.moves
+        if moves is None or not any(moves.is_robot):
             return None
-        while not moves.is_robot[moment.turn]:
-            moment = moves.after(moment, None)
-        return moves.choices(progress.world, moment)
+        return moves.choices(progress.world, self.next_robot(progress))
 
     def candidates(self, progress: Progress, next_steps: NextSteps) -> list[int]:
         """Return the next steps that one of the agents can do, in order."""
@@ -87,9 +94,13 @@ class StepValues:
         Args:
             progress: The progress of the goals.
             next_steps: The result of ``next_steps`` for it.
-            steps: Applicable steps.
+            steps: Applicable steps; in a team, of the robot whose turn comes next.
             weights: A weight for each goal, such as its probability.
         """
+        choices = self.in_turn(progress)
+        if choices is not None:
+            places = [choices.place(step) for step in steps]
+            return weights @ choices.savings[:, places], weights @ choices.is_next[:, places]
         n_steps = self.tracker.combined_graph.n_steps
         sums = np.bincount(next_steps.steps, weights.take(next_steps.goals), n_steps)
         shares: Floats = sums.astype(np.float64).take(steps)

@@ -20,6 +20,7 @@ from hrcplan.pddl.conventions import robots
 
 DECAY = 0.5  # a step that loses one timestep more is less likely as a mistake by exp(-DECAY)
 LOST = 1e-6  # the weight of a mistake that loses the goal
+OUT_OF_REACH = 1000.0  # timesteps that count for a goal that is lost
 MAX_KNOWN = 50_000  # choices that are remembered
 
 
@@ -42,20 +43,34 @@ class TeamChoices:
         waits: For each goal, whether the agent waits for it.
         log_odds: For each goal and step, and then for waiting, the log of its share among the
             mistakes.
-        savings: For each goal and step, the timesteps that it saves compared with waiting; negative
-            if it costs some, NaN if the goal is out of reach either way.
+        shares: For each goal and step, and then for waiting, how likely the agent does it if it
+            makes no mistake; all 0 once the goal is reached.
+        costs: For each goal and step, and then for waiting, the timesteps to the goal with this
+            one, and a little for each action; `OUT_OF_REACH` if it is lost, 0 if it is reached.
     """
 
     steps: Ids
     is_next: Bools
     waits: Bools
     log_odds: Floats
-    savings: Floats
+    shares: Floats
+    costs: Floats
 
     def next_steps(self, goal: int) -> list[int]:
         """Return the steps that the agent does for a goal, in order."""
         next_steps: list[int] = self.steps[self.is_next[goal]].tolist()
         return next_steps
+
+    @property
+    def savings(self) -> Floats:
+        """For each goal and step, the timesteps that it saves compared with waiting."""
+        timesteps = np.floor(self.costs)
+        return timesteps[:, -1:] - timesteps[:, :-1]
+
+    @property
+    def options(self) -> tuple[int | None, ...]:
+        """The steps and then waiting, in the order of the columns."""
+        return (*self.steps.tolist(), None)
 
     def place(self, step: int | None) -> int:
         """Return the column of a step, or of waiting; -1 if the agent cannot do the step."""
@@ -79,6 +94,7 @@ class TeamMoves:
         self.n_turns = len(bank.team)
         controllable = robots(bank.goals.problem)
         self.is_robot = [agent in controllable for agent in bank.team]
+        self.has_humans = not all(self.is_robot)
         self._owners = step_owners(bank.table, bank.team)
         self._choices_by_key: dict[tuple[int, int, bool], TeamChoices] = {}
 
@@ -100,6 +116,10 @@ class TeamMoves:
         owner = self._owners[step]
         return 0 if owner == ANY_AGENT else (owner - moment.turn) % self.n_turns
 
+    def state_after(self, world: int, step: int | None) -> int:
+        """Return the state after a step that can be done, or after a wait."""
+        return world if step is None else self.bank.table.successor(world, step) or 0
+
     def turn_of(self, moment: Moment, step: int) -> Moment:
         """Return the moment at which a step is done, once the agents before its agent waited."""
         for _ in range(self._n_waits(moment, step)):
@@ -109,6 +129,23 @@ class TeamMoves:
     def can_reach(self, goal: int, world: int) -> bool:
         """Return whether the team can still reach a goal."""
         return bool(self.costs.of(self.costs.place(world), 0)[goal] < NEVER)
+
+    def next_steps(self, world: int, moment: Moment) -> tuple[Ids, Ids]:
+        """Return which steps come next for which goals: two arrays, one pair for each.
+
+        They are those of the agent whose turn it is, and of others if the goal lets all between
+        wait.
+        """
+        pairs: list[tuple[Ids, Ids]] = []
+        can_wait = np.ones(len(self.bank.names), dtype=np.bool_)
+        for _ in range(self.n_turns):
+            choices = self.choices(world, moment)
+            goals, places = np.nonzero(choices.is_next & can_wait[:, None])
+            pairs.append((choices.steps[places], goals))
+            can_wait &= choices.costs[:, -1] <= choices.costs.min(axis=1)
+            moment = self.after(moment, None)
+        steps, goals = (np.concatenate([pair[i] for pair in pairs]) for i in range(2))
+        return steps, goals
 
     def choices(self, world: int, moment: Moment) -> TeamChoices:
         """Return what the agent whose turn it is can do."""
@@ -139,7 +176,10 @@ class TeamMoves:
         totals = np.maximum(odd.sum(axis=1, keepdims=True), LOST)
         with np.errstate(divide="ignore"):
             log_odds = np.log(odd / totals)
-        return TeamChoices(steps, is_next, waits, log_odds, _savings(wait, after))
+        right = np.concatenate([is_next, waits[:, None]], axis=1).astype(np.float64)
+        shares = right / np.maximum(1, right.sum(axis=1, keepdims=True))
+        costs = _timesteps(np.concatenate([after, wait], axis=1), now)
+        return TeamChoices(steps, is_next, waits, log_odds, shares, costs)
 
 
 def team_moves(bank: Bank) -> TeamMoves | None:
@@ -156,8 +196,7 @@ def _weights(costs: Costs, now: Costs) -> Floats:
     return np.where(costs < NEVER, np.maximum(np.exp(-DECAY * loss), LOST), LOST)
 
 
-def _savings(wait: Costs, after: Costs) -> Floats:
-    """Return the timesteps that steps save compared with waiting."""
-    savings: Floats = (wait // TIMESTEP - after // TIMESTEP).astype(np.float64)
-    savings[(wait >= NEVER) & (after >= NEVER)] = np.nan
-    return savings
+def _timesteps(costs: Costs, now: Costs) -> Floats:
+    """Return costs to go in timesteps; actions count a little, and a lost goal for many."""
+    timesteps: Floats = np.where(costs < NEVER, costs / TIMESTEP, OUT_OF_REACH)
+    return np.where(now == 0, 0.0, timesteps)

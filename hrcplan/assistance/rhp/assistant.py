@@ -202,9 +202,10 @@ class RecedingHorizonPlanner(ValueAssistant[RhpState]):
             lambda: self.posterior(state),
         )
         costs = sorted(self.tree.costs(root).items())
-        return StepChoice(
+        choice = StepChoice(
             tuple(step for step, _ in costs), tuple(float(-cost) for _, cost in costs), NO_WAITING
         )
+        return self.in_turn(choice, state)
 
     def field(self, goals: int) -> Field:
         """Return the sum of the attractor fields of goals, given as bits (III-B2)."""

@@ -11,6 +11,9 @@ from heapq import heapify, heappop, heappush
 
 from hrcplan.core.bits import positions
 
+MAX_PARTS = 10_000
+"""Parts that are looked at: a long history that repeats steps has too many."""
+
 
 def largest_first(
     covers: Iterable[int], earlier: Sequence[int], latest: int, worth: Sequence[int], n: int,
@@ -20,6 +23,7 @@ def largest_first(
 
     Every part is made from a larger one by leaving one step out, so that parts come in order and
     only those are looked at that are as large as what is found. Parts that read alike count once.
+    After `MAX_PARTS` parts the search ends: the latest step alone is returned if nothing else fits.
 
     Args:
         covers: Parts of which every part that may fit is a part.
@@ -33,7 +37,11 @@ def largest_first(
     waiting = [(-m.bit_count(), -sum(worth[i] for i in positions(m)), -m) for m in covers_so_far]
     heapify(waiting)
     sequences: dict[tuple[int, ...], None] = {}
+    n_parts = 0
     while waiting and len(sequences) < n:
+        n_parts += 1
+        if n_parts > MAX_PARTS:
+            return list(sequences) or [(latest,)] * fits((latest,))
         size, total, negative = heappop(waiting)
         part = -negative
         places = list(positions(part))

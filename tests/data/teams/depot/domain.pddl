@@ -1,7 +1,7 @@
 ;; title: a worker, a cart and a forklift bring crates to their places
 ;; source: written for hrcplan
-;; abstraction: each agent carries one crate; only the worker labels and opens, only who is tall reaches
-;;              the shelf, and the cart does not leave its lane
+;; abstraction: each agent carries one crate; only the worker labels, only the forklift reaches the
+;;              shelf, and the cart does not leave its lane
 
 (define (domain depot)
   (:requirements :strips :typing :action-costs)
@@ -9,17 +9,13 @@
   (:predicates
     (controllable ?a - agent)          ; static: the robots
     (lane ?a - agent ?from ?to - place) ; static: who drives or walks from where to where
-    (hands ?a - agent)                 ; static: who can label and open
+    (hands ?a - agent)                 ; static: who can label
     (fits ?a - agent ?c - crate)       ; static: who can carry what
-    (desk ?p - place)                  ; static: where crates are labelled
-    (parcel ?c - crate)                ; static: what gets a label
-    (sealed ?c - crate)                ; static: what can be opened
     (at ?a - agent ?p - place)
     (on ?c - crate ?p - place)
     (empty ?a - agent)
     (loaded ?a - agent ?c - crate)
-    (labelled ?c - crate)
-    (opened ?c - crate))
+    (labelled ?c - crate))
   (:functions (effort ?a - agent) (total-cost))
   (:action drive
     :parameters (?a - agent ?from - place ?to - place)
@@ -35,9 +31,5 @@
     :effect (and (on ?c ?p) (empty ?a) (not (loaded ?a ?c)) (increase (total-cost) (effort ?a))))
   (:action label
     :parameters (?a - agent ?c - crate ?p - place)
-    :precondition (and (at ?a ?p) (on ?c ?p) (desk ?p) (hands ?a) (parcel ?c))
-    :effect (and (labelled ?c) (increase (total-cost) (effort ?a))))
-  (:action open
-    :parameters (?a - agent ?c - crate ?p - place)
-    :precondition (and (at ?a ?p) (on ?c ?p) (hands ?a) (sealed ?c))
-    :effect (and (opened ?c) (increase (total-cost) (effort ?a)))))
+    :precondition (and (at ?a ?p) (on ?c ?p) (hands ?a))
+    :effect (and (labelled ?c) (increase (total-cost) (effort ?a)))))

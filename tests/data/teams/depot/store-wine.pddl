@@ -13,7 +13,7 @@
     (lane cart desk aisle) (lane cart aisle desk)
     (lane fork gate aisle) (lane fork aisle gate)
     (lane fork aisle shelf) (lane fork shelf aisle)
-    (hands worker) (desk desk) (parcel lamps) (parcel wine) (sealed books)
+    (hands worker)
     (fits worker lamps) (fits worker wine)
     (fits cart books) (fits cart lamps) (fits cart wine)
     (fits fork books) (fits fork tiles) (fits fork wine)
