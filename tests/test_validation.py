@@ -313,3 +313,20 @@ STEPS_ABC = """(define (problem p) (:domain steps) (:objects a b c)
 @pytest.mark.parametrize("text", ["(go a b) (go b c)", "0: (go a b)\n1: (go b c)"])
 def test_the_total_time_of_a_classical_plan_is_its_number_of_actions(text: str) -> None:
     assert validate(problem_from(STEPS, STEPS_ABC), parse_plan(text)).metric == 2
+
+
+@pytest.mark.parametrize(("text", "costs"), [("", ()), ("0: (turn) [2]", (1,))])
+def test_a_cost_that_comes_by_itself_is_no_action_s(
+    tmp_path: Path, text: str, costs: tuple[int, ...]
+) -> None:
+    domain, problem = tmp_path / "domain.pddl", tmp_path / "problem.pddl"
+    domain.write_text("""(define (domain toll)
+        (:requirements :durative-actions :numeric-fluents :timed-initial-literals)
+        (:predicates (open)) (:functions (total-cost))
+        (:durative-action turn :parameters () :duration (= ?duration 2) :condition ()
+            :effect (at end (increase (total-cost) 1))))""")
+    problem.write_text("""(define (problem p) (:domain toll)
+        (:init (= (total-cost) 0) (at 1 (open)) (at 5 (= (total-cost) 3)))
+        (:goal (open)) (:metric minimize (total-cost)))""")
+    report = validate(domain, problem, text)
+    assert (report.valid, report.cost, report.step_costs) == (True, 3, costs)

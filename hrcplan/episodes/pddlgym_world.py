@@ -42,7 +42,7 @@ class PddlgymWorld:
         self._core = _core()
         self._env = environment(replace(bank.goals.problem, goal=TRUE))
         self._objects: dict[str, _Entity] = {}
-        self._literals: dict[int, _Literal] = {}
+        self._literals: dict[int, _GymLiteral] = {}
         self._now = self.begin()
 
     def begin(self) -> int:
@@ -72,7 +72,7 @@ class PddlgymWorld:
         self._now = self._bits()
         return self._now
 
-    def _literal(self, action: int) -> _Literal:
+    def _literal(self, action: int) -> _GymLiteral:
         if action not in self._literals:
             ground = self._task.actions[action]
             predicate = self._env.domain.predicates[ground.name]
@@ -94,7 +94,7 @@ class _Entity(Protocol):
     def name(self) -> str: ...
 
 
-class _Literal(Protocol):
+class _GymLiteral(Protocol):
     """What is read of a literal of pddlgym."""
 
     @property
@@ -111,12 +111,12 @@ class _State(Protocol):
     def objects(self) -> Iterable[_Entity]: ...
 
     @property
-    def literals(self) -> Iterable[_Literal]: ...
+    def literals(self) -> Iterable[_GymLiteral]: ...
 
 
 class _Domain(Protocol):
     @property
-    def predicates(self) -> Mapping[str, Callable[..., _Literal]]: ...
+    def predicates(self) -> Mapping[str, Callable[..., _GymLiteral]]: ...
 
 
 class _Environment(Protocol):
@@ -132,7 +132,7 @@ class _Environment(Protocol):
     def set_state(self, state: _State) -> None: ...
 
 
-def fact_of(literal: _Literal) -> Fact:
+def fact_of(literal: _GymLiteral) -> Fact:
     """Return a literal of pddlgym as a fact, or an action of its as name and arguments."""
     return (literal.predicate.name, *(entity.name for entity in literal.variables))
 
