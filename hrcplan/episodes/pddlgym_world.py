@@ -155,13 +155,13 @@ def environment(problem: Problem) -> _Environment:
         Path(folder, "domain.pddl").write_text(domain)
         (problems / "problem.pddl").write_text(text)
         try:
-            made: _Environment = core.PDDLEnv(
+            env: _Environment = core.PDDLEnv(
                 str(Path(folder, "domain.pddl")), str(problems),
                 operators_as_actions=True, dynamic_action_space=True,
             )  # fmt: skip
         except Exception as error:
             raise UnsupportedError(f"pddlgym cannot hold this problem: {error}") from error
-    return made
+    return env
 
 
 def _check_conditions(problem: Problem) -> None:

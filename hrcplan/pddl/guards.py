@@ -86,12 +86,12 @@ def _missing(name: str, problem: Problem) -> Sequence[FluentKey]:
 
 def _predicates(domain: Domain, names: Sequence[str]) -> dict[str, str]:
     """Return a predicate for each function, with a name that is not in use."""
-    taken = set(domain.predicates)
+    names_in_use = set(domain.predicates)
     guards: dict[str, str] = {}
     for name in names:
         numbered = (f"has-{name}{'' if i == 1 else f'-{i}'}" for i in count(1))
-        guards[name] = next(guard for guard in numbered if guard not in taken)
-        taken.add(guards[name])
+        guards[name] = next(guard for guard in numbered if guard not in names_in_use)
+        names_in_use.add(guards[name])
     return guards
 
 

@@ -77,8 +77,8 @@ class CommandPlanner:
             limits = ProcessLimits(request.time_left_s, request.memory_bytes)
             process = run(list(self._argv(cwd, limits.time_s)), cwd=cwd, limits=limits)
             texts = [process.stdout, *_plan_files(cwd, limits.output_bytes)]
-        found = (plan for text in texts for plan in find_plans(text, handover.problem))
-        plans = [handover.restored(plan) for plan in found]
+        answers = (plan for text in texts for plan in find_plans(text, handover.problem))
+        plans = [handover.restored(plan) for plan in answers]
         return self._answer(problem, process, plans)
 
     def _argv(self, cwd: Path, time_s: float) -> Iterator[str]:
