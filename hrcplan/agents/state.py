@@ -9,7 +9,7 @@ initial value, at which the agent contributes.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from functools import cached_property
 
 from hrcplan.core.numbers import Number, exact, number_text
@@ -48,15 +48,6 @@ def failure_probability(value: Number, low: Number) -> float:
     (0.0, 0.8)
     """
     return 0.0 if value <= low else max(0.0, min(1.0, float(value) / MOST))
-
-
-def combine(probabilities: Iterable[float]) -> float:
-    """Return the probability that any of several independent causes strikes.
-
-    >>> combine([0.5, 0.5])
-    0.75
-    """
-    return 1.0 - math.prod(1.0 - p for p in probabilities)
 
 
 class AgentModel:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from itertools import islice
 
 import numpy as np
 from numpy.typing import NDArray
@@ -171,8 +170,3 @@ def shortest(graph: PlanGraph, node: int = 0) -> Iterator[tuple[int, int]]:
     while graph.n_nodes and not graph.is_goal[node]:
         step, node = min(graph.next(node).items(), key=lambda edge: graph.steps_left[edge[1]])
         yield step, node
-
-
-def first_plans(graph: PlanGraph, n: int) -> list[tuple[int, ...]]:
-    """Return up to ``n`` plans, the cheapest first."""
-    return list(islice(plans(graph), n))

@@ -18,7 +18,6 @@ INSTANT_S = 0.01
 DONE, FAILED, CANCELLED = "done", "failed", "cancelled"
 OUTCOMES = (DONE, FAILED, CANCELLED)
 CHANGE, FAILURE, DEVIATION = "change", "failure", "deviation"
-REASONS = (CHANGE, FAILURE, DEVIATION)
 
 GOAL, NO_PLAN, REPLAN_LIMIT, STOPPED = "goal reached", "no plan", "replan limit", "stopped"
 

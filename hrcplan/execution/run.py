@@ -48,11 +48,6 @@ class FollowedPlan:
     begun: Mapping[int, float] = field(default_factory=dict)
     ended: frozenset[int] = frozenset()
 
-    @property
-    def is_done(self) -> bool:
-        """Whether every action has ended."""
-        return len(self.ended) == len(self.plan.actions)
-
     def ready_s(self, index: int) -> float | None:
         """Return from when an action may begin; None while it waits for something unfinished."""
         earliest = 0.0

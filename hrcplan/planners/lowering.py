@@ -85,12 +85,6 @@ class Lowering:
             return None
         return exact(Fraction(cost) / self.scale + self.offset)
 
-    def without_costs(self) -> tuple[str, str]:
-        """Return domain and problem text for planners that know no costs, plans as before."""
-        domain = self.domain_text.replace(" :action-costs", "").replace(_FUNCTIONS, "")
-        problem = self.problem_text.replace(_METRIC, "").replace(_START, "")
-        return re.sub(r" \(increase \(total-cost\) \d+\)", "", domain), problem
-
     def fits(self, bits: int, metric: Number) -> bool:
         """Return whether floats of so many bits hold all costs on the way to a plan exactly.
 

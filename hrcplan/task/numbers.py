@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
 
-from hrcplan.core.numbers import Number, exact
+from hrcplan.core.numbers import Number
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.conventions import agent_state_functions
 from hrcplan.pddl.model import (
@@ -21,7 +21,7 @@ from hrcplan.pddl.model import (
     Formula,
     Function,
 )
-from hrcplan.pddl.semantics import Binding, Values, ground_key
+from hrcplan.pddl.semantics import Binding, ground_key
 from hrcplan.pddl.walks import formula_functions, functions_in
 
 Linear = Mapping[FluentKey, Number]
@@ -155,15 +155,3 @@ def _sum(one: Linear, other: Linear) -> Linear:
     for key, coefficient in other.items():
         total[key] = total.get(key, 0) + coefficient
     return total
-
-
-def value_of(part: Linear, values: Values) -> Number:
-    """Return the value of a weighted sum.
-
-    Raises:
-        KeyError: if a function has no value.
-    """
-    total: Number = 0
-    for key, coefficient in part.items():
-        total += coefficient * values[key] if key else coefficient
-    return exact(total)

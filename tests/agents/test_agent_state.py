@@ -10,7 +10,7 @@ import pytest
 from hrcplan.agents import AgentModel, load_profile
 from hrcplan.agents import profile as old_profile
 from hrcplan.agents.memory import Memory
-from hrcplan.agents.state import combine, failure_probability, sensed_value
+from hrcplan.agents.state import failure_probability, sensed_value
 from hrcplan.errors import InputError, UsageError
 from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import Note
@@ -44,11 +44,6 @@ def test_kitchen_binds_the_same_elements_to_other_actions() -> None:
 )
 def test_failure_probability(value: Fraction, p: float) -> None:
     assert failure_probability(value, 1) == pytest.approx(p)
-
-
-def test_causes_combine() -> None:
-    assert combine([0.2, 0.5]) == pytest.approx(1 - 0.8 * 0.5)
-    assert combine([]) == 0
 
 
 @pytest.mark.parametrize("value", [-0.1, 10.1, math.nan, math.inf])

@@ -233,14 +233,6 @@ def test_a_goal_that_never_holds_is_unreachable(tmp_path: Path) -> None:
     assert not other.is_goal((1 << len(other.facts)) - 1)
 
 
-def test_without_costs_nothing_numeric_is_left(tmp_path: Path) -> None:
-    lowered = lower(Task(talk(tmp_path)))
-    domain, problem = lowered.without_costs()
-    assert "total-cost" not in domain + problem
-    other = Task(read(domain, problem))
-    assert len(other.actions) == len(lowered.actions)
-
-
 def test_plans_lead_back(tmp_path: Path) -> None:
     lowered = lower(Task(talk(tmp_path)))
     plan = lowered.plan("; cost = 3\n(REMIND--HUMAN )\n(work--human--j1)\n")
