@@ -7,12 +7,11 @@ conditions is reachable. It errs only towards more overlap.
 
 from __future__ import annotations
 
-import time
 from dataclasses import dataclass
 from math import inf
 
 from hrcplan.core.bits import holders, positions, union
-from hrcplan.errors import LimitError
+from hrcplan.core.clock import check_time
 
 
 @dataclass(frozen=True)
@@ -66,8 +65,7 @@ class ReachablePairs:
         while grows:
             grows = False
             for action in range(len(self.masks.adds)):
-                if time.monotonic() > deadline:
-                    raise LimitError("out of time while looking for actions that can overlap")
+                check_time(deadline, "while looking for actions that can overlap")
                 grows |= self._start(action) | self._end(action)
 
     def running_at_start(self, action: int) -> int:

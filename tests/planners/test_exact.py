@@ -15,15 +15,15 @@ from types import SimpleNamespace
 
 import pytest
 
+from hrcplan.core import clock
 from hrcplan.core.numbers import Number
 from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import Fact
 from hrcplan.planners import registry
 from hrcplan.planners.contract import Request, Status
-from hrcplan.planners.exact import ExactPlanner, clock, search
+from hrcplan.planners.exact import ExactPlanner, search
 from hrcplan.planners.exact.graph import Graph
 from hrcplan.plans import Plan
-from hrcplan.search import reachable_pairs
 from hrcplan.search.lm_cut import RelaxedTask
 from hrcplan.search.reachable_pairs import ReachablePairs
 from hrcplan.task import Task
@@ -215,8 +215,7 @@ def test_it_looks_at_the_clock_between_any_two_pieces_of_work(
     task = ground("transport", "boxes-3")
     for owner, name in ((RelaxedTask, "h_max"), (Graph, "edges"), (ReachablePairs, "_start")):
         monkeypatch.setattr(owner, name, counted(getattr(owner, name)))
-    for module in (clock, reachable_pairs):
-        monkeypatch.setattr(module, "time", SimpleNamespace(monotonic=monotonic))
+    monkeypatch.setattr(clock, "time", SimpleNamespace(monotonic=monotonic))
     planner = ExactPlanner()
     for _ in range(2):  # lazily, then with the whole graph
         planner.replan(task, 1.0)

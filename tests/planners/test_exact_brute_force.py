@@ -24,8 +24,9 @@ from hrcplan.pddl.semantics import (
     instances,
 )
 from hrcplan.planners.contract import Answer, Request, Status
-from hrcplan.planners.exact import ExactPlanner
+from hrcplan.planners.exact import ExactPlanner, proof
 from hrcplan.plans import EPSILON_S
+from hrcplan.task import Task
 from hrcplan.validation import validate
 
 Facts = frozenset[Fact]
@@ -156,15 +157,20 @@ def undisturbed(jobs: list[Job], facts: Facts, running: Running) -> bool:
 # others are (or are not) somewhere. With `wild`, actions also delete what they do not move.
 
 
-def random_task(seed: int, folder: Path, late: bool = False) -> tuple[Problem, Fraction, Fraction]:
-    """Return a random task of two agents, and the weights of its metric."""
+TWO, THREE = ("ann", "bob"), ("ann", "bob", "cid")
+
+
+def random_task(
+    seed: int, folder: Path, late: bool = False, agents: tuple[str, ...] = TWO
+) -> tuple[Problem, Fraction, Fraction]:
+    """Return a random task, and the weights of its metric."""
     rng = random.Random(seed)
     n_things, n_actions = rng.randint(2, 3), rng.randint(7, 12)
     wild = rng.random() < 0.15
     actions = [random_action(rng, i, n_things, wild, late) for i in range(n_actions)]
     w_cost, w_time = rng.choice([("1", "0.17"), ("2", "1"), ("0", "1"), ("1", "0"), ("0.5", "3")])
     names = " ".join(f"n{i}" for i in range(n_actions))
-    able = [(a, i) for a in ("ann", "bob") for i in range(n_actions) if rng.random() < 0.9]
+    able = [(a, i) for a in agents for i in range(n_actions) if rng.random() < 0.9]
     can = " ".join(
         f"(can {a} n{i}) (= (effort {a} n{i}) {rng.choice(['0', '1', '2', '0.7', '3.25'])})"
         for a, i in able
@@ -178,8 +184,9 @@ def random_task(seed: int, folder: Path, late: bool = False) -> tuple[Problem, F
       (:functions (effort ?a - agent ?j - job) (total-cost))
       {" ".join(actions)})"""
     problem = f"""(define (problem random-{seed}) (:domain random)
-      (:objects ann bob - agent)
-      (:init (idle ann) (idle bob) {" ".join(f"(t{k}-0)" for k in range(n_things))} {can}
+      (:objects {" ".join(agents)} - agent)
+      (:init {" ".join(f"(idle {agent})" for agent in agents)}
+        {" ".join(f"(t{k}-0)" for k in range(n_things))} {can}
         (= (total-cost) 0))
       (:goal (and {" ".join(f"(t{k}-{rng.randint(1, 2)})" for k in range(n_things))}))
       (:metric minimize (+ (* {w_cost} (total-cost)) (* {w_time} (total-time)))))"""
@@ -229,13 +236,23 @@ def at(when: str, parts: list[str]) -> str:
     return " ".join(f"({when} {part})" for part in parts)
 
 
-def agrees(seed: int, folder: Path, late: bool = False) -> bool:
-    """Check one random task; return whether `exact` took it."""
-    problem, w_cost, w_time = random_task(seed, folder, late)
+def agrees(
+    seed: int, folder: Path, late: bool = False, agents: tuple[str, ...] = TWO, equal: bool = False
+) -> bool:
+    """Check one random task; return whether `exact` took it.
+
+    With ``equal``, every action costs every agent the same.
+    """
+    problem, w_cost, w_time = random_task(seed, folder, late, agents)
+    if equal:
+        problem = problem.with_values({key: 1 for key in problem.values if key[0] == "effort"})
+    planner, task = ExactPlanner(), Task(problem)
     try:
-        answer = ExactPlanner().solve(Request(problem))
+        answer = planner.solve(Request(problem))
     except UnsupportedError:
         return False
+    assert planner.replan(task) == answer  # another grounding
+    assert planner.replan(task) == answer  # in the complete graph
     compare(problem, answer, brute_force(problem, w_cost, w_time), w_time)
     return True
 
@@ -262,4 +279,14 @@ def test_optima_equal_those_of_a_brute_force(block: int, tmp_path: Path) -> None
 def test_optima_with_deletes_at_the_end_do_too(tmp_path: Path) -> None:
     """`exact` takes those that nobody can see before."""
     taken = [agrees(seed, tmp_path, late=True) for seed in range(20)]
+    assert sum(taken) >= 3
+
+
+@pytest.mark.parametrize("equal", [False, True])
+def test_optima_of_three_agents_do_too(
+    equal: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """With all that longer searches do: a plan to begin with, and symmetries."""
+    monkeypatch.setattr(proof, "QUICK", 2)
+    taken = [agrees(seed, tmp_path, False, THREE, equal) for seed in range(100, 107)]
     assert sum(taken) >= 3

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from typing import NamedTuple, Protocol
 
 from hrcplan.core.bits import positions
-from hrcplan.planners.exact.clock import check_time
+from hrcplan.core.clock import check_time
 from hrcplan.planners.exact.graph import FAR, Graph
 from hrcplan.planners.exact.weights import Weights
 from hrcplan.search.lm_cut import RelaxedTask

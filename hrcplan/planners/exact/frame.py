@@ -17,10 +17,10 @@ from fractions import Fraction
 from math import gcd, inf, lcm
 
 from hrcplan.core.bits import common, holders, positions, union
+from hrcplan.core.clock import check_time
 from hrcplan.core.numbers import Number, number_text
 from hrcplan.errors import LimitError, UnsupportedError
 from hrcplan.pddl.model import TOTAL_COST, TRUE, fact_text
-from hrcplan.planners.exact.clock import check_time
 from hrcplan.search.reachable_pairs import DurativeMasks
 from hrcplan.task import GroundAction, Task
 from hrcplan.task.conditions import Test

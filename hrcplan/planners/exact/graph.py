@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from heapq import heappop, heappush
 
-from hrcplan.planners.exact.clock import check_time
+from hrcplan.core.clock import check_time
 from hrcplan.task import GroundAction, Task
 from hrcplan.task.conditions import meets
 

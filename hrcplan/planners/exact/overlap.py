@@ -5,9 +5,9 @@ from __future__ import annotations
 from math import inf
 
 from hrcplan.core.bits import holders, positions, union
+from hrcplan.core.clock import check_time
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.model import fact_text
-from hrcplan.planners.exact.clock import check_time
 from hrcplan.planners.exact.frame import HINT, StaticMasks
 from hrcplan.search.reachable_pairs import ReachablePairs
 from hrcplan.task import Task

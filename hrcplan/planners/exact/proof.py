@@ -79,8 +79,9 @@ class Proof:
     def _continued(self, search: Search) -> str | None:
         """Return the path that a longer search finds."""
         task, memory, deadline = self._task, self._memory, self._wish.deadline
+        search.swaps = symmetries(task, memory.frame, self._weights, deadline)
         self._first = first_path(
-            task, memory.frame, memory.graph, self._weights, self._ahead, deadline
+            task, memory.frame, memory.graph, self._weights, self._ahead, search.swaps, deadline
         )
         if self._first is None or self._wish.any_plan:
             return self._first
@@ -89,7 +90,6 @@ class Proof:
             self._first = min(self._first, better, key=self._value)
             self._wish.on_plan(self._plan(self._first))
         search.most = self._value(self._first)
-        search.swaps = symmetries(task, memory.frame, self._weights, deadline)
         return search.run()
 
     def _value(self, path: str) -> int:

@@ -19,8 +19,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from heapq import heappop, heappush
 
+from hrcplan.core.clock import check_time
 from hrcplan.errors import LimitError
-from hrcplan.planners.exact.clock import check_time
 from hrcplan.planners.exact.estimates import Estimates
 from hrcplan.planners.exact.frame import RunningActions, StaticMasks
 from hrcplan.planners.exact.graph import FAR, MAX_STATES, Graph

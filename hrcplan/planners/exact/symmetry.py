@@ -13,9 +13,9 @@ from itertools import combinations, count
 from typing import NamedTuple
 
 from hrcplan.core.bits import positions
+from hrcplan.core.clock import check_time
 from hrcplan.core.numbers import Number
 from hrcplan.pddl.model import Fact, FluentKey
-from hrcplan.planners.exact.clock import check_time
 from hrcplan.planners.exact.frame import RunningActions, StaticMasks
 from hrcplan.planners.exact.weights import Weights
 from hrcplan.task import Task
