@@ -85,6 +85,28 @@ def test_every_page_is_in_the_navigation() -> None:
         assert path.relative_to(ROOT / "docs").as_posix() in navigation
 
 
+LINK = re.compile(r"\]\((?!https?:|#|mailto:)([^)#\s]+)(?:#[^)]*)?\)")
+
+
+def test_links_lead_to_files() -> None:
+    """Also those of pages that are not on the site; `mkdocs build --strict` looks at anchors."""
+    made = {ROOT / "docs/reference/cli.md"}
+    targets = {(path, path.parent / link) for path in [*DOCUMENTS, ROOT / "CONTRIBUTING.md"]
+               for link in LINK.findall(path.read_text("utf-8"))}  # fmt: skip
+    assert len(targets) > 50
+    missing = {f"{NAMES.get(path, path.name)}: {target.name}" for path, target in targets
+               if not target.resolve().exists() and target.resolve() not in made}  # fmt: skip
+    assert missing == set()
+
+
+def test_the_site_is_built_with_its_warnings() -> None:
+    """With --quiet, MkDocs sees no warning, and --strict lets everything pass."""
+    (line,) = (line for line in (ROOT / "tools" / "test").read_text().splitlines()
+               if "mkdocs build" in line)  # fmt: skip
+    assert "--strict" in line
+    assert "--quiet" not in line
+
+
 def test_every_exported_name_has_a_place_in_the_reference() -> None:
     pages = "".join(p.read_text("utf-8") for p in (ROOT / "docs/reference/python").glob("*.md"))
     documented = set(re.findall(r"hrcplan\.(\w+)", pages)) | {"load_bank"}
