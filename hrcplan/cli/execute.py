@@ -71,6 +71,12 @@ HELP = """Carry out DOMAIN PROBLEM with a simulated human, and replan before act
     metavar="NAME",
     help="Where actions are carried out: simulated, an installed world, or module:Class.",
 )
+@click.option(
+    "--robot",
+    metavar="LINK",
+    help="What carries out the robots' actions, in real time: 'cmd:PROGRAM' (speaks JSON lines), "
+    "simulated, an installed link, or module:Class.",
+)
 @options.planner("Which planner to ask first; if it fails, others are asked.")
 @options.timeout("Seconds for each plan.", 20.0)
 @click.option("--no-model", is_flag=True, help="Do not use sensed values.")
@@ -102,7 +108,7 @@ HELP = """Carry out DOMAIN PROBLEM with a simulated human, and replan before act
     type=options.FiniteNumber(0, min_open=True),
     default=None,
     metavar="X",
-    help="Simulated seconds per second; as fast as possible if not given.",
+    help="Seconds of the run per second; if not given, as fast as possible, or 1 with --robot.",
 )
 @output.common_options
 def command(
@@ -110,6 +116,7 @@ def command(
     profile_name: str,
     human: str,
     world: str,
+    robot: str | None,
     planner: str,
     timeout: float,
     no_model: bool,
@@ -131,19 +138,20 @@ def command(
     prepared_run = prepare_run(
         problem, profile=profile_name, human=human, changes=changes, model=not no_model,
         planner=planner, seed=seed, replan_limit=replan_limit, timeout_s=timeout, world=world,
+        robot=robot, speed=speed or 1.0,
     )  # fmt: skip
     _check_initial(prepared_run.engine.model.agents, settings)
-    live = Live(problem, speed)
+    live = Live(problem, None if robot else speed)
     watch = None if output.JSON else live.watch
-    ending = carry_out(prepared_run, journal=journal, resume=resume, watch=watch)
-    outcome = ending.outcome
+    execution = carry_out(prepared_run, journal=journal, resume=resume, watch=watch)
+    outcome = execution.outcome
     if output.JSON:
         output.document({
-            "success": outcome.success, "ending": outcome.ending, "why": ending.run.why or None,
-            "row": outcome.to_json(), "measures": outcome.measures(), **ending.timeline.to_json(),
+            "success": outcome.success, "ending": outcome.ending, "why": execution.run.why or None,
+            "row": outcome.to_json(), "measures": outcome.measures(), **execution.timeline.to_json(),
         })  # fmt: skip
     else:
-        live.finish(ending.run, outcome)
+        live.finish(execution.run, outcome)
     return 0 if outcome.success else 1
 
 

@@ -29,6 +29,7 @@ COMMANDS = {
     "allocation": "hrcplan.cli.allocation",
     "validate": "hrcplan.cli.validate",
     "execute": "hrcplan.cli.execute",
+    "robot": "hrcplan.cli.robot",
     "replay": "hrcplan.cli.replay",
     "check": "hrcplan.cli.check",
     "new-problem": "hrcplan.cli.new_problem",

@@ -43,7 +43,8 @@ ABSENT = "absent"  # is left out where it is empty, as in journals of earlier ve
 KINDS: Mapping[str, type] = {
     kind.__name__.lower(): kind
     for kind in (ev.Ended, ev.Overdue, ev.Observed, ev.Sensed, ev.Settled, ev.Planned, ev.StopAsked,
-                 ev.AskPlan, ev.Dispatch, ev.Cancel, ev.Wake, ev.Adopt, ev.Tell, ev.Finish)
+                 ev.Noticed, ev.AskPlan, ev.Dispatch, ev.Cancel, ev.Wake, ev.Adopt, ev.Tell,
+                 ev.Finish)
 }  # fmt: skip
 
 

@@ -15,8 +15,8 @@ from hrcplan.plans import Plan, PlannedAction
 
 INSTANT_S = 0.01
 
-DONE, FAILED, CANCELLED = "done", "failed", "cancelled"
-OUTCOMES = (DONE, FAILED, CANCELLED)
+DONE, FAILED, CANCELLED, UNKNOWN = "done", "failed", "cancelled", "unknown"
+OUTCOMES = (DONE, FAILED, CANCELLED, UNKNOWN)
 CHANGE, FAILURE, DEVIATION = "change", "failure", "deviation"
 
 GOAL, NO_PLAN, REPLAN_LIMIT, STOPPED = "goal reached", "no plan", "replan limit", "stopped"
@@ -24,7 +24,11 @@ GOAL, NO_PLAN, REPLAN_LIMIT, STOPPED = "goal reached", "no plan", "replan limit"
 
 @dataclass(frozen=True, slots=True)
 class Ended:
-    """A dispatched action ended: ``done``, ``failed`` or ``cancelled``."""
+    """A dispatched action ended: ``done``, ``failed`` or ``cancelled``.
+
+    ``unknown``: nobody can say whether it was done. It counts as failed, its effects are not
+    assumed, and what is observed next says what is true.
+    """
 
     t: float
     number: int
@@ -80,6 +84,15 @@ class Planned:
 
 
 @dataclass(frozen=True, slots=True)
+class Noticed:
+    """Something that a world reports to the user, such as a robot that does not answer."""
+
+    t: float
+    code: str
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
 class StopAsked:
     """The run is to end: a user asked for it, or nothing can happen any more."""
 
@@ -87,9 +100,9 @@ class StopAsked:
     why: str
 
 
-Event = Ended | Overdue | Observed | Sensed | Settled | Planned | StopAsked
-RANK: Mapping[type, int] = {Ended: 0, Overdue: 0, Observed: 1, Sensed: 2, Planned: 3, Settled: 4,
-                            StopAsked: 0}  # fmt: skip
+Event = Ended | Overdue | Observed | Sensed | Settled | Planned | StopAsked | Noticed
+RANK: Mapping[type, int] = {Ended: 0, Overdue: 0, Noticed: 0, Observed: 1, Sensed: 2, Planned: 3,
+                            Settled: 4, StopAsked: 0}  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)

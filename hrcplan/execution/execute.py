@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Hashable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from html import escape
 from pathlib import Path
@@ -18,6 +19,8 @@ from hrcplan.execution.changes import WorldChange
 from hrcplan.execution.driver import PlanProvider, RunWatch
 from hrcplan.execution.events import FAILED, Command, Event
 from hrcplan.execution.journal import Journal, JournalFile, JournalWriter, RunSetup, open_journal
+from hrcplan.execution.links import LINKS, RobotLink
+from hrcplan.execution.links.world import LinkWorld
 from hrcplan.execution.model import ExecutionModel
 from hrcplan.execution.monitor import Monitor
 from hrcplan.execution.natures import STEADY, NatureSource, nature_for
@@ -26,7 +29,8 @@ from hrcplan.execution.replanner import DEFAULT_TIMEOUT_S, Replanner
 from hrcplan.execution.run import Run
 from hrcplan.execution.simulate import Engine, Spec
 from hrcplan.execution.timeline import Timeline
-from hrcplan.execution.worlds.registry import EVENT_WORLDS, SIMULATED
+from hrcplan.execution.worlds import EventWorld
+from hrcplan.execution.worlds.registry import EVENT_WORLDS, ROBOT, SIMULATED
 from hrcplan.pddl.inlining import plain
 from hrcplan.pddl.inputs import Readable, as_problem
 from hrcplan.pddl.model import Domain, FluentKey, Problem
@@ -89,6 +93,8 @@ class PreparedRun:
     setup: RunSetup
     engine: Engine
     timeout_s: float = DEFAULT_TIMEOUT_S
+    robot: RobotLink | None = None
+    speed: float = 1.0
 
 
 def execute(
@@ -105,8 +111,10 @@ def execute(
     replan_limit: int | None = None,
     journal: str | os.PathLike[str] | None = None,
     resume: bool = False,
+    robot: str | RobotLink | None = None,
+    speed: float = 1.0,
 ) -> Execution:
-    """Carry a problem out in a simulated world, and return what happened.
+    """Carry a problem out in a simulated world or with a robot, and return what happened.
 
     Args:
         domain: A `Problem`, or whatever `hrcplan.read` takes.
@@ -123,9 +131,13 @@ def execute(
         replan_limit: Replans per run, instead of the profile's number.
         journal: Where to write the run down.
         resume: Continue the run in the journal, if there is one.
+        robot: What carries out the robots' actions instead of the simulation, in real time:
+            ``cmd:PROGRAM``, ``simulated``, ``module:Class``, or a `RobotLink`.
+        speed: With a robot: seconds of the run in a real second.
 
     Raises:
         InputError: if a file is missing or has faults.
+        PlannerError: if the robot's program is missing or does not start.
         UsageError: if a name is unknown or a value out of range.
         TypeError: if an argument is of a wrong type.
 
@@ -137,7 +149,8 @@ def execute(
         check_function(key, initial)
     prepared_run = prepare_run(
         initial.with_values(values or {}), profile=profile, human=human, changes=changes,
-        model=model, planner=planner, seed=seed, replan_limit=replan_limit,
+        model=model, planner=planner, seed=seed, replan_limit=replan_limit, robot=robot,
+        speed=speed,
     )  # fmt: skip
     return carry_out(
         prepared_run, journal=None if journal is None else Path(journal), resume=resume
@@ -149,7 +162,8 @@ def prepare_run(
     changes: Sequence[str | WorldChange] = (), model: bool = True,
     planner: str | Planner = "auto", seed: int | str = 1, replan_limit: int | None = None,
     timeout_s: float = DEFAULT_TIMEOUT_S, world: str = SIMULATED,
-    provider: PlanProvider | None = None,
+    provider: PlanProvider | None = None, robot: str | RobotLink | None = None,
+    speed: float = 1.0,
 ) -> PreparedRun:  # fmt: skip
     """Return a run that is ready to begin; what chance decides is drawn here.
 
@@ -173,8 +187,21 @@ def prepare_run(
     engine = Engine(Monitor(execution_model, own_profile.limited_to(replan_limit), model), provider)
     EVENT_WORLDS.find(world)
     nature = nature_for(human, Spec(seed=seed), engine, changes)
+    world = ROBOT if robot is not None else world
     setup = RunSetup(problem, engine.monitor.profile, model, nature, names, world)
-    return PreparedRun(setup, engine, timeout_s)
+    return PreparedRun(setup, engine, timeout_s, _robot(robot, execution_model), speed)
+
+
+def _robot(robot: str | RobotLink | None, model: ExecutionModel) -> RobotLink | None:
+    """Return the link to a robot, if one is wanted.
+
+    Raises:
+        UsageError: if there is no such link, or no agent of the problem takes commands.
+    """
+    if robot is not None and not model.agents.robots:
+        hint = "(controllable AGENT) in the initial state says which agents take commands"
+        raise UsageError("no agent of this problem takes commands", code="no-robot", hint=hint)
+    return LINKS.make(robot) if isinstance(robot, str) else robot
 
 
 def _planners(planner: str | Planner) -> tuple[str | Planner, ...]:
@@ -238,12 +265,26 @@ def _carry_out(
         if watch is not None:
             watch(run, event, commands)
 
-    world = EVENT_WORLDS.make(setup.world, engine.model, setup.nature)
-    run = engine.run(setup.nature, writer, both, world)
+    with _world(prepared_run) as world:
+        run = engine.run(setup.nature, writer, both, world)
     outcome = engine.outcome(run)
     if writer is not None:
         writer.finish(outcome)
     return Execution(outcome, run, timeline, 0 if past is None else len(past.lines))
+
+
+@contextmanager
+def _world(prepared_run: PreparedRun) -> Iterator[EventWorld]:
+    """Yield the world of a run; a robot is let go of at the end, whatever happens."""
+    setup, model = prepared_run.setup, prepared_run.engine.model
+    if prepared_run.robot is None:
+        yield EVENT_WORLDS.make(setup.world, model, setup.nature)
+        return
+    world = LinkWorld(model, setup.nature, prepared_run.robot, speed=prepared_run.speed)
+    try:
+        yield world
+    finally:
+        world.close()
 
 
 def _with_setup_of(past: Journal, prepared_run: PreparedRun) -> PreparedRun:
@@ -253,6 +294,9 @@ def _with_setup_of(past: Journal, prepared_run: PreparedRun) -> PreparedRun:
         UsageError: if the journal is of another problem, or names code that the user did not name.
     """
     setup, own_setup = past.setup(), prepared_run.setup
+    if ROBOT in (setup.world, own_setup.world):
+        hint = "hrcplan replay JOURNAL shows the run"
+        raise UsageError("a run with a robot cannot be resumed", path=str(past.path), hint=hint)
     ours, theirs = own_setup.problem, setup.problem
     if (ours.domain.name, ours.name) != (theirs.domain.name, theirs.name):
         message = f"the journal is of {theirs.domain.name}/{theirs.name}"

@@ -63,6 +63,8 @@ class Monitor:
                 return self.decider.decide(self.observer.compare_states(run))
             case ev.Planned():
                 return self.decider.consider_plan(run, event)
+            case ev.Noticed(_, code, message):
+                return run, (ev.Tell(run.t, code, message),)
             case ev.StopAsked():
                 return self.decider.finish(run, ev.STOPPED, event.why)
             case _:

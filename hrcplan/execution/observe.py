@@ -78,8 +78,12 @@ class Observer:
             counts = replace(counts, cancelled=plus(counts.cancelled, [agent]), last_end_s=run.t)
             return replace(run, counts=counts)
         counts = replace(counts, failed=plus(counts.failed, [agent]), last_end_s=run.t)
+        text = _action_text(action.step)
+        if outcome == ev.UNKNOWN:  # that nobody knows is no sign of anybody's state
+            run = replace(run, counts=counts)
+            return run.with_reason(ev.FAILURE, f"whether {text} was done is unknown")
         memory = run.memory.failed(self._suspects(run, action.step))
-        text = f"{_action_text(action.step)} failed"
+        text = f"{text} failed"
         return replace(run, counts=counts, memory=memory).with_reason(ev.FAILURE, text)
 
     def _suspects(self, run: Run, step: BoundAction) -> Iterable[FluentKey]:

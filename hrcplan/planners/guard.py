@@ -9,7 +9,8 @@ a watcher above it that takes over if the guard is killed, by a planner or for w
 It must start fast (it is paid for on every planner call), hence the standard library only, no
 ``site``, and signal numbers instead of the ``signal`` module, whose import costs 3 ms.
 
-Protocol: standard input is the lifeline. It carries one marshalled job and then stays silent;
+Protocol: standard input is the lifeline. It carries one marshalled job and then stays silent (the
+program reads nothing, or the file descriptor that the job names);
 end of file means that hrcplan is gone or has had enough. The answer, a marshalled
 ``(reason, exit code, message)``, goes to the file descriptor named by the first argument.
 """
@@ -41,16 +42,18 @@ def main() -> None:
     report = int(sys.argv[1])
     os.set_inheritable(report, False)
     try:
-        argv, env, parent, time_s, memory = marshal.load(sys.stdin.buffer)
+        argv, env, parent, time_s, memory, stdin = marshal.load(sys.stdin.buffer)
     except EOFError:  # hrcplan ended between starting this process and writing the job
         return
     harden()
     watcher = os.getpid()
     guard = os.fork()
     if guard:
+        if stdin is not None:
+            os.close(stdin)
         stand_by(guard, parent, time_s, report)
     harden()  # to be a subreaper is not inherited
-    supervise(argv, env, watcher, time_s, memory, report)
+    supervise(argv, env, watcher, time_s, memory, stdin, report)
 
 
 def stand_by(guard: int, parent: int, time_s: float, report: int) -> None:
@@ -90,10 +93,10 @@ def end_all(guard: int, grace_s: float) -> None:
 
 def supervise(
     argv: list[bytes], env: dict[bytes, bytes], parent: int, time_s: float, memory: int | None,
-    report: int,
+    stdin: int | None, report: int,
 ) -> None:  # fmt: skip
     """Run the planner, clear up, and report."""
-    planner, fault = start(argv, env)
+    planner, fault = start(argv, env, stdin)
     if fault:
         answer: tuple[str, int | None, str] = ("missing", None, fault)
     else:
@@ -117,13 +120,15 @@ def harden() -> None:
     LIBC.signal(CHLD, DEFAULT)
 
 
-def start(argv: list[bytes], env: dict[bytes, bytes]) -> tuple[int, str]:
+def start(argv: list[bytes], env: dict[bytes, bytes], stdin: int | None) -> tuple[int, str]:
     """Return the planner's process id, and why it could not be started ("" if it was)."""
     fault_read, fault_write = os.pipe()  # closed by a successful exec
     planner = os.fork()
     if planner == 0:
-        become(argv, env, fault_write)
+        become(argv, env, stdin, fault_write)
     os.close(fault_write)
+    if stdin is not None:
+        os.close(stdin)
     fault = os.read(fault_read, 4096).decode()
     os.close(fault_read)
     if fault:
@@ -131,7 +136,7 @@ def start(argv: list[bytes], env: dict[bytes, bytes]) -> tuple[int, str]:
     return planner, fault
 
 
-def become(argv: list[bytes], env: dict[bytes, bytes], fault_write: int) -> None:
+def become(argv: list[bytes], env: dict[bytes, bytes], stdin: int | None, fault_write: int) -> None:
     """Turn this forked copy into the planner; on failure say why and end."""
     try:
         os.setsid()
@@ -139,7 +144,9 @@ def become(argv: list[bytes], env: dict[bytes, bytes], fault_write: int) -> None
         LIBC.prctl(PR_SET_PDEATHSIG, KILL, 0, 0, 0)
         for number in (HUP, INT, QUIT, PIPE, TERM, XFSZ):
             LIBC.signal(number, DEFAULT)
-        os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
+        os.dup2(os.open(os.devnull, os.O_RDONLY) if stdin is None else stdin, 0)
+        if stdin is not None:
+            os.close(stdin)
         os.execvpe(argv[0], argv, env)
     except (OSError, ValueError) as error:
         os.write(fault_write, (getattr(error, "strerror", None) or str(error)).encode())

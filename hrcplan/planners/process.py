@@ -114,7 +114,10 @@ def run(
         <ProcessEnd.TIMEOUT: 'timeout'>
     """
     started_s = time.monotonic()
-    with orphans.adoption() as family, _guard(_job(argv, limits, env), cwd) as (guard, report):
+    with (
+        orphans.adoption() as family,
+        guarded_program(job_message(argv, limits, env), cwd) as (guard, report),
+    ):
         output, answer = _collect(guard, report, limits, on_tick)
         if not output.is_over and not answer:
             orphans.end_tree(guard.pid)
@@ -127,23 +130,34 @@ def run(
     return FinishedProcess(end, code, stdout, stderr + message, time.monotonic() - started_s)
 
 
-def _job(argv: Sequence[str], limits: ProcessLimits, env: Mapping[str, str] | None) -> bytes:
+def job_message(
+    argv: Sequence[str], limits: ProcessLimits, env: Mapping[str, str] | None,
+    stdin: int | None = None,
+) -> bytes:  # fmt: skip
     """Return the message to the guard: bytes as the operating system wants them."""
     if not argv:
         raise ValueError("no program to run")
     variables = os.environ if env is None else env
     environment = {os.fsencode(name): os.fsencode(value) for name, value in variables.items()}
     words = [os.fsencode(word) for word in argv]
-    return marshal.dumps((words, environment, os.getpid(), limits.time_s, limits.memory_bytes))
+    return marshal.dumps(
+        (words, environment, os.getpid(), limits.time_s, limits.memory_bytes, stdin)
+    )
 
 
 @contextlib.contextmanager
-def _guard(job: bytes, cwd: Path) -> Iterator[tuple[subprocess.Popen[bytes], int]]:
-    """Yield the guard at work on a job; on the way out cut its lifeline and await its end."""
+def guarded_program(
+    job: bytes, cwd: Path, stdin: int | None = None
+) -> Iterator[tuple[subprocess.Popen[bytes], int]]:
+    """Yield the guard at work on a job, and where it reports the end of the program.
+
+    On the way out the guard's lifeline is cut and its end awaited: then nothing is left of the
+    program. ``stdin`` is the file descriptor that the program reads, if any.
+    """
     report, report_write = os.pipe()
     try:
         try:
-            guard = _start(report_write, cwd)
+            guard = _start(report_write, cwd, stdin)
         finally:
             os.close(report_write)
         with contextlib.ExitStack() as exits:
@@ -160,7 +174,7 @@ def _guard(job: bytes, cwd: Path) -> Iterator[tuple[subprocess.Popen[bytes], int
         os.close(report)
 
 
-def _start(report_write: int, cwd: Path) -> subprocess.Popen[bytes]:
+def _start(report_write: int, cwd: Path, stdin: int | None) -> subprocess.Popen[bytes]:
     """Start a guard in a session of its own, so that Ctrl-C reaches this process only."""
     return subprocess.Popen(
         # -I -S: the surroundings of a planner cannot disturb the guard, and it starts faster.
@@ -168,7 +182,7 @@ def _start(report_write: int, cwd: Path) -> subprocess.Popen[bytes]:
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
-        pass_fds=(report_write,),
+        pass_fds=(report_write,) if stdin is None else (report_write, stdin),
         cwd=cwd,
         start_new_session=True,
     )

@@ -8,6 +8,7 @@ from hrcplan.execution.worlds import EventWorld
 from hrcplan.execution.worlds.simulated import Nature
 
 SIMULATED = "simulated"
+ROBOT = "robot"  # what a journal says of a run that a link carried out; a link is no part by name
 
 EVENT_WORLDS: Registry[[ExecutionModel, Nature], EventWorld] = Registry(
     "event-world",

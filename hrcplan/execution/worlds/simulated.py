@@ -107,7 +107,7 @@ class SimulatedWorld:
         """Return what is there at time 0; a change that is sensed at once is known already."""
         if self.nature.sensed == BEFORE and self._clock and self._clock[0][0] < ev.INSTANT_S:
             return self.next()
-        return (self._observation(),)
+        return (self.observation(),)
 
     def do(self, command: Command) -> None:
         """Begin or break off an action."""
@@ -117,24 +117,52 @@ class SimulatedWorld:
             case ev.Cancel(_, number):
                 self._cancel(number)
             case ev.Wake(_, at_s):
-                self._at(at_s, _WAKE, None)
+                self.wake_at(at_s)
 
     def _begin(self, command: ev.Dispatch) -> None:
+        step = self.begin_action(command)
+        end_s = self._outcomes[command.number].end_s
+        self._at(end_s, _END, command.number)
+        if self._news and self._is_human(step):
+            self._schedule_sensing(command.t, end_s)
+
+    def begin_action(self, command: ev.Dispatch) -> BoundAction:
+        """Begin an action and return it; without ``do``, `end_action` has to end it."""
         step = self.actions.step(ev.planned_action(command))
         assert step is not None
         duration = exact_number(command.duration_s)
         self.state, effects = self.actions.begin(self.state, step, duration)  # type: ignore[arg-type]
         end_s = command.t + command.duration_s * self._stretch(step, command.number)
         self._outcomes[command.number] = _ActionOutcome(step, duration, end_s, effects)  # type: ignore[arg-type]
-        self._at(end_s, _END, command.number)
-        if self._news and self._is_human(step):
-            self._schedule_sensing(command.t, end_s)
+        return step
 
     def _stretch(self, step: BoundAction, number: int) -> float:
         least, most = self.nature.stretch
         if not self._is_human(step) or least == most == 1:
             return 1.0
         return least + (most - least) * chance.uniform(self.nature.seed, "stretch", number)
+
+    def set_state(
+        self, adds: frozenset[Fact], deletes: frozenset[Fact],
+        numbers: Mapping[FluentKey, Number] | None = None,
+    ) -> None:  # fmt: skip
+        """Let facts begin or cease to hold, and numbers take values, whoever did it."""
+        facts = frozenset(self.state.facts) - deletes | adds
+        self.state = LiftedState(facts, {**self.state.values, **(numbers or {})})
+
+    @property
+    def running(self) -> tuple[int, ...]:
+        """The numbers of the actions that have begun and not ended."""
+        return tuple(self._outcomes)
+
+    @property
+    def next_s(self) -> float | None:
+        """When the next instant is; None if nothing is due."""
+        return self._clock[0][0] if self._clock else None
+
+    def wake_at(self, t: float) -> None:
+        """Make an instant at a time, whatever else happens."""
+        self._at(t, _WAKE, None)
 
     def _cancel(self, number: int) -> None:
         """Break an action off in this instant; it leaves no effect."""
@@ -156,7 +184,7 @@ class SimulatedWorld:
                 kind, _, what = heapq.heappop(instant)
                 events += self._happen(t, kind, what)
             if events:
-                events.append(self._observation())
+                events.append(self.observation())
                 return tuple(sorted(events, key=lambda e: ev.RANK[type(e)]))
         return ()
 
@@ -173,23 +201,28 @@ class SimulatedWorld:
         if isinstance(what, int):
             return self._end(t, what)
         if isinstance(what, FactChange):
-            facts = frozenset(self.state.facts) - what.deletes | what.adds
-            self.state = LiftedState(facts, self.state.values)
-            return [self._observation()]
+            self.set_state(what.adds, what.deletes)
+            return [self.observation()]
         if isinstance(what, StateChange):
             self._change(t, what.values)
             return []
         if kind == _SENSE:
             return self._sense(t)
-        return [self._observation()]
+        return [self.observation()]
 
     def _end(self, t: float, number: int) -> Sequence[Event]:
-        action = self._outcomes.pop(number, None)
+        action = self._outcomes.get(number)
         if action is None:
             return []  # it was cancelled
-        if not self._succeeds(number, action):
+        done = self._succeeds(number, action)
+        return self.end_action(t, number, ev.DONE if done else ev.FAILED)
+
+    def end_action(self, t: float, number: int, outcome: str) -> Sequence[Event]:
+        """End an action: with its effects if it is done, else as if it had never begun."""
+        action = self._outcomes.pop(number)
+        if outcome != ev.DONE:
             self.state = self.actions.revert(self.state, action.start_effects)
-            return [ev.Ended(t, number, ev.FAILED)]
+            return [ev.Ended(t, number, outcome)]
         self.state = self.actions.finish(self.state, action.step, action.duration)
         return [ev.Ended(t, number, ev.DONE), *self._influence(t, number, action.step)]
 
@@ -241,6 +274,7 @@ class SimulatedWorld:
         values, self._news = self._news, {}
         return [ev.Sensed(t, values)] if values else []
 
-    def _observation(self) -> ev.Observed:
+    def observation(self) -> ev.Observed:
+        """Return the state as it is now, as it can be seen."""
         facts, absent = self.actions.changing(self.state), self.actions.absent(self.state)
         return ev.Observed(self._now, facts, self.state.values, absent)

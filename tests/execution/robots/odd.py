@@ -1,0 +1,119 @@
+"""A robot that does what its first argument says, and otherwise what it is told, at once."""
+
+import json
+import os
+import sys
+import time
+
+MODE = sys.argv[1]
+MARK = sys.argv[2] if len(sys.argv) > 2 else ""  # a file: whether this is the first start
+
+
+def write(line: str) -> None:
+    sys.stdout.write(line + "\n")
+    sys.stdout.flush()
+
+
+def say(event: str, **values: object) -> None:
+    write(json.dumps({"event": event, **values}))
+
+
+def end(n: int, outcome: str = "done", **values: object) -> None:
+    say("ended", n=n, outcome=outcome, **values)
+
+
+def is_first_start() -> bool:
+    first = not os.path.exists(MARK)
+    open(MARK, "w").close()
+    return first
+
+
+def first(n: int) -> None:
+    """Do the first action as the mode says."""
+    match MODE:
+        case "reject":
+            say("rejected", n=n, why="the path is blocked")
+        case "fail":
+            say("accepted", n=n)
+            end(n, "failed", why="slipped")
+        case "unknown":
+            say("accepted", n=n)
+            end(n, "unknown")
+        case "die":
+            say("accepted", n=n)
+            if is_first_start():
+                os.kill(os.getpid(), 9)
+            end(n)
+        case "feedback":
+            say("accepted", n=n)
+            say("feedback", n=n, text="half way")
+            end(n)
+        case "garbage":
+            write("hello\n\x00\x1b[31m\n[1]\n{}\n" + "[" * 5000)
+            sys.stdout.buffer.write(b'\xff\xfe\n{"event": "ended", "n": "x"}\n')
+            sys.stdout.buffer.flush()
+            end(n)
+        case "long":
+            write("x" * 10_000_000)
+            end(n)
+        case "twice":
+            end(n)
+            end(n)
+            end(n, "failed")
+            end(99)
+        case "flood":
+            if is_first_start():
+                while True:
+                    sys.stdout.write("x" * 1000 + "\n")
+            end(n)
+        case "lost-acceptance":
+            PENDING.add(n)
+        case "stop":
+            say("accepted", n=n)
+            say("stop", why="a person is too near")
+            time.sleep(0.3)
+            say("release")
+        case "sense":
+            say("accepted", n=n)
+            say("sensed", values={"motivation human": 9, "nonsense x": 1})
+            end(n)
+        case "teleport":
+            say("accepted", n=n)
+            say("observed", facts=["at robot wp5"], absent=["(at robot wp0)", "no fact"])
+            end(n, "failed")
+        case _:
+            say("accepted", n=n)
+            end(n)
+
+
+AGENTS = {"stranger": ["nobody"], "stop": ["robot"]}
+PENDING: set[int] = set()
+N_ACTIONS = 0
+if MODE == "mute":
+    time.sleep(60)
+for line in sys.stdin:
+    command = json.loads(line)
+    match command["do"]:
+        case "begin":
+            say("ready", agents=AGENTS.get(MODE, ["robot", "human"]))
+        case "dispatch":
+            N_ACTIONS += 1
+            if MODE == "deaf" and N_ACTIONS > 1:
+                continue
+            if command["n"] in PENDING:
+                end(command["n"])
+            elif N_ACTIONS == 1:
+                first(command["n"])
+            else:
+                say("accepted", n=command["n"])
+                end(command["n"])
+        case "cancel":
+            if MODE == "late":
+                end(command["n"])
+            elif MODE != "deaf":
+                end(command["n"], "cancelled")
+        case "observe":
+            if MODE == "unknown":
+                say("observed", facts=["at robot wp3"], absent=["at robot wp0"])
+        case "end":
+            break
