@@ -42,6 +42,8 @@ if TYPE_CHECKING:
     )
     from hrcplan.execution import FactChange, Nature, NatureSource, Outcome, StateChange
     from hrcplan.execution.execute import execute
+    from hrcplan.execution.links import LINKS as links  # noqa: N811
+    from hrcplan.execution.links import RobotLink as RobotLink
     from hrcplan.execution.natures import NATURES as natures  # noqa: N811
     from hrcplan.execution.worlds import EventWorld
     from hrcplan.execution.worlds.registry import EVENT_WORLDS as event_worlds  # noqa: N811
@@ -90,6 +92,7 @@ __all__ = [
     "Report",
     "Request",
     "Result",
+    "RobotLink",
     "StateChange",
     "Status",
     "StepChoice",
@@ -105,6 +108,7 @@ __all__ = [
     "ground",
     "humans",
     "infer",
+    "links",
     "load_bank",
     "natures",
     "plan",
@@ -131,6 +135,7 @@ _HOMES = {
     "hrcplan.execution.natures": ("natures=NATURES",),
     "hrcplan.episodes.worlds": ("worlds=WORLDS",),
     "hrcplan.execution.worlds": ("EventWorld",),
+    "hrcplan.execution.links": ("RobotLink", "links=LINKS"),
     "hrcplan.execution.worlds.registry": ("event_worlds=EVENT_WORLDS",),
     "hrcplan.inference": ("Belief", "Inference", "infer"),
     "hrcplan.inference.registry": ("beliefs=METHODS",),

@@ -45,7 +45,10 @@ def run(command: str, folder: Path) -> str:
     """Return what a command prints, stderr included; hrcplan is this checkout's."""
     ours = f"{sys.executable} -m hrcplan"
     line = re.sub(r"^(tools/)?hrcplan\b", ours, command)
-    environment = {**os.environ, "PYTHONPATH": str(ROOT), "NO_COLOR": "1", "COLUMNS": "100"}
+    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"  # for words in quotes
+    environment = {
+        **os.environ, "PYTHONPATH": str(ROOT), "NO_COLOR": "1", "COLUMNS": "100", "PATH": path,
+    }  # fmt: skip
     done = subprocess.run(
         f"exec 2>&1\n{line}", shell=True, cwd=folder, env=environment, capture_output=True,
         text=True, timeout=120, check=False,

@@ -148,7 +148,8 @@ def command(
     if output.JSON:
         output.document({
             "success": outcome.success, "ending": outcome.ending, "why": execution.run.why or None,
-            "row": outcome.to_json(), "measures": outcome.measures(), **execution.timeline.to_json(),
+            "row": outcome.to_json(), "measures": outcome.measures(),
+            **execution.timeline.to_json(),
         })  # fmt: skip
     else:
         live.finish(execution.run, outcome)

@@ -52,6 +52,7 @@ class SimulatedRobotProgram:
         self._ends_s: dict[int, float] = {}
         self._outcomes: dict[int, str] = {}
         self._n_actions = 0
+        self._actions: list[str] = []
         self._chance = random.Random(self.faults.seed)
         part = b""
         while True:
@@ -83,6 +84,7 @@ class SimulatedRobotProgram:
     def _take(self, command: Mapping[str, Any]) -> None:
         match command["do"]:
             case "begin":
+                self._actions = command["actions"]
                 self._say("ready", **({"agents": list(self.agents)} if self.agents else {}))
             case "dispatch":
                 self._dispatch(command)
@@ -91,6 +93,9 @@ class SimulatedRobotProgram:
 
     def _dispatch(self, command: Mapping[str, Any]) -> None:
         number = command["n"]
+        if command["action"] not in self._actions:
+            self._say("rejected", n=number, why="no such action")
+            return
         if number in self._outcomes:  # the answer was lost: it is given again
             self._say("ended", n=number, outcome=self._outcomes[number])
             return

@@ -345,6 +345,7 @@ class LinkWorld:
         self.link.start()
         self.link.send({
             "do": "begin", "link": 1, "agents": sorted(self.model.agents.robots),
+            "actions": [action.name for action in self.model.problem.domain.actions],
             "speed": self.speed,
         })  # fmt: skip
         until = self._clock() + READY_S

@@ -5,7 +5,7 @@ import os
 import sys
 import time
 
-MODE = sys.argv[1]
+MODE = sys.argv[1] if len(sys.argv) > 1 else ""
 MARK = sys.argv[2] if len(sys.argv) > 2 else ""  # a file: whether this is the first start
 
 
@@ -88,32 +88,39 @@ def first(n: int) -> None:
 
 AGENTS = {"stranger": ["nobody"], "stop": ["robot"]}
 PENDING: set[int] = set()
-N_ACTIONS = 0
-if MODE == "mute":
-    time.sleep(60)
-for line in sys.stdin:
-    command = json.loads(line)
-    match command["do"]:
-        case "begin":
-            say("ready", agents=AGENTS.get(MODE, ["robot", "human"]))
-        case "dispatch":
-            N_ACTIONS += 1
-            if MODE == "deaf" and N_ACTIONS > 1:
-                continue
-            if command["n"] in PENDING:
-                end(command["n"])
-            elif N_ACTIONS == 1:
-                first(command["n"])
-            else:
-                say("accepted", n=command["n"])
-                end(command["n"])
-        case "cancel":
-            if MODE == "late":
-                end(command["n"])
-            elif MODE != "deaf":
-                end(command["n"], "cancelled")
-        case "observe":
-            if MODE == "unknown":
-                say("observed", facts=["at robot wp3"], absent=["at robot wp0"])
-        case "end":
-            break
+
+
+def main() -> None:
+    n_actions = 0
+    if MODE == "mute":
+        time.sleep(60)
+    for line in sys.stdin:
+        command = json.loads(line)
+        match command["do"]:
+            case "begin":
+                say("ready", agents=AGENTS.get(MODE, ["robot", "human"]))
+            case "dispatch":
+                n_actions += 1
+                if MODE == "deaf" and n_actions > 1:
+                    continue
+                if command["n"] in PENDING:
+                    end(command["n"])
+                elif n_actions == 1:
+                    first(command["n"])
+                else:
+                    say("accepted", n=command["n"])
+                    end(command["n"])
+            case "cancel":
+                if MODE == "late":
+                    end(command["n"])
+                elif MODE != "deaf":
+                    end(command["n"], "cancelled")
+            case "observe":
+                if MODE == "unknown":
+                    say("observed", facts=["at robot wp3"], absent=["at robot wp0"])
+            case "end":
+                break
+
+
+if __name__ == "__main__":
+    main()
