@@ -24,6 +24,7 @@ PARTS = {
     "replan": "a changed motivation, proven anew in process",
     "exact": "proofs of boxes-3 and boxes-4",
     "execution": "simulated runs of failure anticipation and their replans",
+    "links": "a message to a robot and back",
     "growth": "grounding, walking and validating as tasks grow",
     "bank": "building, sampling, and listing plans beside top-k planners",
     "beliefs": "updates of 30 and of 10,000 goals",
