@@ -26,7 +26,7 @@ GOAL, NO_PLAN, REPLAN_LIMIT, STOPPED = "goal reached", "no plan", "replan limit"
 class Ended:
     """A dispatched action ended: ``done``, ``failed`` or ``cancelled``.
 
-    ``unknown``: nobody can say whether it was done. It counts as failed, its effects are not
+    ``unknown``: the world cannot say whether it was done. It counts as failed, its effects are not
     assumed, and what is observed next says what is true.
     """
 

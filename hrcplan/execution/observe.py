@@ -79,7 +79,7 @@ class Observer:
             return replace(run, counts=counts)
         counts = replace(counts, failed=plus(counts.failed, [agent]), last_end_s=run.t)
         text = _action_text(action.step)
-        if outcome == ev.UNKNOWN:  # that nobody knows is no sign of anybody's state
+        if outcome == ev.UNKNOWN:  # which is no sign of an agent's state
             run = replace(run, counts=counts)
             return run.with_reason(ev.FAILURE, f"whether {text} was done is unknown")
         memory = run.memory.failed(self._suspects(run, action.step))

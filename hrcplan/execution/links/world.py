@@ -267,7 +267,7 @@ class LinkWorld:
         return ()
 
     def _unknown(self, number: int, why: str) -> Iterable[Event]:
-        """End an action of which nobody knows whether it was done, and look what is true."""
+        """End an action with an unknown outcome, and ask the link what it observes."""
         text = f"{self._requests[number].dispatch}: {why}"
         return [*self._end(number, ev.UNKNOWN), self._notice("robot", text), *self._look()]
 

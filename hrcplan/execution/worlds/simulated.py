@@ -146,7 +146,7 @@ class SimulatedWorld:
         self, adds: frozenset[Fact], deletes: frozenset[Fact],
         numbers: Mapping[FluentKey, Number] | None = None,
     ) -> None:  # fmt: skip
-        """Let facts begin or cease to hold, and numbers take values, whoever did it."""
+        """Let facts begin or cease to hold, and numbers take values, for any reason."""
         facts = frozenset(self.state.facts) - deletes | adds
         self.state = LiftedState(facts, {**self.state.values, **(numbers or {})})
 
