@@ -120,8 +120,8 @@ def checked_nature(nature: Nature, model: ExecutionModel) -> Nature:
         if word not in words:
             message = f"{name} of a nature is one of {', '.join(words)}, not {word!r}"
             raise UsageError(message, code=_CODE)
-    least, most = nature.stretch
-    if not 0 < least <= most < math.inf:
+    stretch = tuple(nature.stretch)
+    if len(stretch) != 2 or not 0 < stretch[0] <= stretch[1] < math.inf:
         message = f"stretch of a nature is two factors above 0, not {nature.stretch}"
         raise UsageError(message, code=_CODE)
     states, accidents = _by_kind(checked_changes((*nature.changes, *nature.accidents), model))

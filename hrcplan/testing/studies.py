@@ -56,22 +56,14 @@ def check_study(
         _check_cells(table, choice)
     assert study.inputs(choice) == study.inputs(choice), "inputs() returns another text"
     study.prepare(choice, 1, lambda text: None)
-    all_episodes = list(episodes(study, choice, runs, limit))
-    assert all_episodes, "there is no episode"
-    rows = [_row(study, choice, episode) for episode in all_episodes]
-    for episode, row in reversed(list(zip(all_episodes, rows, strict=True))):
-        again = _row(study, choice, episode)
-        for name in study.table(episode.table).columns:
-            is_same = repr(again[name]) == repr(row[name])
-            assert is_same, f"{_place(episode)}: {name} is {again[name]!r} after {row[name]!r}"
-    about = _about(study, choice)
-    rows_read = _stored_rows(study, about, list(zip(all_episodes, rows, strict=True)))
-    nothing: ReportRows = {table.name: [] for table in study.tables}
-    _report(study, choice, about, nothing)
-    before = copy.deepcopy(rows_read)
-    report = _report(study, choice, about, rows_read)
-    assert rows_read == before, "a report changes the rows"
-    assert _report(study, choice, about, rows_read) == report, "a report of the same rows differs"
+    pairs = _repeatable_rows(study, choice, list(episodes(study, choice, runs, limit)))
+    about = {"study": study.name, "version": __version__, "seed": _SEED, "options": {**choice}}
+    rows = _stored_rows(study, about, pairs)
+    _report(study, choice, about, {table.name: [] for table in study.tables})
+    before = copy.deepcopy(rows)
+    report = _report(study, choice, about, rows)
+    assert rows == before, "a report changes the rows"
+    assert _report(study, choice, about, rows) == report, "a report of the same rows differs"
 
 
 def _check_columns(study: Study) -> None:
@@ -97,6 +89,20 @@ def _check_cells(table: StudyTable, options: StudyOptions) -> None:
         assert is_cell, f"a cell of {table.name} has one value for each of {table.keys}: {cell!r}"
 
 
+def _repeatable_rows(
+    study: Study, options: StudyOptions, all_episodes: Sequence[Episode]
+) -> list[tuple[Episode, StudyRow]]:
+    """Return the rows of episodes, which are the same when asked for in the other order."""
+    assert all_episodes, "there is no episode"
+    pairs = [(episode, _row(study, options, episode)) for episode in all_episodes]
+    for episode, row in reversed(pairs):
+        again = _row(study, options, episode)
+        for name in study.table(episode.table).columns:
+            is_same = repr(again[name]) == repr(row[name])
+            assert is_same, f"{_place(episode)}: {name} is {again[name]!r} after {row[name]!r}"
+    return pairs
+
+
 def _row(study: Study, options: StudyOptions, episode: Episode) -> StudyRow:
     table = study.table(episode.table)
     row = table.episode(options, episode.cell, Seed(_SEED, episode.run))
@@ -108,10 +114,6 @@ def _row(study: Study, options: StudyOptions, episode: Episode) -> StudyRow:
 
 def _place(episode: Episode) -> str:
     return f"{episode.table}, cell {episode.cell}, run {episode.run}"
-
-
-def _about(study: Study, options: StudyOptions) -> dict[str, Any]:
-    return {"study": study.name, "version": __version__, "seed": _SEED, "options": {**options}}
 
 
 def _stored_rows(

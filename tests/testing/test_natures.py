@@ -99,6 +99,7 @@ class Absent:
         (with_nature(draws="twice"), "draws of a nature is one of once, attempt"),
         (with_nature(can_fail=frozenset({"fly"})), "not 'fly'"),
         (with_nature(stretch=(2.0, 1.0)), "stretch of a nature"),
+        (with_nature(stretch=(1.0, 2.0, 3.0)), "stretch of a nature"),
         (with_nature(changes=(StateChange(-1.0, {MOTIVATION: 9}),)), "not a number from 0 on"),
         (with_nature(changes=(StateChange(0.0, {("mood", "human"): 9}),)), "no function 'mood'"),
         (with_nature(changes=(StateChange(0.0, {MOTIVATION: 11}),)), "no value in"),
