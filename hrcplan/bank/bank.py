@@ -9,12 +9,12 @@ from functools import cached_property
 
 import numpy as np
 
-from hrcplan.bank import walk
+from hrcplan.bank import solo, walk
 from hrcplan.bank.construct import NO_LIMITS, optimal_graph
 from hrcplan.bank.goals import Goals
 from hrcplan.bank.graph import PlanGraph
 from hrcplan.bank.search import BuildLimits
-from hrcplan.bank.team import team_graph
+from hrcplan.bank.team import team_graph, turn_order
 from hrcplan.core.text import nearest, plural
 from hrcplan.errors import UsageError
 from hrcplan.pddl.conventions import robots
@@ -23,6 +23,7 @@ from hrcplan.search.relevance import overwritten_facts, relevant
 from hrcplan.task.steps import STEPS, Operator, StepTable
 
 OPTIMAL = Fraction(1)
+AUTO, EXACT, SOLO = TURNS = ("auto", "exact", "solo")
 MAX_VARIANTS = 8  # states that are looked up for one that is off the graph
 MAX_REROOTED = 500_000  # nodes of graphs from other states that are remembered
 
@@ -33,13 +34,16 @@ class BuildOptions:
 
     ``quality`` above 1 takes all sequences up to that multiple of the optimal cost;
     ``alternatives`` the plans up to that multiple of which no step can be dropped; ``sample``
-    that many plans listed by a planner. ``cost`` is ``steps`` or ``task``.
+    that many plans listed by a planner. ``cost`` is ``steps`` or ``task``. ``turns`` says how a
+    team's turns are looked at: ``exact``, ``solo`` (plans of each agent alone: an approximation),
+    or ``auto``: exact unless the team can get to too many states.
     """
 
     cost: str = STEPS
     quality: Fraction = OPTIMAL
     alternatives: Fraction | None = None
     sample: int | None = None
+    turns: str = AUTO
 
     def __post_init__(self) -> None:
         """Refuse what contradicts itself.
@@ -47,7 +51,11 @@ class BuildOptions:
         Raises:
             UsageError: if more than one way of building is asked for, or a factor is below 1.
         """
+        if self.turns not in TURNS:
+            raise UsageError(f"turns are {', '.join(TURNS)}, not '{self.turns}'")
         ways = [self.quality != OPTIMAL, self.alternatives is not None, self.sample is not None]
+        if self.turns != AUTO and (any(ways) or self.cost != STEPS):
+            raise UsageError("--turns is for optimal plans that are counted in steps")
         if sum(ways) > 1:
             raise UsageError("--quality, --alternatives and --sample exclude each other")
         if self.quality < 1 or (self.alternatives or OPTIMAL) < 1:
@@ -72,6 +80,7 @@ class Bank:
     recipe: BuildOptions = OPTIMAL_PLANS
     build_s: float = 0.0
     _graphs: dict[tuple[int, int, int | None], PlanGraph] = field(default_factory=dict)
+    _solo_facts_of: dict[tuple[int, int], int] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         nodes = sum(graph.n_nodes for graph in self.graphs)
@@ -106,8 +115,25 @@ class Bank:
     @cached_property
     def team(self) -> tuple[str, ...]:
         """The agents in the order of their turns, if plans are team plans; else empty."""
+        if self.is_solo:
+            return turn_order(self.goals.problem)
         team = self.graphs[0].team if self.graphs else None
         return team.agents if team is not None else ()
+
+    @property
+    def is_solo(self) -> bool:
+        """Whether plans are the solo plans of each agent of a team."""
+        return self.recipe.turns == SOLO
+
+    @property
+    def turns(self) -> str | None:
+        """How turns are looked at, ``exact`` or ``solo``; None where agents take none."""
+        return (SOLO if self.is_solo else EXACT) if self.team else None
+
+    @property
+    def note(self) -> str | None:
+        """What the plans leave out; None if they are what they are asked to be."""
+        return solo.NOTE if self.is_solo else None
 
     def graph_from(
         self, goal: int, state: int, limits: BuildLimits = NO_LIMITS, *, turn: int | None = None
@@ -119,17 +145,33 @@ class Bank:
             state: The state.
             limits: Time and memory.
             turn: Whose turn it is there, as an index of ``team``; by default that of the first
-                agent.
+                agent. Where plans are solo plans, they are those of this agent, or of all if it has
+                none.
 
         Raises:
             LimitError: if time or memory runs out.
         """
         turn = (turn or 0) if self.team else None
-        key = (goal, state & self.relevant_facts(goal), turn)
+        plan_graph = self._graph_from(goal, state, turn, limits)
+        if self.is_solo and not plan_graph.n_nodes:
+            return self._graph_from(goal, state, None, limits)
+        return plan_graph
+
+    def _graph_from(
+        self, goal: int, state: int, turn: int | None, limits: BuildLimits
+    ) -> PlanGraph:
+        is_solo = self.is_solo and turn is not None
+        facts = self._solo_facts(goal, turn or 0) if is_solo else self.relevant_facts(goal)
+        key = (goal, state & facts, turn)
         plan_graph = self._graphs.get(key)
         if plan_graph is None:
             tests, name = self.goals.tests[goal], self.names[goal]
-            if turn is not None:
+            if is_solo:
+                ops = self._solo_ops[turn or 0]
+                plan_graph = optimal_graph(
+                    self.table, tests, state, name=name, limits=limits, ops=ops
+                )
+            elif turn is not None:
                 plan_graph = team_graph(self.table, tests, state, turn, name=name, limits=limits)
             else:
                 plan_graph = optimal_graph(self.table, tests, state, name=name, limits=limits)
@@ -137,6 +179,18 @@ class Bank:
             while sum(graph.n_nodes + 1 for graph in self._graphs.values()) > MAX_REROOTED:
                 self._graphs.pop(next(iter(self._graphs)))
         return plan_graph
+
+    @cached_property
+    def _solo_ops(self) -> list[tuple[Operator, ...]]:
+        return [solo.solo_ops(self.table, self.team, turn) for turn in range(len(self.team))]
+
+    def _solo_facts(self, goal: int, turn: int) -> int:
+        """Return the facts that matter to a plan of one agent, as bits."""
+        key = (goal, turn)
+        if key not in self._solo_facts_of:
+            tests = self.goals.tests[goal]
+            self._solo_facts_of[key] = relevant(self._solo_ops[turn], tests)[1].facts
+        return self._solo_facts_of[key]
 
     def locate(
         self, goal: int, state: int, limits: BuildLimits = NO_LIMITS, *, turn: int | None = None
@@ -164,6 +218,8 @@ class Bank:
     def node(self, goal: int, state: int, turn: int | None = None) -> int | None:
         """Return the node of a goal's own graph that a state is at; None if it is off the graph."""
         graph = self.graphs[goal]
+        if self.is_solo:
+            return None  # whose plans the graph holds depends on the goal
         if self.team:
             return graph.node_of(state, turn)
         node = graph.node_of(state)

@@ -7,15 +7,17 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from hrcplan.bank.alternatives import alternatives_graph
-from hrcplan.bank.bank import OPTIMAL_PLANS, Bank, BuildOptions
+from hrcplan.bank.bank import AUTO, EXACT, OPTIMAL_PLANS, SOLO, Bank, BuildOptions
 from hrcplan.bank.construct import bounded_graph, optimal_graph
 from hrcplan.bank.enumerated import sampled_graph
 from hrcplan.bank.goals import Goals
 from hrcplan.bank.graph import PlanGraph
+from hrcplan.bank.reachable_states import check_states, has_few_states
 from hrcplan.bank.search import MAX_MIB, BuildLimits
+from hrcplan.bank.solo import solo_graph
 from hrcplan.bank.sources import read_goals
 from hrcplan.bank.team import team_graph
-from hrcplan.task.steps import STEPS, StepTable
+from hrcplan.task.steps import StepTable
 
 
 def build_bank(
@@ -54,6 +56,7 @@ def build(
     started_s = time.monotonic()
     table = StepTable(goals.task, recipe.cost)
     limits = BuildLimits(mib, started_s + timeout_s)
+    recipe = replace(recipe, turns=_turns(goals, table, recipe))
     bank = Bank(goals, table, (), recipe)
     graphs: list[PlanGraph] = []
     for goal in range(len(goals)):
@@ -61,6 +64,22 @@ def build(
         if report is not None:
             report(graphs[-1])
     return replace(bank, graphs=tuple(graphs), build_s=time.monotonic() - started_s)
+
+
+def _turns(goals: Goals, table: StepTable, recipe: BuildOptions) -> str:
+    """Return how turns are looked at; `AUTO` where agents take none.
+
+    Raises:
+        LimitError: if they are asked for exactly, and the team can get to too many states.
+    """
+    is_plain = recipe == BuildOptions(turns=recipe.turns)
+    if table.agents == "dropped" or not goals.problem.agents or not is_plain:
+        return AUTO
+    if recipe.turns == AUTO:
+        return EXACT if has_few_states(table) else SOLO
+    if recipe.turns == EXACT:
+        check_states(table)
+    return recipe.turns
 
 
 def _graph(bank: Bank, goal: int, limits: BuildLimits) -> PlanGraph:
@@ -76,6 +95,7 @@ def _graph(bank: Bank, goal: int, limits: BuildLimits) -> PlanGraph:
         return bounded_graph(
             bank.table, tests, bank.initial, recipe.quality, name=name, limits=limits
         )
-    takes_turns = bank.agents == "kept" and bank.goals.problem.agents and recipe.cost == STEPS
-    build_graph = team_graph if takes_turns else optimal_graph
+    if bank.is_solo:
+        return solo_graph(bank.table, bank.team, tests, name=name, limits=limits)
+    build_graph = team_graph if recipe.turns == EXACT else optimal_graph
     return build_graph(bank.table, tests, bank.initial, name=name, limits=limits)

@@ -24,7 +24,7 @@ NO_LIMITS = BuildLimits()
 
 def optimal_graph(
     table: StepTable, goal: Tests, state: int, *, name: str = "goal",
-    limits: BuildLimits = NO_LIMITS, blind: bool = False,
+    limits: BuildLimits = NO_LIMITS, blind: bool = False, ops: Sequence[Operator] | None = None,
 ) -> PlanGraph:  # fmt: skip
     """Return the graph of all optimal plans from a state to a goal.
 
@@ -35,16 +35,17 @@ def optimal_graph(
         name: The goal's name.
         limits: Time and memory.
         blind: Search without landmarks: the slow way to the same graph, for tests.
+        ops: The ways to do steps that count; by default all of the table.
 
     Raises:
         LimitError: if time or memory runs out.
     """
-    return optimal_with_price(table, goal, state, name=name, limits=limits, blind=blind)[0]
+    return optimal_with_price(table, goal, state, name=name, limits=limits, blind=blind, ops=ops)[0]
 
 
 def optimal_with_price(
     table: StepTable, goal: Tests, state: int, *, name: str = "goal",
-    limits: BuildLimits = NO_LIMITS, blind: bool = False,
+    limits: BuildLimits = NO_LIMITS, blind: bool = False, ops: Sequence[Operator] | None = None,
 ) -> tuple[PlanGraph, int | None]:  # fmt: skip
     """Return the graph of all optimal plans, and their price (None if there is none).
 
@@ -52,7 +53,7 @@ def optimal_with_price(
     reaches the goal, this is the proof that it has all optimal plans: any other step would be
     paid on top. Otherwise the bound rises until the goal is reached.
     """
-    ops, literals = relevant(table.ops, goal)
+    ops, literals = relevant(table.ops if ops is None else ops, goal)
     packing = FactPacking.of_facts(literals.facts)
     start = packing.row(state)
     marks = landmarks(ops, state, goal)

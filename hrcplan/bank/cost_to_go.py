@@ -15,14 +15,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hrcplan.bank.bank import Bank
-from hrcplan.bank.state_tables import SeenStates, group_rows
+from hrcplan.bank.reachable_states import MAX_STATES, reachable_states
+from hrcplan.bank.state_tables import group_rows
 from hrcplan.bank.team import ANY_AGENT, step_owners
 from hrcplan.core.arrays import Ids, Words
-from hrcplan.errors import LimitError, UsageError
+from hrcplan.errors import UsageError
 from hrcplan.pddl.conventions import people
 from hrcplan.search.packed_states import FactPacking, PackedRules
 
-MAX_STATES = 1_000_000
 TIMESTEP = 1 << 12  # actions are counted below it
 NEVER = np.iinfo(np.int32).max - 2 * TIMESTEP  # the goal is out of reach
 
@@ -66,7 +66,7 @@ class CostToGo:
         table = self.bank.table
         self._packing = FactPacking(tuple(range(len(table.task.facts))))
         rules = PackedRules(table.ops, self._packing)
-        rows = group_rows(self._reach(rules))[0]
+        rows = group_rows(reachable_states(table, self._packing, rules, self.max_states))[0]
         self._keys = _keys(rows)
         owners = np.array(step_owners(table, self.bank.team), dtype=np.int64)
         steps = np.array([op.step for op in table.ops], dtype=np.int64)
@@ -81,23 +81,6 @@ class CostToGo:
         self._owners = owners[self._steps]
         self._first = self._sources.searchsorted(np.arange(len(rows) + 1))
         self._is_goal = [rules.meets(rows, tests) for tests in self.bank.goals.tests]
-
-    def _reach(self, rules: PackedRules) -> Words:
-        """Return the states that the team can get to."""
-        layer = self._packing.row(self.bank.initial).reshape(1, -1)
-        visited_states, layers, n = SeenStates(), [layer], 1
-        visited_states.add(layer)
-        while len(layer):
-            after = np.concatenate([layer[:0], *(rows for _, _, rows in rules.expand(layer))])
-            after = group_rows(after)[0] if len(after) else after
-            layer = after[~visited_states.contains(after)]
-            n += len(layer)
-            if n > self.max_states:
-                message = f"the agents can get to more than {self.max_states:,} states"
-                raise LimitError(message, code="memory", hint="use fewer objects or agents")
-            visited_states.add(layer)
-            layers.append(layer)
-        return np.concatenate(layers)
 
     def place(self, state: int) -> int:
         """Return the index of a state of the task.

@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 
 from hrcplan.bank.audit import fault, structure_fault
-from hrcplan.bank.bank import Bank, BuildOptions
+from hrcplan.bank.bank import AUTO, Bank, BuildOptions
 from hrcplan.bank.goals import SourceFile
 from hrcplan.bank.graph import PlanGraph, Team
 from hrcplan.bank.sources import goals_in
@@ -199,9 +199,10 @@ def _source(entry: Mapping[str, str], folder: Path, bank_name: str) -> SourceFil
 
 def _recipe_entry(recipe: BuildOptions) -> dict[str, Any]:
     alternatives = None if recipe.alternatives is None else str(recipe.alternatives)
+    turns = {} if recipe.turns == AUTO else {"turns": recipe.turns}
     return {
         "cost": recipe.cost, "quality": str(recipe.quality), "alternatives": alternatives,
-        "sample": recipe.sample,
+        "sample": recipe.sample, **turns,
     }  # fmt: skip
 
 
@@ -212,6 +213,7 @@ def _recipe(entry: Mapping[str, Any]) -> BuildOptions:
     return BuildOptions(
         entry["cost"], _fraction(entry["quality"]),
         None if alternatives is None else _fraction(alternatives), entry["sample"],
+        entry.get("turns", AUTO),
     )  # fmt: skip
 
 

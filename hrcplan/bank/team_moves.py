@@ -8,6 +8,7 @@ towards the goal without them.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 
@@ -15,8 +16,9 @@ from hrcplan.bank.bank import Bank
 from hrcplan.bank.cost_to_go import NEVER, TIMESTEP, Costs, cost_to_go_of
 from hrcplan.bank.team import ANY_AGENT, step_owners
 from hrcplan.core.arrays import Bools, Floats, Ids
-from hrcplan.errors import LimitError
 from hrcplan.pddl.conventions import robots
+
+K = TypeVar("K")
 
 DECAY = 0.5  # a step that loses one timestep more is less likely as a mistake by exp(-DECAY)
 LOST = 1e-6  # the weight of a mistake that loses the goal
@@ -90,13 +92,18 @@ class TeamMoves:
     """
 
     def __init__(self, bank: Bank) -> None:
-        self.bank, self.costs = bank, cost_to_go_of(bank)
+        self.costs = cost_to_go_of(bank)
+        self._choices_by_key: dict[tuple[int, int, bool], TeamChoices] = {}
+        self.take_turns(bank)
+
+    def take_turns(self, bank: Bank) -> None:
+        """Take in who the agents of a bank are, and the order of their turns."""
+        self.bank = bank
         self.n_turns = len(bank.team)
         controllable = robots(bank.goals.problem)
         self.is_robot = [agent in controllable for agent in bank.team]
         self.has_humans = not all(self.is_robot)
         self._owners = step_owners(bank.table, bank.team)
-        self._choices_by_key: dict[tuple[int, int, bool], TeamChoices] = {}
 
     def after(self, moment: Moment, step: int | None) -> Moment:
         """Return the moment after a step, or after a wait of the agent whose turn it is.
@@ -153,10 +160,14 @@ class TeamMoves:
         key = (self.costs.place(world), moment.turn, alone)
         choices = self._choices_by_key.get(key)
         if choices is None:
-            if len(self._choices_by_key) >= MAX_KNOWN:
-                self._choices_by_key.clear()
+            self._choices_by_key = self.not_too_many(self._choices_by_key)
             choices = self._choices_by_key[key] = self._choices(*key)
         return choices
+
+    @staticmethod
+    def not_too_many(choices: dict[K, TeamChoices]) -> dict[K, TeamChoices]:
+        """Return the choices that are remembered; none if they are too many."""
+        return {} if len(choices) >= MAX_KNOWN else choices
 
     def _choices(self, place: int, turn: int, alone: bool) -> TeamChoices:
         steps, targets = self.costs.actions(place, turn)
@@ -183,11 +194,16 @@ class TeamMoves:
 
 
 def team_moves(bank: Bank) -> TeamMoves | None:
-    """Return what the agents of a team do; None without turns, or if there are too many states."""
-    try:
-        return TeamMoves(bank) if bank.team else None
-    except LimitError:  # the graphs alone have to do, without regard to turns
-        return None
+    """Return what the agents of a team do; None where agents do not take turns.
+
+    Raises:
+        LimitError: if the team can get to too many states, and plans are no solo plans.
+    """
+    if bank.is_solo:
+        from hrcplan.bank.solo_moves import SoloMoves
+
+        return SoloMoves(bank)
+    return TeamMoves(bank) if bank.team else None
 
 
 def _weights(costs: Costs, now: Costs) -> Floats:

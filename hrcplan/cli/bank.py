@@ -81,6 +81,14 @@ def command() -> None:
     help="The cost of a plan: its number of steps, or the cost of the task.",
 )
 @click.option(
+    "--turns",
+    type=click.Choice(["auto", "exact", "solo"]),
+    default="auto",
+    show_default=True,
+    help="How agents that move or carry take turns: exactly, or by solo plans of each agent (an "
+    "approximation). auto: exactly, if they can get to at most 1,000,000 states.",
+)
+@click.option(
     "--memory",
     type=click.IntRange(min=1),
     default=2048,
@@ -107,6 +115,7 @@ def build(
     alternatives: Fraction | None,
     sample: int | None,
     bank_cost: str,
+    turns: str,
     memory: int,
     timeout: float | None,
     target: Path,
@@ -115,7 +124,7 @@ def build(
     from hrcplan.bank import BuildOptions, build_bank, save
 
     check_target(target)
-    recipe = BuildOptions(bank_cost, quality or Fraction(1), alternatives, sample)
+    recipe = BuildOptions(bank_cost, quality or Fraction(1), alternatives, sample, turns)
     bank = build_bank(
         domain,
         goals,
@@ -238,6 +247,8 @@ def _print(bank: Bank) -> None:
     if output.JSON:
         output.document(as_json(bank))
     else:
+        if bank.note is not None:
+            output.warn(bank.note)
         output.result(_table(bank))
 
 
@@ -258,6 +269,8 @@ def as_json(bank: Bank) -> dict[str, Any]:
             }
             for graph in bank.graphs
         ],
+        "turns": bank.turns,
+        "note": bank.note,
         "build_s": round(bank.build_s, 6),
     }
 
@@ -277,6 +290,8 @@ def _table(bank: Bank) -> str:
     ]
     lines = output.columns([head, *rows], right=range(1, len(head)))
     agents = "dropped: plans are sequences of steps" if bank.agents == "dropped" else "kept"
+    if bank.turns is not None:
+        agents += ", solo plans of each" if bank.is_solo else ", team plans in turns"
     total = sum(graph.n_nodes for graph in bank.graphs)
     title = f"{bank.goals.problem.domain.name}: {len(bank.graphs)} goals, agents {agents}"
     return "\n".join([title, "", *lines, "", f"{total:,} nodes, built in {bank.build_s:.2f} s"])

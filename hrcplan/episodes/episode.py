@@ -270,7 +270,8 @@ class _TeamPlay(_Play[S]):
     def run(self) -> EpisodeRecord:
         """Return the record."""
         costs = [self.bank.graphs[goal].optimal_cost or 0 for goal in self.course.goals]
-        most = PATIENCE * int(sum(costs)) + len(self.moves.is_robot)
+        n_turns = len(self.moves.is_robot)
+        most = PATIENCE * int(sum(costs)) * (n_turns if self.bank.is_solo else 1) + n_turns
         turn, ending = 0, self._ending(0, most)
         while ending is None:
             ending = self._round(turn)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Protocol, runtime_checkable
 
@@ -164,7 +164,9 @@ def infer(
         return run(belief, Resolver(steps_of(belief, StepTable(goals.task)), goals), words, name)
     bank = bank_or_goals if isinstance(bank_or_goals, Bank) else _bank_of(bank_or_goals)
     belief = METHODS.make(name, bank, **options)
-    return run(belief, Resolver(steps_of(belief, bank.table), bank.goals), words, name)
+    inference = run(belief, Resolver(steps_of(belief, bank.table), bank.goals), words, name)
+    notes = filter(None, [bank.note, inference.note])
+    return replace(inference, note="; ".join(notes) or None)
 
 
 def _path_of(actions: Observations | Bank | Goals) -> str | None:

@@ -7,12 +7,12 @@ import pytest
 
 from hrcplan.assistance.expected_help import ExpectedHelp
 from hrcplan.assistance.oracle import Oracle
-from hrcplan.bank import Bank, build
+from hrcplan.bank import Bank, BuildOptions, build, builder
 from hrcplan.bank.cost_to_go import NEVER, TIMESTEP, CostToGo, cost_to_go_of
 from hrcplan.bank.team_moves import Moment, TeamMoves
 from hrcplan.episodes.episode import REACHED, STUCK, play
 from hrcplan.episodes.humans import HUMANS, Course, Frontier, HumanMove
-from hrcplan.errors import LimitError
+from hrcplan.errors import LimitError, UsageError
 from hrcplan.testing import check_human
 from tests.worlds import world
 
@@ -199,3 +199,23 @@ def test_every_human_of_a_team_keeps_the_laws(name):
 def test_too_many_states_are_refused_by_number():
     with pytest.raises(LimitError, match="more than 100 states"):
         CostToGo(yard(*ONE_EACH), max_states=100)
+
+
+def test_too_many_states_are_named_or_approximated(monkeypatch, tmp_path):
+    """Solo plans of each agent still take turns, and the bank says that they are used."""
+    monkeypatch.setattr(builder, "has_few_states", lambda *args: False)
+    bank = yard(*ONE_EACH)
+    assert bank.turns == "solo"
+    assert bank.note is not None
+    endings = Counter()
+    for goal in range(len(bank.names)):
+        course = Course((goal,), seed=str(goal))
+        endings[play(bank, Frontier(bank, course), ExpectedHelp(bank), course).ending] += 1
+    assert endings == {REACHED: len(bank.names)}
+
+
+def test_turns_can_be_asked_for():
+    goals = yard(*ONE_EACH).goals
+    assert build(goals, BuildOptions(turns="solo")).turns == "solo"
+    with pytest.raises(UsageError, match="--turns"):
+        BuildOptions(cost="task", turns="solo")
