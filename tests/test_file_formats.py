@@ -42,6 +42,7 @@ FACT = ("reach", "human", "wp5")
 RARE: list[ev.Event | ev.Command] = [
     ev.Overdue(1.0, 2),
     ev.StopAsked(1.0, "a user asked for it"),
+    ev.Noticed(1.0, "no-answer", "the robot does not answer"),
     ev.Wake(1.0, 2.5),
     ev.Cancel(1.0, 2),
     ev.Observed(0.0, frozenset({FACT}), {("load", "robot"): 3}, frozenset({FACT})),

@@ -17,7 +17,7 @@ from hrcplan.execution.worlds.simulated import Nature
 from hrcplan.pddl.semantics import LiftedState
 from hrcplan.pddl.settings import check_fact
 
-REPORTS = (ev.Ended, ev.Observed, ev.Sensed, ev.StopAsked)
+REPORTS = (ev.Ended, ev.Noticed, ev.Observed, ev.Sensed, ev.StopAsked)
 """The events that a world reports; the others are the driver's."""
 
 
