@@ -6,8 +6,7 @@ They have the form of execution's journals, with another format number: the firs
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from typing import Any, get_args
+from typing import get_args
 
 from hrcplan.collaboration.companion import Companion
 from hrcplan.collaboration.events import KINDS, PersonEvent
@@ -16,8 +15,8 @@ from hrcplan.collaboration.persons import Person
 from hrcplan.collaboration.run import CompanionRun
 from hrcplan.collaboration.setup import CollaborationSetup, setup_in
 from hrcplan.errors import InputError
-from hrcplan.execution.codec import from_json
 from hrcplan.execution.journal import Journal
+from hrcplan.execution.journal.reader import event_in
 from hrcplan.execution.replay import Replayed, derive
 
 FORMAT = 2
@@ -80,7 +79,7 @@ class RecordedPerson:
 
     def __init__(self, journal: Journal, person: Person) -> None:
         self.person, self.is_live = person, person.is_live
-        self._events = _person_events(journal.lines[1:])
+        self._events = _person_events(journal)
 
     @property
     def is_repeating(self) -> bool:
@@ -94,7 +93,11 @@ class RecordedPerson:
         return self.person.act(run, agents)
 
 
-def _person_events(lines: Sequence[Mapping[str, Any]]) -> list[PersonEvent]:
+def _person_events(journal: Journal) -> list[PersonEvent]:
     kinds = get_args(PersonEvent)
-    events = [from_json(line["event"], KINDS) for line in lines if "event" in line]
+    events = [
+        event_in(line, number, journal.path, KINDS)
+        for number, line in enumerate(journal.lines[1:], start=2)
+        if "event" in line
+    ]
     return [event for event in events if isinstance(event, kinds)]

@@ -254,3 +254,33 @@ def test_a_journal_of_an_earlier_version_is_replayed_and_resumed(tmp_path: Path)
     begun.write_bytes(b"".join(old.read_bytes().splitlines(keepends=True)[:12]))
     again = execute("transport", "two-boxes", journal=begun, resume=True)
     assert again.outcome == found.row
+
+
+@pytest.mark.parametrize(
+    ("kind", "change"),
+    [
+        ("", {"planners": [["auto"]]}),
+        ("", {"planners": [False]}),
+        ("", {"nature": {"stretch": []}}),
+        ("planned", [1]),
+        ("planned", "planned"),
+        ("planned", {"kind": "planned", "t": "x"}),
+        ("planned", {"kind": "planned", "t": 0, "plan": ["(move  wp4 wp5"]}),
+        ("ended", {"kind": "ended", "t": None, "number": 1, "outcome": "done"}),
+    ],
+)
+def test_a_line_that_holds_something_else_is_an_input_error(
+    whole: tuple[Path, Execution], tmp_path: Path, kind: str, change: object
+) -> None:
+    lines = [json.loads(line) for line in whole[0].read_bytes().splitlines()]
+    if kind:
+        line = next(line for line in lines if line.get("event", {}).get("kind") == kind)
+        line["event"] = change
+    else:
+        assert isinstance(change, dict)
+        change = {k: {**lines[0][k], **v} if isinstance(v, dict) else v for k, v in change.items()}
+        lines[0] |= change
+    path = tmp_path / "damaged.jsonl"
+    path.write_text("".join(json.dumps(line) + "\n" for line in lines))
+    with pytest.raises(InputError, match="journal"):
+        eventful(path, resume=True)

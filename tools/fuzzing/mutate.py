@@ -126,7 +126,7 @@ def value(rng: random.Random, source: Any) -> Any:
 def _changed(rng: random.Random, found: Any) -> Any:
     is_list, is_table = isinstance(found, list), isinstance(found, dict)
     if not found or not (is_list or is_table) or rng.random() < 0.05:
-        return rng.choice(VALUES)
+        return copy.deepcopy(rng.choice(VALUES))  # it may be changed next
     key = rng.choice(list(found)) if is_table else rng.randrange(len(found))
     if isinstance(found[key], (list, dict)) and found[key] and rng.random() < 0.8:
         found[key] = _changed(rng, found[key])
@@ -135,7 +135,7 @@ def _changed(rng: random.Random, found: Any) -> Any:
     elif rng.random() < 0.2:
         del found[key]
     elif is_list and rng.random() < 0.3:
-        found.insert(key, rng.choice([*VALUES, *found]))
+        found.insert(key, copy.deepcopy(rng.choice([*VALUES, *found])))
     else:
-        found[key] = rng.choice(VALUES)
+        found[key] = copy.deepcopy(rng.choice(VALUES))
     return found

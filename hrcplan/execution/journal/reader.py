@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from hrcplan.core.files import read_bytes
 from hrcplan.errors import InputError
+from hrcplan.execution.codec import from_json
 from hrcplan.execution.journal.setup import RunSetup, setup_from_json
 
 FORMAT = 1
@@ -59,6 +61,19 @@ def journal_in(path: Path, raw: bytes) -> Journal:
     for number, text in enumerate(whole.splitlines(), start=1):
         lines.append(_line(text, number, path))
     return Journal(path, tuple(lines), len(whole))
+
+
+def event_in(line: Mapping[str, Any], number: int, path: Path, kinds: Mapping[str, type]) -> Any:
+    """Return the event that a line of a journal holds; ``kinds`` as for ``codec.from_json``.
+
+    Raises:
+        InputError: if it holds none.
+    """
+    try:
+        return from_json(line["event"], kinds)
+    except (KeyError, ValueError) as error:
+        message = f"line {number} of the journal holds no event: {error}"
+        raise InputError(message, code="bad-journal", path=str(path), line=number) from None
 
 
 def _line(text: bytes, number: int, path: Path) -> dict[str, Any]:

@@ -55,7 +55,7 @@ def setup_from_json(table: Mapping[str, Any], path: str) -> RunSetup:
             profile_from_table(table["profile"], path),
             bool(table["sensing"]),
             _nature(table["nature"]),
-            tuple(table["planners"]),
+            tuple(map(_text, table["planners"])),
             str(table.get("world", "simulated")),
         )
     except (KeyError, TypeError, ValueError, AttributeError) as error:
@@ -88,6 +88,7 @@ def _nature_to_json(nature: Nature) -> dict[str, Any]:
 def _nature(table: Mapping[str, Any]) -> Nature:
     changes = [from_json(change) for change in table["changes"]]
     can_fail = table["can_fail"]
+    least, most = map(float, table["stretch"])
     return Nature(
         table["seed"],
         tuple(StateChange(c.t, c.values) for c in changes),
@@ -96,8 +97,14 @@ def _nature(table: Mapping[str, Any]) -> Nature:
             for a in table["accidents"]
         ),
         table["sensed"], table["draws"], None if can_fail is None else frozenset(can_fail),
-        tuple(table["stretch"]),
+        (least, most),
     )  # fmt: skip
+
+
+def _text(value: object) -> str:
+    if isinstance(value, str):
+        return value
+    raise TypeError(f"{value!r} is no text")
 
 
 def _words(facts: frozenset[Fact]) -> list[str]:

@@ -8,9 +8,9 @@ from typing import Any, Protocol, TypeVar
 
 from hrcplan import __version__
 from hrcplan.errors import InputError, UsageError
-from hrcplan.execution.codec import KINDS, Item, from_json, to_json
+from hrcplan.execution.codec import KINDS, Item, to_json
 from hrcplan.execution.journal.file import JournalFile
-from hrcplan.execution.journal.reader import FORMAT, Journal
+from hrcplan.execution.journal.reader import FORMAT, Journal, event_in
 
 E = TypeVar("E", bound=Item)
 
@@ -51,7 +51,7 @@ class JournalWriter:
             InputError: if the journal has another event at this place.
         """
         line = self._line({"event": to_json(event)})
-        return from_json(line["event"], self._kinds)  # type: ignore[no-any-return]
+        return event_in(line, self._position, self.path, self._kinds)  # type: ignore[no-any-return]
 
     def record_decision(self, commands: Sequence[Item]) -> None:
         """Write down what the monitor decided.
@@ -65,10 +65,11 @@ class JournalWriter:
 
     def recorded_answer(self, kind: type[E]) -> E | None:
         """Return the event that was recorded at this place, if it is of a kind."""
-        event = self._past_lines[self._position].get("event") if self.is_repeating else None
-        if event is None or event.get("kind") != kind.__name__.lower():
+        line = self._past_lines[self._position] if self.is_repeating else {}
+        event = line.get("event")
+        if not isinstance(event, dict) or event.get("kind") != kind.__name__.lower():
             return None
-        return from_json(event, self._kinds)  # type: ignore[no-any-return]
+        return event_in(line, self._position + 1, self.path, self._kinds)  # type: ignore[no-any-return]
 
     def finish(self, outcome: HasJson) -> None:
         """Write the outcome, the last line."""
