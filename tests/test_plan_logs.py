@@ -10,6 +10,7 @@ from hrcplan.errors import PlanFormatError
 from hrcplan.inference.observations import observed_words
 from hrcplan.pddl.model import Problem
 from hrcplan.plans import PlannedAction, find_plans, read_plan
+from tests.texts import problem_of
 from tests.worlds import problem_from
 
 WALK = """(define (domain walk) (:requirements :strips)
@@ -126,3 +127,68 @@ def test_observed_actions_are_read_like_plans(text: str) -> None:
 )
 def test_lists_without_a_log_around_them(text: str) -> None:
     assert read_plan(text, problem_from(WALK, PROBLEM))[0].actions == GO
+
+
+TWO_STEPS = """(define (domain d) (:requirements :typing) (:types o) (:constants a b - o)
+  (:predicates (p ?x ?y - o))
+  (:action go :parameters (?x ?y - o) :effect (p ?x ?y)))"""
+TWO_TIMED_STEPS = """(define (domain d) (:requirements :typing :durative-actions) (:types o)
+  (:constants a b - o) (:predicates (p ?x ?y - o))
+  (:durative-action go :parameters (?x ?y - o) :duration (= ?duration 5) :condition (and)
+    :effect (at end (p ?x ?y))))"""
+NO_GOAL = "(define (problem x) (:domain d) (:init) (:goal (and)))"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        '["(go a b)", "(go b a)"]',
+        '{"plan": [{"action": "go", "args": ["a", "b"]}, {"action": "go", "args": ["b", "a"]}]}',
+        '{"result": {"plan": [{"name": "(go a b)", "action": "(:action go …)"}, "go b a"]}}',
+        '[["go", "a", "b"], ["GO", "b", "A"]]',
+        '{"plan": "(go a b)\\n(go b a)\\n"}',
+        '[{"name": "go", "parameters": {"?x": "a", "?y": "b"}},'
+        ' {"name": "go", "parameters": [{"name": "b"}, {"name": "a"}]}]',
+        "['(go a b)', '(go b a)']",
+        "[('go', 'a', 'b'), ('go', 'b', 'a')]",
+        "[go(a, b), go(b, a)]",
+        "SequentialPlan:\n    go(a, b)\n    go(b, a)",
+        "((go a b) (go b a))",
+        "(\n (go a b)\n (go b a)\n)\n",
+        "go a b\ngo b a\n",
+        "0: go a b\n1: go b a",
+        '"go a b"\n"go b a"',
+        "go,a,b\ngo,b,a",
+        "\ufeff(go a b)\n(go b a)",
+    ],
+)
+def test_plans_as_programs_print_them(text: str) -> None:
+    plan, _ = read_plan(text, problem_of(TWO_STEPS, NO_GOAL))
+    assert str(plan) == "(go a b)\n(go b a)\n"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "0.000: go a b [5]\n5.001: go b a [5.000]",
+        "0,000: (go a b) [5,000]\n5,001: (go b a) [5,0]",
+        "0.000s: (go a b) [5.000s]\n5.001s: (go b a) [5s]",
+        "TimeTriggeredPlan:\n    0.0: go(a, b) [5.0]\n    5.001: go(b, a) [5.0]",
+        '[{"time": 0, "action": "go", "args": ["a", "b"], "duration": 5},'
+        ' {"start": 5.001, "action": "go", "parameters": ["b", "a"], "duration": 5.0}]',
+        '{"items": [{"time": 0.0, "action": "(go a b)", "duration": 5.0},'
+        ' {"time": 5.001, "action": "(go b a)", "duration": 5.0}]}',
+    ],
+)
+def test_plans_with_times_as_programs_print_them(text: str) -> None:
+    plan, _ = read_plan(text, problem_of(TWO_TIMED_STEPS, NO_GOAL))
+    assert str(plan) == "0.000: (go a b) [5.000]\n5.001: (go b a) [5.000]\n"
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["go a c", "go a", "{}", '{"plan": 5}', "[1, 2]", "[" * 5000, "go a b c d"],
+)
+def test_what_is_no_plan_in_any_form(text: str) -> None:
+    with pytest.raises(PlanFormatError):
+        read_plan(text, problem_of(TWO_STEPS, NO_GOAL))

@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator
 
 from hrcplan.core.text import type_text
 from hrcplan.errors import PlanFormatError
 from hrcplan.pddl.model import Problem
 from hrcplan.pddl.source import read_text
+from hrcplan.plans.documents import plain_text
 from hrcplan.plans.model import Plan, PlannedAction
 from hrcplan.plans.text import parse_plan
 
@@ -21,9 +22,14 @@ from hrcplan.plans.text import parse_plan
 # "1. go a b" of a list, "- go a b" of another one.
 _NUMBER = re.compile(r"(?:step\b\s*)?\d+\s*(?::|[.)](?=\s))\s*|[-*•]\s+")
 _WORDS = re.compile(r"[^\s()\[\]:;,]+(?:\s+[^\s()\[\]:;,]+)*")
+# "go a b" and "0.5: go a b [5]", if these are an action and objects.
+_BARE = re.compile(
+    r"(?P<start>\d+(?:[.,]\d+)?s?\s*:)?\s*(?P<words>[^\s()\[\]:;,]+(?:(?:\s*,\s*|\s+)[^\s()\[\]:;,]+)*)"
+    r"\s*(?:\[(?P<duration>[^\[\]]+)\])?"
+)
 _PRICE = re.compile(r"\s\(\d+\)$")  # "go a b (1)" of Fast Downward
 _OF_A_LOG = re.compile(
-    r"(?:\b|_)(?:plan|solution|cost|time|search|heuristic|states|steps)(?:\b|_)|^```|^[^a-z]+$"
+    r"waiting|plan(?:\b|_)|(?:\b|_)(?:solution|cost|time|search|heuristic|states|steps)(?:\b|_)|^```|^[^a-z]+$"
 )
 # What ENHSP prints between actions, and the last action that FF adds to a plan.
 _NO_ACTION = re.compile(r"(?<!-)-{2,}+\s*+waiting\s*+--|\breach-goal\b")
@@ -34,7 +40,7 @@ def find_plans(text: str, problem: Problem) -> Iterator[Plan]:
 
     Plans of a classical domain have no times: some planners print the position of a step as one.
     """
-    for actions in _blocks(text, {action.name for action in problem.domain.actions}):
+    for actions in _blocks(text, _Steps(problem)):
         has_times = any(action.start_s is not None for action in actions)
         if has_times and problem.domain.is_temporal:
             if all(action.start_s is not None for action in actions):
@@ -96,11 +102,11 @@ def as_plan(plan: Plan | str | os.PathLike[str], problem: Problem | None = None)
     return parse_plan(text, path) if problem is None else read_plan(text, problem, path)[0]
 
 
-def _blocks(text: str, names: Collection[str]) -> Iterator[list[PlannedAction]]:
+def _blocks(text: str, steps: _Steps) -> Iterator[list[PlannedAction]]:
     """Yield the actions of lines that follow each other."""
     block: list[PlannedAction] = []
-    for line in (*text.lower().splitlines(), ""):
-        actions = _actions(line.strip(), names)
+    for line in (*plain_text(text).lower().splitlines(), ""):
+        actions = steps.on_line(line.strip())
         if actions:
             block += actions
         elif block and not _NO_ACTION.search(line):
@@ -108,28 +114,51 @@ def _blocks(text: str, names: Collection[str]) -> Iterator[list[PlannedAction]]:
             block = []
 
 
-def _actions(line: str, names: Collection[str]) -> tuple[PlannedAction, ...]:
-    """Return the actions on a line; none if there is anything else on it."""
-    number = _NUMBER.match(line)
-    rest = line[number.end() :] if number else line
-    for text in dict.fromkeys((line, rest)):
+class _Steps:
+    """What a problem's actions look like in a text."""
+
+    def __init__(self, problem: Problem) -> None:
+        self.names = {action.name for action in problem.domain.actions}
+        self._arity = {action.name: len(action.params) for action in problem.domain.actions}
+        self._objects = problem.all_objects
+
+    def on_line(self, line: str) -> tuple[PlannedAction, ...]:
+        """Return the actions on a line; none if there is anything else on it."""
+        number = _NUMBER.match(line)
+        rest = line[number.end() :] if number else line
+        for text in dict.fromkeys((line, rest)):
+            try:
+                actions = parse_plan(text).actions
+            except PlanFormatError:
+                continue
+            if actions and all(action.name in self.names for action in actions):
+                return actions
+        price = _PRICE.search(line)
+        bare = rest if number else line[: price.start()] if price else ""
+        words = bare.split() if _WORDS.fullmatch(bare) else []
+        if words and words[0] in self.names:
+            return (PlannedAction(words[0], tuple(words[1:])),)
+        return self._without_parentheses(line)
+
+    def _without_parentheses(self, line: str) -> tuple[PlannedAction, ...]:
+        """Return the action of a line such as ``0.5: go a b [5]``, if it names what is declared."""
+        match = _BARE.fullmatch(line.strip("\"'"))
+        words = match["words"].replace(",", " ").split() if match else [""]
+        fits = len(words) - 1 == self._arity.get(words[0]) and self._objects.keys() >= {*words[1:]}
+        if not match or not fits:
+            return ()
+        duration = f"[{match['duration']}]" if match["duration"] else ""
         try:
-            actions = parse_plan(text).actions
+            return parse_plan(f"{match['start'] or ''}({' '.join(words)}){duration}").actions
         except PlanFormatError:
-            continue
-        if actions and all(action.name in names for action in actions):
-            return actions
-    price = _PRICE.search(line)
-    bare = rest if number else line[: price.start()] if price else ""
-    words = bare.split() if _WORDS.fullmatch(bare) else []
-    return (PlannedAction(words[0], tuple(words[1:])),) if words and words[0] in names else ()
+            return ()
 
 
 def _is_log(text: str, problem: Problem) -> bool:
     """Return whether all lines without an action speak of something else than actions."""
-    names = {action.name for action in problem.domain.actions}
-    lines = [line.strip() for line in text.lower().splitlines() if line.strip()]
-    rest = [line for line in lines if not _actions(line, names)]
-    if any(not names.isdisjoint(re.findall(r"[^\s()\[\]:;,]+", line)) for line in rest):
+    steps = _Steps(problem)
+    lines = [line.strip() for line in plain_text(text).lower().splitlines() if line.strip()]
+    rest = [line for line in lines if not steps.on_line(line)]
+    if any(not steps.names.isdisjoint(re.findall(r"[^\s()\[\]:;,]+", line)) for line in rest):
         return False
     return not rest or any(_OF_A_LOG.search(line) for line in rest)

@@ -2,7 +2,8 @@
 
 Parentheses separate actions, lines do not: ``(a) (b)`` on one line are two actions, and one action
 may go over several lines (VAL reads plans in this way, too). ``1. (go a b)`` and ``- (go a b)`` are
-lists, ``go(a, b)`` is an action in function style, ``[D:5.00; C:0.10]`` is a duration of LPG.
+lists, ``go(a, b)`` is an action in function style, ``[D:5.00; C:0.10]`` is a duration of LPG, and
+``0,500`` has a decimal comma.
 """
 
 from __future__ import annotations
@@ -11,9 +12,10 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from hrcplan.core.numbers import to_number
+from hrcplan.core.numbers import Number, to_number
 from hrcplan.core.text import quote
 from hrcplan.errors import PlanFormatError
+from hrcplan.plans.documents import plain_text
 from hrcplan.plans.model import Plan, PlannedAction
 
 HINT = "actions look like (move human wp1 wp2) or 0.000: (move human wp1 wp2) [50.000]"
@@ -22,12 +24,15 @@ _TOKEN = re.compile(
     r"""(?P<space>\s+|;[^\n]*|,)
       | (?P<action>\([^()]*\))
       | \[\s*+(?:d\s*+:)?\s*+(?P<duration>[^\s;\[\]]++)(?:\s*+;[^\[\]\n]*+)?\s*+\]\)?
-      | (?P<start>[^\s:;,.()\[\]]+(?:\.[^\s:;,()\[\]]+)?)\s*:(?!:)
+      | (?P<start>\d+,\d+|[^\s:;,.()\[\]]+(?:\.[^\s:;,()\[\]]+)?)\s*:(?!:)
       | (?P<bullet>\d+[.)](?=\s*[a-z_(])|\d+(?=\s+\()|[-*•](?=\s))
       | (?P<name>[a-z_][^\s(),;:\[\]]*)(?P<args>\([^()]*\))
     """,
     re.VERBOSE,
 )
+
+
+_COMMA = re.compile(r"(\d+),(\d+)s?")
 
 
 @dataclass(slots=True)
@@ -50,7 +55,7 @@ def parse_plan(text: str, path: str = "<plan>") -> Plan:
     >>> parse_plan("1. (go a b)  2. go(b, c)").actions[1].args
     ('b', 'c')
     """
-    text = text.lower()
+    text = plain_text(text).lower()
     actions: list[PlannedAction] = []
     for entry in _entries(text, path):
         action = _action(entry)
@@ -97,14 +102,21 @@ def _words(match: re.Match[str]) -> list[str]:
 
 def _action(entry: _Entry) -> PlannedAction | None:
     """Return an entry as an action; None if a number in it is none, or cannot be."""
-    start = None if entry.start is None else to_number(entry.start)
-    duration = None if entry.duration is None else to_number(entry.duration)
+    start, duration = _seconds(entry.start), _seconds(entry.duration)
     unreadable = (entry.start and start is None) or (entry.duration and duration is None)
     if not entry.words or unreadable or (start or 0) < 0 or (duration or 0) < 0:
         return None
     if start is None and duration is not None:
         return None
     return PlannedAction(entry.words[0], tuple(entry.words[1:]), start, duration)
+
+
+def _seconds(text: str | None) -> Number | None:
+    """Return a time; ``5,25`` is read like ``5.25``, and ``5.25s`` too."""
+    if text is None:
+        return None
+    comma = _COMMA.fullmatch(text)
+    return to_number(".".join(comma.groups()) if comma else text.removesuffix("s"))
 
 
 def _error(text: str, position: int, path: str) -> PlanFormatError:
