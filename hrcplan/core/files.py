@@ -1,4 +1,4 @@
-"""Files that are there completely or not at all, and where those go that can be made again."""
+"""Reading files with clear errors, writing them whole or not at all, and the cache folder."""
 
 from __future__ import annotations
 
@@ -119,7 +119,7 @@ def _is_same(one: str | Path, other: str | Path) -> bool:
 
 
 def cache_folder() -> Path | None:
-    """Return the folder for what can be made again; it need not exist.
+    """Return the folder of caches: files that can be made again. It need not exist.
 
     That is ``$HRCPLAN_CACHE``, else ``$XDG_CACHE_HOME/hrcplan``, else ``~/.cache/hrcplan``; None if
     the user has no home.

@@ -42,7 +42,7 @@ def exact(number: Number | float | str) -> Number:
 
 
 def number_text(value: Number) -> str:
-    """Return a number as PDDL writes it: exact where the decimal ends, else 12 digits.
+    """Return a number as messages show it: in decimals, at most 12 after the point.
 
     >>> number_text(Fraction(17, 100)), number_text(3)
     ('0.17', '3')
@@ -64,12 +64,14 @@ def fraction_of(text: JsonValue) -> Fraction | None:
 
     >>> fraction_of("5/4"), fraction_of("1e999999999"), fraction_of("1/0"), fraction_of([])
     (Fraction(5, 4), None, None, None)
+    >>> fraction_of("1" + 5000 * "0") == 10**5000
+    True
     """
     if not isinstance(text, str) or not _FRACTION.fullmatch(text.strip().lower()):
         return None
     whole, _, divisor = text.partition("/")
     try:
-        return Fraction(int_of(whole), int_of(divisor)) if divisor else Fraction(text)
+        return Fraction(int_of(whole), int_of(divisor)) if divisor else Fraction(Decimal(text))
     except (ValueError, ZeroDivisionError):
         return None
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 MAX_QUOTE = 60  # characters of a file that a message repeats at a time
-_LAYOUT = "\n\t\N{NO-BREAK SPACE}"  # not printable by the word of Python, and harmless
+_LAYOUT = "\n\t\N{NO-BREAK SPACE}"  # `str.isprintable` is False of them, and yet they are harmless
 
 
 def quote(text: str) -> str:

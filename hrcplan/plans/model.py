@@ -53,10 +53,10 @@ class Plan:
 
     @property
     def makespan_s(self) -> Number | None:
-        """End of the last action minus time 0, in seconds; None without times, 0 if empty."""
+        """End of the last action, in seconds from time 0; None without times or actions."""
         if not self.is_schedule:
             return None
-        return max((a.end_s for a in self.actions if a.end_s is not None), default=0)
+        return max(a.end_s for a in self.actions if a.end_s is not None)
 
     def __str__(self) -> str:
         return format_plan(self)

@@ -134,13 +134,13 @@ class _Builder:
             conditional=any(c.tests != ALWAYS for c in (*at_start, *at_end)),
             values=choice,
         )
-        priced: list[GroundAction] = []
+        variants: list[GroundAction] = []
         for extra, costs in self._costs(instance, values, later, at_start):
             start, tests = (all_of([part, extra]) for part in (action.start, action.tests))
             if tests:
-                place = index + len(priced)
-                priced.append(replace(action, index=place, costs=costs, start=start, tests=tests))
-        return priced
+                place = index + len(variants)
+                variants.append(replace(action, index=place, costs=costs, start=start, tests=tests))
+        return variants
 
     def _who(self, instance: SchemaInstance) -> tuple[str | None, tuple[str, ...]]:
         """Return the agent, and the step: the action without its agent."""
@@ -226,8 +226,8 @@ class _Builder:
             message = f"the cost of '{instance.action.name}' depends on {len(depends)} conditions"
             raise UnsupportedError(message, hint="enhsp and kairos plan with such costs")
         for choice in product((True, False), repeat=len(depends)):
-            chosen = iter(choice)
-            costs = tuple(cost for tests, cost in prices if tests == ALWAYS or next(chosen))
+            counts = iter(choice)
+            costs = tuple(cost for tests, cost in prices if tests == ALWAYS or next(counts))
             tests = [t if holds else negation(t) for t, holds in zip(depends, choice, strict=True)]
             with contextlib.suppress(*([Undefined] if depends else ())):
                 for cost in costs:
@@ -243,9 +243,9 @@ class _Builder:
     ) -> Iterator[tuple[Tests, Expr]]:
         """Yield each amount that may be added to total-cost, and what must hold before for it."""
         first, last = self._constants(values), self._constants(later)
-        fixed = instance.action.fixed_duration
-        if fixed is not None:
-            first[DURATION,] = last[DURATION,] = ground_expression(fixed, instance.binding, first)
+        length = instance.action.fixed_duration
+        if length is not None:
+            first[DURATION,] = last[DURATION,] = ground_expression(length, instance.binding, first)
         for effect in instance.action.effects:
             if effect.target.name != TOTAL_COST or effect.value is None:
                 continue

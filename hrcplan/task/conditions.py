@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Set
+from collections.abc import Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -113,12 +113,12 @@ def meets(state: int, tests: Tests) -> bool:
 
 def any_of(parts: Iterable[Tests]) -> Tests:
     """Return alternatives of which one holds where any part holds."""
-    alternatives: dict[Test, None] = {}
+    alternatives: list[Test] = []
     for part in parts:
-        alternatives.update(dict.fromkeys(part))
-        if (0, 0) in alternatives:
+        if (0, 0) in part:
             return ALWAYS
-    return _check_size(tuple(alternatives))
+        alternatives += part
+    return _distinct(alternatives)
 
 
 def all_of(parts: Iterable[Tests]) -> Tests:
@@ -129,12 +129,7 @@ def all_of(parts: Iterable[Tests]) -> Tests:
             tests = part
         elif part != ALWAYS:
             pairs = [conjunction(one, other) for one in tests for other in part]
-            possible = [pair for pair in pairs if pair is not None]
-            tests = (
-                tuple(possible)
-                if len(possible) < 2
-                else _check_size(tuple(dict.fromkeys(possible)))
-            )
+            tests = _distinct([pair for pair in pairs if pair is not None])
         if tests == NEVER:
             return NEVER
     return tests
@@ -147,10 +142,8 @@ def conjunction(one: Test, other: Test) -> Test | None:
     if (value ^ other_value) & mask & other_mask:
         return None
     both, both_values = mask | other_mask, value | other_value
-    return (
-        both,
-        both if both_values == both else both_values,
-    )  # one object for both saves half the memory
+    # One object for mask and value saves half the memory where they are equal.
+    return both, both if both_values == both else both_values
 
 
 def negation(tests: Tests) -> Tests:
@@ -158,7 +151,11 @@ def negation(tests: Tests) -> Tests:
     return all_of(tuple((bit, ~value & bit) for bit in single_bits(mask)) for mask, value in tests)
 
 
-def _check_size(tests: Tests) -> Tests:
-    if len(tests) > MAX_ALTERNATIVES:
+def _distinct(tests: Sequence[Test]) -> Tests:
+    """Return each alternative once."""
+    if len(tests) < 2:
+        return tuple(tests)
+    distinct = tuple(dict.fromkeys(tests))
+    if len(distinct) > MAX_ALTERNATIVES:
         raise UnsupportedError(f"a condition has more than {MAX_ALTERNATIVES} alternatives")
-    return tests
+    return distinct
