@@ -137,6 +137,8 @@ def _check_alike(first: Problem, other: Problem) -> None:
 def _differences(first: Problem, other: Problem) -> Iterator[str]:
     if first.domain.name != other.domain.name:
         yield f"domain {other.domain.name} instead of {first.domain.name}"
+    elif replace(other.domain, path="") != replace(first.domain, path=""):
+        yield f"another domain that is called {other.domain.name}, too"
     mine, theirs = first.all_objects, other.all_objects
     for name in sorted(mine.keys() | theirs.keys()):
         here, there = theirs.get(name, "missing"), mine.get(name, "missing")

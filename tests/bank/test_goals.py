@@ -195,6 +195,13 @@ def test_renamed_formulas():
     )
 
 
+def test_goals_of_two_domains_of_one_name_are_refused():
+    one, other = read("kitchen", "pasta-bean"), read("kitchen", "pasta-tomato")
+    fewer = replace(other, domain=replace(other.domain, actions=other.domain.actions[1:]))
+    with pytest.raises(InputError, match="another domain that is called kitchen"):
+        from_problems([one, fewer])
+
+
 def test_variants_are_as_the_goals_they_come_from(kitchen):
     found = vary(kitchen.goals, 40, seed=3, n_objects=4)
     bank = build(found)

@@ -2,7 +2,7 @@
 
 import pytest
 
-from hrcplan.pddl import semantics
+from hrcplan.pddl.walks import compares
 from hrcplan.task import Task, grounding
 from tests.texts import problem_of
 
@@ -16,6 +16,6 @@ def test_a_goal_without_numbers_is_not_searched_for_functions(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     problem = problem_of(DOMAIN, PROBLEM)
-    assert not semantics.compares(problem.goal)
+    assert not compares(problem.goal)
     monkeypatch.setattr(grounding, "mentions", lambda *_: pytest.fail("every instance is visited"))
     assert Task(problem).goal

@@ -131,7 +131,6 @@ def test_sixteen_values_and_no_more(tmp_path: Path) -> None:
     ("effect", "goal", "words"),
     [
         ("(increase (level) 1)", "(p)", r"'pay' changes \(level …\), which is not agent state"),
-        ("(when (p) (increase (total-cost) 1))", "(p)", "does more with total-cost"),
         ("(assign (total-cost) 1)", "(p)", "does more with total-cost"),
         ("(increase (total-cost) (total-cost))", "(p)", "looks at total-cost"),
         ("", "(< (total-cost) 9)", "the goal looks at the cost"),
@@ -163,7 +162,7 @@ def test_grounding_gives_up_where_memory_is_short(monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr(reachable, "_CHECK_MEMORY", 100)
     assert reachable.available_bytes() > 0
     monkeypatch.setattr(reachable, "available_bytes", lambda: reachable.MIN_FREE_BYTES - 1)
-    with pytest.raises(LimitError, match="no memory for more than 100 ground actions"):
+    with pytest.raises(LimitError, match=r"no memory for more than \d+ ground actions"):
         Task(read("transport", "two-boxes"))
 
 
