@@ -33,7 +33,7 @@ def check_event_world(
     state that the problem has, and a journal can hold every event.
 
     Plans of hrcplan are carried out in the world; in another one, the first actions are broken off
-    half-way.
+    half-way. A world that was told to `Finish` may let go of its robots.
 
     Args:
         make: The class of the world (see `hrcplan.execution.worlds.EventWorld`).
@@ -53,18 +53,16 @@ def check_event_world(
         return WatchedWorld(make(model, nature), model, truth)
 
     for nature in natures:
-        log = _carry_out(engine, watched(nature), nature)
+        world = watched(nature)
+        engine.run(nature, world=world)
         if is_exact:
-            again = _carry_out(engine, watched(nature), nature)
-            assert again == log, "the same commands lead to other events in a second world"
-        _break_off(watched(nature), log)
-
-
-def _carry_out(engine: Engine, world: WatchedWorld, nature: Nature) -> list[Command | Event]:
-    """Return commands and events of a run, until nothing happens any more."""
-    engine.run(nature, world=world)
-    _drain(world)
-    return world.log
+            _drain(world)
+            again = watched(nature)
+            engine.run(nature, world=again)
+            _drain(again)
+            message = "the same commands lead to other events in a second world"
+            assert again.log == world.log, message
+        _break_off(watched(nature), world.log)
 
 
 def _drain(world: WatchedWorld) -> None:
@@ -90,3 +88,4 @@ def _break_off(world: WatchedWorld, log: list[Command | Event]) -> None:
     for number in sorted(world.running):
         world.do(ev.Cancel(world.t, number))
     _drain(world)
+    world.do(ev.Finish(world.t, ev.STOPPED))

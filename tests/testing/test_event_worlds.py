@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import sys
 from dataclasses import replace
 
 import pytest
@@ -11,6 +12,7 @@ import hrcplan
 from hrcplan.execution import ExecutionModel, FactChange, Nature, StateChange
 from hrcplan.execution import events as ev
 from hrcplan.execution.events import Command, Event
+from hrcplan.execution.links.world import LinkWorld
 from hrcplan.execution.worlds.registry import EVENT_WORLDS
 from hrcplan.execution.worlds.simulated import SimulatedWorld
 from hrcplan.pddl.model import And
@@ -36,6 +38,23 @@ def test_every_world_keeps_the_laws(name: str, nature: Nature) -> None:
 @pytest.mark.parametrize("problem", ["kitchen/parfait-fruit", "transport/handover"])
 def test_other_problems(problem: str) -> None:
     check_event_world(SimulatedWorld, hrcplan.read(problem))
+
+
+def test_a_world_of_robots_keeps_the_laws() -> None:
+    """Its clock is real, so times and the order of events are its own."""
+    robot = f"cmd:{sys.executable} -m hrcplan robot --simulated --speed 500"
+    worlds: list[LinkWorld] = []
+
+    def make(model: ExecutionModel, nature: Nature) -> LinkWorld:
+        worlds.append(LinkWorld(model, nature, hrcplan.links.make(robot), speed=500))
+        return worlds[-1]
+
+    try:
+        check_event_world(make, PROBLEM, is_exact=False)
+    finally:
+        for world in worlds:
+            world.close()
+    assert len(worlds) == 2
 
 
 class Changed(SimulatedWorld):
