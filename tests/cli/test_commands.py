@@ -111,7 +111,8 @@ def test_an_unsolvable_task_is_answered_no(tmp_path: Path) -> None:
     assert value["steps"] == []
 
 
-def test_no_time_is_unsolved() -> None:
+def test_no_time_is_unsolved(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("hrcplan.planners.exact.proof.QUICK", 10**6)  # no plan to begin with
     value = document("plan", "transport/boxes-6", "--planner", "exact", "--timeout", "0.3", code=4)
     assert value["status"] == "unsolved"
 

@@ -22,7 +22,7 @@ PARTS = {
     "startup": "python -c pass, hrcplan --help, hrcplan plan transport/two-boxes",
     "planners": "our planner call over the raw planner",
     "replan": "a changed motivation, proven anew in process",
-    "exact": "proofs of boxes-3 and boxes-4",
+    "exact": "proofs for two agents and for three",
     "execution": "simulated runs of failure anticipation and their replans",
     "links": "a message to a robot and back",
     "growth": "grounding, walking and validating as tasks grow",

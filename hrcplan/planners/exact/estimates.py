@@ -55,10 +55,10 @@ class GraphDistances:
     """
 
     def __init__(self, least: Sequence[int]) -> None:
-        self._estimates = [Estimate(work) for work in least]
+        self._least = least
 
     def __getitem__(self, state: int) -> Estimate:
-        return self._estimates[state]
+        return Estimate(self._least[state])
 
     def inherit(self, parent: int, action: int, child: int) -> None:
         """Do nothing."""
