@@ -48,6 +48,7 @@ COMMANDS = {
         ["bank", "build", "kitchen", "{w}/goals", "-o", "{w}/k.bank"],
         ["bank", "show", "{w}/k.bank"],
     ],
+    "bank show --allocation": [["bank", "show", "{w}/k.bank", "--allocation"]],
     "bank show --htn": [["bank", "show", "{w}/k.bank", "--htn", "parfait-fruit"]],
     "bank sample": [["bank", "sample", "{w}/k.bank", "parfait-fruit", "-n", "2"]],
     "bank verify": [["bank", "verify", "{w}/k.bank"]],

@@ -17,7 +17,7 @@ from hrcplan.bank.search import BuildLimits
 from hrcplan.bank.team import team_graph, turn_order
 from hrcplan.core.text import nearest, plural
 from hrcplan.errors import UsageError
-from hrcplan.pddl.conventions import robots
+from hrcplan.pddl.conventions import interactions, robots
 from hrcplan.plans import Plan, PlannedAction
 from hrcplan.search.relevance import overwritten_facts, relevant
 from hrcplan.task.steps import STEPS, Operator, StepTable
@@ -133,7 +133,13 @@ class Bank:
     @property
     def note(self) -> str | None:
         """What the plans leave out; None if they are what they are asked to be."""
-        return solo.NOTE if self.is_solo else None
+        notes = [solo.NOTE] if self.is_solo else []
+        if (names := sorted(interactions(self.goals.problem.domain))) and self.table.cost == STEPS:
+            notes.append(
+                f"interactions ({', '.join(names)}) save no steps, so plans counted in steps have "
+                "none; `bank show --allocation` prices them, --bank-cost task plans with them"
+            )
+        return "; ".join(notes) or None
 
     def graph_from(
         self, goal: int, state: int, limits: BuildLimits = NO_LIMITS, *, turn: int | None = None

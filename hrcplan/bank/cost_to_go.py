@@ -18,7 +18,7 @@ from hrcplan.bank.bank import Bank
 from hrcplan.bank.reachable_states import MAX_STATES, reachable_states
 from hrcplan.bank.state_tables import group_rows
 from hrcplan.bank.team import ANY_AGENT, step_owners
-from hrcplan.core.arrays import Ids, Words
+from hrcplan.core.arrays import Floats, Ids, Words
 from hrcplan.errors import UsageError
 from hrcplan.pddl.conventions import people
 from hrcplan.search.packed_states import FactPacking, PackedRules
@@ -70,14 +70,15 @@ class CostToGo:
         self._keys = _keys(rows)
         owners = np.array(step_owners(table, self.bank.team), dtype=np.int64)
         steps = np.array([op.step for op in table.ops], dtype=np.int64)
-        changes = [(s, steps[ops], self._keys.searchsorted(_keys(after)))
+        changes = [(s, ops, self._keys.searchsorted(_keys(after)))
                  for s, ops, after in rules.expand(rows)]  # fmt: skip
-        sources, labels, targets = (
+        sources, ops, targets = (
             np.concatenate([np.zeros(0, np.int64), *(part[i] for part in changes)])
             for i in range(3)
         )
-        order = np.lexsort((labels, sources))
-        self._sources, self._steps, self._targets = sources[order], labels[order], targets[order]
+        order = np.lexsort((steps[ops], sources))
+        self._sources, self._ops, self._targets = sources[order], ops[order], targets[order]
+        self._steps = steps[self._ops]
         self._owners = owners[self._steps]
         self._first = self._sources.searchsorted(np.arange(len(rows) + 1))
         self._is_goal = [rules.meets(rows, tests) for tests in self.bank.goals.tests]
@@ -103,6 +104,13 @@ class CostToGo:
         mine = (self._owners[part] == turn) | (self._owners[part] == ANY_AGENT)
         return self._steps[part][mine], self._targets[part][mine]
 
+    def prices(self, place: int, turn: int, prices: Floats) -> Floats:
+        """Return what the actions of an agent in its turn cost, by the price of each way."""
+        part = slice(self._first[place], self._first[place + 1])
+        mine = (self._owners[part] == turn) | (self._owners[part] == ANY_AGENT)
+        own: Floats = prices[self._ops[part][mine]]
+        return own
+
     def of(self, places: Ids | int, turn: int, *, with_robots: bool = True) -> Costs:
         """Return the cost to go: one row per goal, one column per place; `NEVER` if there is none.
 
@@ -112,6 +120,35 @@ class CostToGo:
             with_robots: Whether the robots act; if not, they wait in all their turns.
         """
         return (self._costs if with_robots else self._costs_alone)[:, turn, places]
+
+    def is_goal(self, goal: int, place: int) -> bool:
+        """Return whether a goal holds in a state, given by its index."""
+        return bool(self._is_goal[goal][place])
+
+    def priced(self, goal: int, prices: Floats, timestep: float) -> Floats:
+        """Return the least price to a goal, by turn and state; infinite if it is out of reach.
+
+        Args:
+            goal: The goal.
+            prices: The price of each way to do a step, in the order of the table.
+            timestep: The price of every timestep, also of a wait; positive.
+        """
+        n_turns = len(self.bank.team)
+        costs = np.where(self._is_goal[goal], 0.0, np.inf) * np.ones((n_turns, 1))
+        while True:
+            before = costs.copy()
+            for turn in reversed(range(n_turns)):
+                following = costs[(turn + 1) % n_turns]
+                np.minimum(costs[turn], following + timestep, out=costs[turn])
+                mine = self._mine(turn)
+                after = prices[self._ops[mine]] + timestep + following[self._targets[mine]]
+                np.minimum.at(costs[turn], self._sources[mine], after)
+            if np.array_equal(before, costs):
+                return costs
+
+    def _mine(self, turn: int) -> Ids:
+        """Return which actions an agent can do in its turn."""
+        return np.flatnonzero((self._owners == turn) | (self._owners == ANY_AGENT))
 
     @cached_property
     def _costs(self) -> Costs:
@@ -134,7 +171,7 @@ class CostToGo:
 
     def _actions_into(self) -> Iterator[_Backward]:
         for turn in range(len(self.bank.team)):
-            mine = np.flatnonzero((self._owners == turn) | (self._owners == ANY_AGENT))
+            mine = self._mine(turn)
             order = mine[np.argsort(self._targets[mine], kind="stable")]
             first = self._targets[order].searchsorted(np.arange(len(self._keys) + 1))
             yield _Backward(first, self._sources[order])

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import asdict
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,9 +13,11 @@ import rich_click as click
 from hrcplan.cli import options, output
 from hrcplan.core.files import check_target
 from hrcplan.core.numbers import fraction_of, int_text
+from hrcplan.errors import UsageError
 
 if TYPE_CHECKING:
     from hrcplan.bank import Bank, PlanGraph
+    from hrcplan.bank.allocation import Allocation
 
 
 class _Factor(click.ParamType):  # type: ignore[type-arg]
@@ -144,7 +148,7 @@ def _say(graph: PlanGraph) -> None:
     output.say(f"{graph.goal}: {graph.n_nodes} nodes")
 
 
-@command.command("show")
+@command.command("show", cls=options.SettingsCommand, epilog=options.notes(options.SETTING))
 @click.argument("bank", metavar="BANK")
 @click.option(
     "--htn",
@@ -152,17 +156,76 @@ def _say(graph: PlanGraph) -> None:
     metavar="GOAL",
     help="Show the plans of this goal as a tree of chains and cliques.",
 )
+@click.option(
+    "--allocation",
+    is_flag=True,
+    help="Show who does what in a cheapest plan of each goal, by what actions cost each agent.",
+)
+@options.settings
+@click.option(
+    "--profile",
+    metavar="PROFILE",
+    help="With --allocation: how agent state becomes costs, as in `execute`; by default as it is.",
+)
 @output.common_options
-def show(bank: str, goal: str | None) -> int:
-    """Show the goals of a BANK: steps, cost, exact number of plans, size of the graph."""
+def show(
+    bank: str, goal: str | None, allocation: bool, settings: tuple[str, ...], profile: str | None
+) -> int:
+    """Show the goals of a BANK: steps, cost, exact number of plans, size of the graph.
+
+    Prices (agent state given by --set, and the profile) act on top of graphs that are built in
+    steps, without a new build. Graphs of --bank-cost task are built again when prices change.
+    """
     from hrcplan.bank import load
 
+    if (settings or profile is not None) and not allocation:
+        raise UsageError("--set and --profile change prices: use them with --allocation")
     goal_bank = load(bank)
-    if goal is None:
+    if allocation:
+        _print_allocation(goal_bank, settings, profile)
+    elif goal is None:
         _print(goal_bank)
     else:
         _print_htn(goal_bank, goal)
     return 0
+
+
+def _print_allocation(bank: Bank, settings: tuple[str, ...], profile: str | None) -> None:
+    from hrcplan.agents.memory import Memory
+    from hrcplan.agents.profile import load_profile
+    from hrcplan.agents.state import AgentModel
+    from hrcplan.bank.allocation import allocations
+    from hrcplan.pddl.settings import parse_setting
+
+    problem = bank.goals.problem
+    values = dict(parse_setting(text, problem) for text in settings)
+    if profile is not None:
+        values |= load_profile(profile).planner_values(AgentModel(problem), values, Memory())
+    rows = allocations(bank, values)
+    if output.JSON:
+        entries = [asdict(row) for row in rows]
+        output.document({"domain": problem.domain.name, "note": bank.note, "goals": entries})
+    else:
+        if bank.note is not None:
+            output.warn(bank.note)
+        output.result(_allocation_table(rows, problem.agents))
+
+
+def _allocation_table(rows: list[Allocation], agents: Sequence[str]) -> str:
+    head = ["goal", "cost", "timesteps", *agents, "either", "interactions"]
+    lines = [
+        [
+            row.goal,
+            f"{row.cost:.6g}",
+            "-" if row.timesteps is None else str(row.timesteps),
+            *(str(row.actions[agent]) for agent in agents),
+            str(row.either),
+            str(row.interactions),
+        ]
+        for row in rows
+    ]
+    title = "actions of each agent in a cheapest plan"
+    return "\n".join([title, "", *output.columns([head, *lines], right=range(1, len(head)))])
 
 
 def _print_htn(bank: Bank, goal: str) -> None:

@@ -69,6 +69,16 @@ def agent_state_functions(domain: Domain) -> frozenset[str]:
     )
 
 
+def interactions(domain: Domain) -> frozenset[str]:
+    """Return the names of the actions that change agent state."""
+    states = agent_state_functions(domain)
+    return frozenset(
+        action.name
+        for action in domain.actions
+        if any(effect.target.name in states for effect in action.effects)
+    )
+
+
 def _of_agent(domain: Domain, function: Function) -> bool:
     signature = domain.functions.get(function.name)
     if signature is None or not signature.params:
