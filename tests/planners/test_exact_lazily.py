@@ -220,6 +220,13 @@ def test_at_a_limit_the_best_plan_so_far_has_a_bound(monkeypatch: pytest.MonkeyP
     assert (quiet.status, quiet.bound) == (Status.UNSOLVED, answer.bound)
 
 
+def test_nodes_take_no_more_than_half_of_the_memory() -> None:
+    problem = read("transport", "boxes-4")
+    few = ExactPlanner().solve(Request(problem, LATER, memory_bytes=200 * 2 * search.NODE_BYTES))
+    assert few.note == "no proof within 200 nodes"
+    assert few.bound is not None
+
+
 @pytest.mark.parametrize("looks", [1600, 1900, 4000])
 def test_out_of_time_there_is_a_bound(looks: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """The clock of this test goes on by one second with each look at it."""

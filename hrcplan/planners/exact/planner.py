@@ -51,7 +51,10 @@ class ExactPlanner:
             UnsupportedError: if the task is outside the class that ``frame.py`` describes.
             LimitError: if the task cannot be grounded within the limits.
         """
-        wish = Wish(request.deadline, request.any_plan, request.improves, request.on_plan)
+        wish = Wish(
+            request.deadline, request.any_plan, request.improves, request.on_plan,
+            request.memory_bytes // 2,  # the process itself takes some
+        )  # fmt: skip
         return self._answer(request.task, wish)
 
     def replan(

@@ -9,7 +9,7 @@ from fractions import Fraction
 from hrcplan.core.numbers import Number, exact
 from hrcplan.errors import LimitError
 from hrcplan.pddl.model import TOTAL_COST
-from hrcplan.planners.contract import Answer, Status
+from hrcplan.planners.contract import MEMORY_BYTES, Answer, Status
 from hrcplan.planners.exact.first_plan import first_path
 from hrcplan.planners.exact.gaps import starts
 from hrcplan.planners.exact.memory import TaskMemory
@@ -38,6 +38,7 @@ class Wish:
     any_plan: bool = False
     improves: bool = False
     on_plan: Callable[[Plan], None] = lambda plan: None
+    memory_bytes: int = MEMORY_BYTES
 
 
 class Proof:
@@ -73,7 +74,7 @@ class Proof:
         memory = self._memory
         return Search(
             self._task, memory.frame, memory.graph, self._weights, self._ahead,
-            self._wish.deadline, greed,
+            self._wish.deadline, greed, memory_bytes=self._wish.memory_bytes,
         )  # fmt: skip
 
     def _continued(self, search: Search) -> str | None:

@@ -21,6 +21,7 @@ from heapq import heappop, heappush
 
 from hrcplan.core.clock import check_time
 from hrcplan.errors import LimitError
+from hrcplan.planners.contract import MEMORY_BYTES
 from hrcplan.planners.exact.estimates import Estimates
 from hrcplan.planners.exact.frame import RunningActions, StaticMasks
 from hrcplan.planners.exact.graph import FAR, MAX_STATES, Graph
@@ -29,7 +30,9 @@ from hrcplan.planners.exact.weights import Weights
 from hrcplan.task import Task
 from hrcplan.task.conditions import meets
 
-MAX_NODES = 1_000_000  # about 0.8 kB each
+MAX_NODES = 1_000_000
+NODE_BYTES = 1500
+"""What a node takes, with its share of the states and of what is known about them."""
 WAIT = chr(0x10FFFF)
 
 _Node = tuple[int, str, int, int, RunningActions, int, int]
@@ -45,7 +48,8 @@ class Search:
 
     ``greed`` multiplies the bounds; above 1 it finds plans sooner and proves nothing. With 1,
     ``bound`` is what no plan is better than, as far as the search has got. ``most`` is the metric
-    of a plan: costlier ones are not looked for. ``swaps`` are symmetries of the task.
+    of a plan: costlier ones are not looked for. ``swaps`` are symmetries of the task. Nodes may
+    take ``memory_bytes``, but there are never more than ``MAX_NODES``.
     """
 
     task: Task
@@ -57,6 +61,7 @@ class Search:
     greed: int = 1
     most: int = FAR
     swaps: Sequence[Swap] = ()
+    memory_bytes: int = MEMORY_BYTES
     n_expanded: int = 0
 
     def __post_init__(self) -> None:
@@ -97,8 +102,9 @@ class Search:
     def _check(self, node: _Node) -> None:
         try:
             check_time(self.deadline, f"after {self.n_expanded:,} nodes")
-            if len(self._best) > MAX_NODES:
-                raise LimitError(f"no proof within {MAX_NODES:,} nodes")
+            most = min(MAX_NODES, self.memory_bytes // NODE_BYTES)
+            if len(self._best) > most:
+                raise LimitError(f"no proof within {most:,} nodes")
             if len(self.graph.states) > MAX_STATES:
                 raise LimitError(f"no proof within {MAX_STATES:,} states in sequence")
         except LimitError:
