@@ -1,11 +1,13 @@
 """The assistant ``hrcplan``: the step of highest expected help, over goals that may change.
 
-The belief is the switching filter. Every goal counts in proportion to its probability, and a step
+The belief is the adaptive filter. Every goal counts in proportion to its probability, and a step
 that no goal may need has a price.
 """
 
 from __future__ import annotations
 
+import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -14,6 +16,7 @@ from hrcplan.assistance.assistant import AssistantState, BeliefAssistant
 from hrcplan.assistance.explanation import StepChoice
 from hrcplan.assistance.team_help import TeamHelp
 from hrcplan.bank import Bank
+from hrcplan.inference.adaptive import AdaptiveBelief
 from hrcplan.inference.belief import Belief
 from hrcplan.inference.switching import SwitchingBelief
 
@@ -30,18 +33,19 @@ class ExpectedHelp(BeliefAssistant[Any]):
 
     Args:
         bank: The plans.
-        belief: What is believed about the goal; the switching filter by default.
+        belief: What is believed about the goal; the adaptive filter by default.
         waste_price: What a step that is not needed costs, in steps.
         look_ahead: Also count what the robot's next step is expected to save after the human's
             response. This favours steps after which the response is more informative.
+        may_wait: Whether it waits if no step has a positive value; else it does the best one.
     """
 
     def __init__(
         self, bank: Bank, belief: Belief[Any] | None = None, waste_price: float = WASTE_PRICE,
-        look_ahead: bool = False,
+        look_ahead: bool = False, may_wait: bool = True,
     ) -> None:  # fmt: skip
-        super().__init__(bank, SwitchingBelief(bank) if belief is None else belief)
-        self.waste_price, self.look_ahead = waste_price, look_ahead
+        super().__init__(bank, AdaptiveBelief(bank) if belief is None else belief)
+        self.waste_price, self.look_ahead, self.may_wait = waste_price, look_ahead, may_wait
         moves = self.tracker.moves
         takes_turns = moves is not None and any(moves.is_robot)
         self.team_help = TeamHelp(moves) if moves is not None and takes_turns else None
@@ -49,6 +53,8 @@ class ExpectedHelp(BeliefAssistant[Any]):
     def options(self, state: AssistantState[Any]) -> StepChoice:
         """Return the steps that some goal could have next, and what each is expected to save."""
         choice = self._now(state)
+        if not self.may_wait:
+            return replace(choice, wait=-math.inf)
         if not self.look_ahead:
             return choice
         order = np.argsort([-value for value in choice.values], kind="stable")[:N_LOOKED]
@@ -88,3 +94,10 @@ class ExpectedHelp(BeliefAssistant[Any]):
         )
         worth = savings - self.waste_price * (1 - needs)
         return StepChoice(tuple(steps), tuple(worth.tolist()))
+
+
+class SwitchingHelp(ExpectedHelp):
+    """The same with the switching filter: the method ``hrcplan`` as it was first."""
+
+    def __init__(self, bank: Bank, belief: Belief[Any] | None = None) -> None:
+        super().__init__(bank, SwitchingBelief(bank) if belief is None else belief)

@@ -14,6 +14,7 @@ ASSISTANTS: Registry[..., Assistant[Any]] = Registry(
         "cdp": "hrcplan.assistance.decision_points:DecisionPoints",
         "infogain": "hrcplan.assistance.information_gain:InformationGain",
         "hrcplan": "hrcplan.assistance.expected_help:ExpectedHelp",
+        "hrcplan-switching": "hrcplan.assistance.expected_help:SwitchingHelp",
         "oracle": "hrcplan.assistance.oracle:Oracle",
     },
     "hrcplan.assistants",

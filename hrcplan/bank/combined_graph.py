@@ -84,6 +84,12 @@ class CombinedGraph:
         places = self._pairs.searchsorted(keys)
         return self._pairs[places] == keys, places
 
+    def label_sums(self, weights: Floats) -> Floats:
+        """Return for each node the sum of a weight per label over the labels that can follow it."""
+        pairs = self._pairs[:-1]
+        sums = np.bincount(pairs // self.n_labels, weights[pairs % self.n_labels], self.off + 1)
+        return sums.astype(np.float64)
+
     def goals_of(self, step: int, pattern: int) -> Ids:
         """Return the goals whose nodes a step may move, or that it may say something about.
 

@@ -130,7 +130,7 @@ class NoisyRational(Frontier):
         ]
         draws = random.Random(f"{self.course.seed}/{turn}/{moment.turn}/noise")
         step = draws.choices(options, weights)[0]
-        return HumanMove(step, is_mistake=step not in useful)
+        return HumanMove(step, is_mistake=step is not None and step not in useful)
 
     def _next_steps(self, goal: int, world: int) -> Iterable[int]:
         graph, node = self.bank.locate(goal, world)

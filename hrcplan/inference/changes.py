@@ -1,4 +1,4 @@
-"""A goal that may change: a filter over (goal, changes so far, mistake rate), and its read-outs."""
+"""A goal that may change: a filter over goals, kinds of humans, and whether it may still change."""
 
 from __future__ import annotations
 
@@ -16,7 +16,6 @@ from hrcplan.inference.change_points import ChangePoints
 HAZARD = 0.1
 NEVER = 0.3
 SETTLES = 0.9
-MAX_CHANGES = 4
 DECLARED = 0.5
 
 _TINY = 1e-300
@@ -26,9 +25,10 @@ _TINY = 1e-300
 class FilterState:
     """The filter after some human steps.
 
-    ``weights[m, k, g]`` is the probability of rate m, k changes so far (the last entry: it will not
-    change any more) and goal g. ``no_change`` is the part of it in which nothing has changed since
-    the last declared change. ``likelihood[m, g]`` is that of the last human step; None before any.
+    ``weights[m, k, g]`` is the probability of a human of kind m with goal g, which may still change
+    (k = 0) or will not any more (k = 1). ``no_change`` is the part of it in which nothing has
+    changed since the last declared change. ``likelihood[m, g]`` is that of the last human step;
+    None before any.
     """
 
     weights: Floats
@@ -43,28 +43,28 @@ class ChangeFilter:
 
     With probability ``hazard`` the goal changes before a human step (not before the first) to one
     of the others, all alike; ``never`` is the prior probability that it never changes, and
-    ``settles`` the probability that a goal that was changed to is kept to the end.
+    ``settles`` the probability that a goal that was changed to is kept to the end. Humans of
+    several kinds, such as mistake rates, have the prior ``kinds``; all alike by default.
     """
 
     n_goals: int
-    n_rates: int
+    n_kinds: int
     hazard: float = HAZARD
     never: float = NEVER
     settles: float = SETTLES
+    kinds: tuple[float, ...] | None = None
 
     def start(self) -> FilterState:
-        """Return the prior: goals and mistake rates uniform, no change yet."""
-        weights = np.zeros((self.n_rates, MAX_CHANGES + 2, self.n_goals))
-        weights[:, 0] = (1 - self._never) / (self.n_rates * self.n_goals)
-        weights[:, -1] = self._never / (self.n_rates * self.n_goals)
+        """Return the prior: goals uniform, no change yet."""
+        kinds = np.full(self.n_kinds, 1 / self.n_kinds) if self.kinds is None else self.kinds
+        never = self.never if self.n_goals > 1 else 1.0
+        weights = np.empty((self.n_kinds, 2, self.n_goals))
+        weights[:] = np.array([1 - never, never])[:, None] / self.n_goals
+        weights *= np.array(kinds)[:, None, None]
         return FilterState(weights, weights)
 
-    @property
-    def _never(self) -> float:
-        return self.never if self.n_goals > 1 else 1.0
-
     def step(self, before: FilterState, likelihood: Floats) -> FilterState:
-        """Return the filter after a human step with this likelihood, by rate and goal."""
+        """Return the filter after a human step with this likelihood, by kind of human and goal."""
         weights, no_change = before.weights, before.no_change
         if before.likelihood is not None:
             weights, no_change = self._after_hazard(weights), self._without_change(no_change)
@@ -81,20 +81,18 @@ class ChangeFilter:
         )
 
     def _without_change(self, weights: Floats) -> Floats:
-        weights_after = weights * (1 - self.hazard)
-        weights_after[:, -1] = weights[:, -1]
+        weights_after = weights.copy()
+        weights_after[:, 0] *= 1 - self.hazard
         return weights_after
 
     def _after_hazard(self, weights: Floats) -> Floats:
         """Return the weights once the goal has, or has not, changed."""
         weights_after = self._without_change(weights)
         if self.n_goals > 1:
-            moving = weights[:, :-1] * (self.hazard / (self.n_goals - 1))
-            moving = moving.sum(axis=2, keepdims=True) - moving
-            weights_after[:, -1] += self.settles * moving.sum(axis=1)
-            moving *= 1 - self.settles
-            weights_after[:, 1:-1] += moving[:, :-1]
-            weights_after[:, -2] += moving[:, -1]
+            moving = weights[:, 0] * (self.hazard / (self.n_goals - 1))
+            moving = moving.sum(axis=1, keepdims=True) - moving
+            weights_after[:, 1] += self.settles * moving
+            weights_after[:, 0] += (1 - self.settles) * moving
         return weights_after
 
     def goals(self, state: FilterState) -> Floats:

@@ -14,6 +14,7 @@ METHODS: Registry[..., Belief[Any]] = Registry(
     {
         "exact": "hrcplan.inference.exact:ExactBelief",
         "switching": "hrcplan.inference.switching:SwitchingBelief",
+        "adaptive": "hrcplan.inference.adaptive:AdaptiveBelief",
         "forest": "hrcplan.inference.classifier.forest:ForestBelief",
         "recursive": "hrcplan.inference.recursive:RecursiveBelief",
         "cost": "hrcplan.inference.recognition.cost:CostBelief",

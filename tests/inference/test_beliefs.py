@@ -10,13 +10,17 @@ import numpy as np
 import pytest
 
 from hrcplan.bank import build
+from hrcplan.bank.progress import ProgressTracker
 from hrcplan.bank.team_moves import Moment, TeamMoves
+from hrcplan.episodes.humans import HUMANS, Course
+from hrcplan.errors import UsageError
 from hrcplan.inference import batch
+from hrcplan.inference.adaptive import CHOOSERS, RATES, AdaptiveBelief, StepPreferences
 from hrcplan.inference.changes import ChangeFilter
 from hrcplan.inference.classifier.forest import ForestBelief
 from hrcplan.inference.exact import ExactBelief
 from hrcplan.inference.recognition.cost import CostBelief
-from hrcplan.inference.recursive import Attractor, Next, RecursiveBelief
+from hrcplan.inference.recursive import Attractor, Needed, Next, Rational, RecursiveBelief
 from hrcplan.inference.switching import SwitchingBelief
 from hrcplan.testing import check_belief
 from tests.inference import enumerated_beliefs
@@ -77,14 +81,16 @@ def test_the_worlds_are_of_both_kinds(workshop, hall):
 @pytest.mark.parametrize(
     "make",
     [
-        ExactBelief, SwitchingBelief, RecursiveBelief,
+        ExactBelief, SwitchingBelief, RecursiveBelief, AdaptiveBelief,
         lambda bank: RecursiveBelief(bank, likelihood=Next()),
+        lambda bank: RecursiveBelief(bank, likelihood=Rational(), own_steps=True),
         lambda bank: RecursiveBelief(bank, likelihood=Attractor(2)),
         lambda bank: ForestBelief(bank, n_samples=400, n_trees=10),
         lambda bank: CostBelief(bank.goals, timeout_s=10),
         lambda bank: CostBelief(bank.goals, timeout_s=1e-6),
     ],
-    ids=["exact", "switching", "recursive", "next", "attractor", "forest", "cost", "estimated"],
+    ids=["exact", "switching", "recursive", "adaptive", "next", "rational", "attractor", "forest",
+         "cost", "estimated"],
 )  # fmt: skip
 def test_every_belief_keeps_the_laws(bank, walk, make):
     belief = make(bank)
@@ -133,7 +139,9 @@ def test_a_team_has_few_next_steps_and_mistakes_that_cost_time(hall):
 def test_a_wait_speaks_for_goals_for_which_only_waiting_loses_nothing(hall):
     waits = TeamMoves(hall).choices(hall.initial, Moment()).waits
     assert 0 < waits.sum() < len(waits)
-    for belief in (ExactBelief(hall), SwitchingBelief(hall)):
+    likelihoods = Needed(), Attractor(50), Next(), Rational()
+    beliefs = ExactBelief(hall), SwitchingBelief(hall), AdaptiveBelief(hall)
+    for belief in (*beliefs, *(RecursiveBelief(hall, likelihood=one) for one in likelihoods)):
         start = belief.start()
         after = belief.observe_wait(start)
         posterior = belief.posterior(after)
@@ -146,7 +154,8 @@ def test_a_wait_speaks_for_goals_for_which_only_waiting_loses_nothing(hall):
 
 
 def test_waits_say_nothing_where_agents_do_not_matter(workshop):
-    for belief in (ExactBelief(workshop), SwitchingBelief(workshop)):
+    for kind in (ExactBelief, SwitchingBelief, RecursiveBelief, AdaptiveBelief):
+        belief = kind(workshop)
         assert belief.observe_wait(belief.start()).progress is belief.tracker.start
 
 
@@ -177,8 +186,8 @@ def test_switching_equals_all_histories(listed, walk):
             assert rows[length].tolist() == pytest.approx((expected / expected.sum()).tolist())
 
 
-def test_more_changes_than_are_counted_keep_their_weight():
-    """Changes beyond the cap stay in the last count: nothing is lost."""
+def test_many_changes_keep_their_weight():
+    """However often the goal changes, nothing is lost."""
     chain = ChangeFilter(3, 1, hazard=0.9, never=0.0, settles=0.0)
     state = chain.start()
     for goal in (0, 1, 2, 0, 1, 2, 0, 1):
@@ -272,3 +281,70 @@ def test_no_change_is_declared_without_one(kitchen):
         assert belief.posterior(states[-1]).argmax() == goal
         assert states[-1].n_declared == 0
         assert belief.changes(states[1:]) == ()
+
+
+def test_the_adaptive_filter_without_its_extras_is_the_switching_one(listed, walk):
+    """With one way of choosing, and the same prior of changes for acting and declaring."""
+    rates = (0.01, 0.2)
+    switching = SwitchingBelief(listed, hazard=0.15, mistake_rates=rates, never=0.0)
+    adaptive = AdaptiveBelief(
+        listed, 0.15, dict.fromkeys(rates, 0.5), {"uniform": 1.0}, never=0.0, declaring_hazard=0.15
+    )
+    for steps in runs(listed, walk):
+        states = switching.start(), adaptive.start()
+        for step in steps:
+            states = switching.observe(states[0], step), adaptive.observe(states[1], step)
+            assert states[0].n_declared == states[1].n_declared
+            ours, theirs = adaptive.posterior(states[1]), switching.posterior(states[0])
+            assert ours.tolist() == pytest.approx(theirs.tolist())
+
+
+def test_each_way_of_choosing_is_a_distribution_over_the_next_steps(listed):
+    tracker = ProgressTracker(listed)
+    choosers = ["uniform", "plans", "general", "special"]
+    preferences = StepPreferences(tracker.combined_graph, choosers)
+    totals = np.zeros((len(choosers), len(listed.names)))
+    steps = {listed.table.labels[s]: s for s in listed.table.applicable(listed.initial)}
+    for step in steps.values():
+        move = tracker.follow(tracker.start, step)
+        assert move is not None
+        goals = move[1].goals
+        if len(goals):
+            totals[:, goals] += preferences.of(step, tracker.start.nodes.take(goals), move[1])
+    assert np.allclose(totals, 1)
+    with pytest.raises(UsageError, match="no chooser 'random'"):
+        StepPreferences(tracker.combined_graph, ["random"])
+
+
+def test_a_human_who_keeps_doing_special_steps_first_becomes_known(kitchen):
+    """A general step says more about a human who has done special ones so far."""
+    belief = AdaptiveBelief(kitchen)
+    goal = kitchen.goal_index("parfait-fruit")
+    human = HUMANS.find("special-first")(kitchen, Course((goal,), seed="s"))
+    state, world = belief.start(), kitchen.initial
+    for turn in range(6):
+        step = human.move(turn, world, None).step
+        assert step is not None
+        state, world = belief.observe(state, step), kitchen.table.successor(world, step)
+    by_chooser = state.acting.weights.sum(axis=(1, 2)).reshape(len(RATES), len(CHOOSERS)).sum(0)
+    shares = dict(zip(CHOOSERS, by_chooser, strict=True))
+    assert shares["special"] > CHOOSERS["special"]
+    assert shares["general"] < CHOOSERS["general"]
+
+
+def test_a_boltzmann_policy_is_a_distribution_over_what_can_be_done(workshop):
+    tracker, total = ProgressTracker(workshop), np.zeros(len(workshop.names))
+    for step in workshop.table.applicable(workshop.initial):
+        move = tracker.follow(tracker.start, step)
+        assert move is not None
+        total += Rational(1.5)(tracker, step, move[1])
+    assert total.tolist() == pytest.approx([1.0] * len(total))
+
+
+def test_the_robots_own_steps_are_evidence_if_they_are_to_be(workshop):
+    step = enumerated_beliefs.optimal_plans(workshop, 0, workshop.initial)[0][0]
+    plain, own = RecursiveBelief(workshop), RecursiveBelief(workshop, own_steps=True)
+    after = plain.observe(plain.start(), step, robot=True)
+    assert plain.posterior(after).tolist() == plain.posterior(plain.start()).tolist()
+    by_robot, by_human = (own.observe(own.start(), step, robot=robot) for robot in (True, False))
+    assert own.posterior(by_robot).tolist() == plain.posterior(by_human).tolist()

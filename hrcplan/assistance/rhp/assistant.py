@@ -35,6 +35,8 @@ from hrcplan.pddl.conventions import people
 N_SEQUENCES = 3
 MAX_REMEMBERED = 20_000
 GoalBelief = Belief[Any] | SetBelief
+UNFIT, NOT_THE_GUESS = "unfit", "not-the-guess"
+CHANGE, ASIDE = "change", "aside"
 NO_WAITING = -np.inf  # what it is worth to wait: "neither agent can wait" (section VI)
 
 
@@ -90,6 +92,9 @@ class RecedingHorizonPlanner(ValueAssistant[RhpState]):
         consistency: ``subset``, ``subsequence``, ``sampled``, or an object (see consistency.py).
         bigrams: Whose plans the 2-grams count: ``bank`` for all, ``plausible`` for the goals that
             the sequences are consistent with.
+        declares: When a change is declared: if the history fits no goal (``unfit``), or already if
+            it does not fit the goal that was the likeliest before (``not-the-guess``).
+        odd_steps: What a step is that fits no goal even alone: a ``change``, or set ``aside``.
         n_sampled: The number of plans sampled for each goal.
         seed: The seed of all samples.
 
@@ -103,10 +108,17 @@ class RecedingHorizonPlanner(ValueAssistant[RhpState]):
         self, bank: Bank, belief: GoalBelief | str | None = None, *, n_sequences: int = N_SEQUENCES,
         branching: int = BRANCHING, depth: int = DEPTH,
         consistency: str | Consistency = "subset", bigrams: str = BANK,
+        declares: str = UNFIT, odd_steps: str = CHANGE,
         n_sampled: int = N_PLANS, seed: int = 0,
     ) -> None:  # fmt: skip
         if bigrams not in (BANK, PLAUSIBLE):
             raise UsageError(f"there are no 2-grams '{bigrams}'", hint=f"{BANK} or {PLAUSIBLE}")
+        if declares not in (UNFIT, NOT_THE_GUESS):
+            hint = f"{UNFIT} or {NOT_THE_GUESS}"
+            raise UsageError(f"changes cannot be declared '{declares}'", hint=hint)
+        if odd_steps not in (CHANGE, ASIDE):
+            raise UsageError(f"an odd step cannot be '{odd_steps}'", hint=f"{CHANGE} or {ASIDE}")
+        self._by_guess, self._sets_aside = declares == NOT_THE_GUESS, odd_steps == ASIDE
         self.belief = _belief(bank, belief, seed)
         tracker = self.belief.tracker if isinstance(self.belief, TracksProgress) else None
         super().__init__(bank, tracker)
@@ -139,19 +151,28 @@ class RecedingHorizonPlanner(ValueAssistant[RhpState]):
         next_state = replace(state, progress=move[0], belief=belief, ignored=None)
         if robot:
             return replace(next_state, robot=(*state.robot, step))
-        return self._watch(next_state, step)
+        return self._watch(next_state, step, self._fitting(state))
 
-    def _watch(self, state: RhpState, step: int) -> RhpState:
+    def _fitting(self, state: RhpState) -> int:
+        """Return the goals, as bits, of which the next history fits one if nothing has changed."""
+        if self._by_guess and state.human:
+            return 1 << int(self.posterior(state).argmax())
+        return self.consistency.everything
+
+    def _watch(self, state: RhpState, step: int, fitting: int) -> RhpState:
         """Return the state after a human step: it is added to all sequences (III-C).
 
         Those that fit no goal are dropped; a change is only declared if none is left.
         """
         human = (*state.human, step)
         longer = [(*sequence, step) for sequence in state.sequences]
-        consistent = [(s, goals) for s in longer if (goals := self.consistency.goals(s))]
+        by_sequence = ((sequence, self.consistency.goals(sequence)) for sequence in longer)
+        consistent = [(sequence, goals) for sequence, goals in by_sequence if goals & fitting]
         if consistent:
             sequences, plausible = zip(*consistent, strict=True)
             return replace(state, human=human, sequences=sequences, plausible=plausible)
+        if self._sets_aside and not self.consistency.goals((step,)):
+            return replace(state, human=human)
         sequences, plausible = self._afresh(state.human, step)
         return replace(
             state, human=human, sequences=sequences, plausible=plausible, robot=(),

@@ -14,6 +14,8 @@ from hrcplan.studies.changed_mind import scenario
 from hrcplan.studies.study import Cell, CellValue, Seed, StudyOptions, StudyRow
 
 SUCCESS = ("reached_pct", "stuck_pct", "unfinished_pct")
+UNREACHABLE = "unreachable"
+"""The ending of an episode whose goal no agent can reach any more, however it ended."""
 MEASURES = (
     *SUCCESS,
     "first_correct", "last_incorrect_pct", "last_incorrect_step", "correct_pct", "top3_pct",
@@ -52,12 +54,13 @@ def simulate(options: StudyOptions, cell: Cell, seed: Seed) -> StudyRow:
     record = _play(options, name, method, course)
     n_faultless, n_oracle = _oracles(tuple(options.items()), name, course)
     names = [bank.names[goal] for goal in course.goals]
+    ending = record.ending if record.is_reachable else UNREACHABLE
     return {
         "first": names[0],
         "second": names[1] if len(names) > 1 else None,
         "goals": " ".join(names),
         "turns": " ".join(map(str, course.turns)),
-        "ending": record.ending,
+        "ending": ending,
         **asdict(guesses(record)),
         **asdict(changes(record)),
         "wasted_robot_steps": n_wasted(record),
@@ -66,8 +69,7 @@ def simulate(options: StudyOptions, cell: Cell, seed: Seed) -> StudyRow:
         "total_steps": record.cost,
         "extra_steps": record.cost - n_faultless,
         "extra_vs_oracle": record.cost - n_oracle,
-        **{f"{end}_pct": 100.0 * (record.ending == end) for end in ENDINGS},
-        "unreachable_pct": 100.0 * (not record.is_reachable),
+        **{f"{name}_pct": 100.0 * (ending == name) for name in (*ENDINGS, UNREACHABLE)},
         "played_steps": record.n_turns,
         "decision_ms": fmean(record.decisions_ms) if record.decisions_ms else 0.0,
     }

@@ -2,27 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from hrcplan.episodes.episode import PATIENCE, REACHED
 from hrcplan.studies.changed_mind import claims, figures, reach, scenario, tables
 from hrcplan.studies.changed_mind.cells import Cells
 from hrcplan.studies.changed_mind.episodes import SUCCESS
+from hrcplan.studies.changed_mind.measures import MEASURES
 from hrcplan.studies.measure import number
 from hrcplan.studies.page import escape, panels, picture, readings, table
 from hrcplan.studies.study import Claim, Findings, Section, StudyOptions, StudyRows
 
-GUESSES = (*SUCCESS,
+ENDINGS = (*SUCCESS, "unreachable_pct")
+GUESSES = (*ENDINGS,
            "first_correct", "last_incorrect_step", "last_incorrect_pct", "correct_pct", "top3_pct",
            "detection_delay", "n_detected", "false_changes")  # fmt: skip
-STEPS = (*SUCCESS, "unreachable_pct",
+STEPS = (*ENDINGS,
          "wasted_robot_steps", "human_mistakes", "robot_waits", "total_steps", "extra_steps",
          "extra_vs_oracle")  # fmt: skip
 COMPARED = ("reached_pct",
             "first_correct", "last_incorrect_step", "last_incorrect_pct", "correct_pct",
             "detection_delay", "false_changes", "wasted_robot_steps", "total_steps")  # fmt: skip
 COMPACT = ("reached_pct", "first_correct", "last_incorrect_step", "correct_pct", "false_changes",
-           "wasted_robot_steps", "extra_vs_oracle")  # fmt: skip
+           "wasted_robot_steps", "total_steps")  # fmt: skip
+BY_HUMAN = ("total_steps", "first_correct", "last_incorrect_step", "wasted_robot_steps",
+            "reached_pct")  # fmt: skip
 PLOTTED = {
     "correct_pct": "Right guesses",
     "wasted_robot_steps": "Wasted robot steps",
@@ -55,18 +59,18 @@ def findings(options: StudyOptions, rows: StudyRows) -> Findings:
     main, beyond = cells[scenario.MAIN], cells["beyond"]
     sections = [
         guesses_and_steps(main, scenario.is_own_task(options)),
-        all_means(main), differences(main), decisions(main),
-        other_choosers(cells["choosers"]), more_changes(beyond),
+        other_choosers(cells["choosers"]),
+        all_means(main), differences(main), decisions(main), more_changes(beyond),
         banks(cells["variants"]), exchanges(cells["variants"]), readings(READINGS),
     ]  # fmt: skip
-    results = claims_of(options, main, beyond)
+    results = claims_of(options, main, cells)
     return Findings(LEAD, results, [section for section in sections if section is not None])
 
 
-def claims_of(options: StudyOptions, main: Cells, beyond: Cells) -> list[Claim]:
+def claims_of(options: StudyOptions, main: Cells, cells: Mapping[str, Cells]) -> list[Claim]:
     """Return the paper's claims, and on the study's own task the aims for hrcplan."""
     results = claims.claims(options, main)
-    return [*results, *(reach.claims(main, beyond) if scenario.is_own_task(options) else ())]
+    return [*results, *(reach.claims(main, cells) if scenario.is_own_task(options) else ())]
 
 
 def how_many(cells: Cells) -> str:
@@ -210,13 +214,26 @@ def decisions(cells: Cells) -> Section | None:
 
 
 def other_choosers(cells: Cells) -> Section | None:
-    """Return humans that choose in other ways than hrcplan's belief assumes."""
+    """Return a table per measure: a line per human, a column per method."""
+    if not cells.rows:
+        return None
+    ours = scenario.data()["reach"]["method"]
     words = (
-        "The belief of hrcplan assumes that the human takes any useful next step with equal "
-        "probability. These humans do not: <em>cc-htn</em> follows a network of chains and "
-        "cliques; <em>plans</em> follows any plan of its goal, all plans alike."
+        "<p>The main table has one kind of human. These choose otherwise: <em>frontier</em> any "
+        "next step of a valid plan, all alike; <em>plans</em> any plan, all alike; <em>habit</em> "
+        "the steps in an order of its own; <em>general-first</em> and <em>special-first</em> what "
+        "most or fewest goals need; <em>inertia</em> goes on with its old goal for one to three "
+        "turns; <em>noisy-rational</em> takes worse steps the more rarely, the more they lose. "
+        "With <em>mistakes</em> every tenth action is one. <em>our steps</em>: the choice of steps "
+        f"of <em>{ours}</em>, with another belief.</p>"
     )
-    return _beside("Humans who choose otherwise", words, cells, "choosers")
+    parts = [words]
+    for name in BY_HUMAN:
+        parts.append(f'<h3 class="part">{MEASURES[name].name} ({MEASURES[name].unit})</h3>')
+        parts.append(tables.by_human(cells, name, ours))
+    what = f"Below the means: paired differences to <em>{ours}</em>. {COLORED}"
+    parts.append(_note(f"{what} {how_many(cells)}"))
+    return Section("Whose human is it?", "\n".join(parts))
 
 
 def more_changes(cells: Cells) -> Section | None:
@@ -258,7 +275,7 @@ def banks(cells: Cells) -> Section | None:
         return None
     names = ("reached_pct",
              "false_changes", "false_before", "n_detected", "detection_delay", "correct_pct",
-             "wasted_robot_steps")  # fmt: skip
+             "wasted_robot_steps", "total_steps")  # fmt: skip
     parts = [
         "<p>The changed-mind paper calls a history consistent if a policy of the bank has its "
         "actions in any order (<em>rhp</em>, the reading chosen), and elsewhere if it is a "
@@ -296,19 +313,26 @@ def exchanges(cells: Cells) -> Section | None:
     dots = zip(("full", "hollow"), cells.humans, strict=False)
     legend = ", ".join(f"{dot} {escape(human)}" for dot, human in dots)
     caption = f"Means over pairs of goals, 95 % intervals; dots: {legend}. {how_many(cells)}"
-    svg = figures.variants(cells, ("correct_pct", "false_changes", "wasted_robot_steps"))
+    svg = figures.variants(cells, ("correct_pct", "wasted_robot_steps", "total_steps"))
     parts = [
         "<p><em>our belief</em>: the robot chooses steps as <em>rhp</em> does, but guesses by the "
         "filter of <em>hrcplan</em>; <em>our steps</em>: the other way round. <em>sequences</em>: "
         "the number of candidate sequences (3 in <em>rhp</em>). <em>exact belief</em>: counted in "
-        "the bank, not learnt by a forest. <em>looks ahead</em>: <em>hrcplan</em> also weighs what "
-        "the human's next action would tell.</p>",
+        "the bank, not learnt by a forest. <em>plausible 2-grams</em>: of the goals that the "
+        "history fits. <em>the given goal</em>: a change is declared if the history does not fit "
+        "the last guess. <em>odd steps aside</em>: a step that fits no goal is no change. "
+        "<em>may wait</em>: a robot that otherwise never waits does so where its step is probably "
+        "useless. <em>own steps too</em>: the robot's own steps are evidence. <em>clips</em>: one "
+        "step of least expected cost, the human Boltzmann-rational with a fixed goal. <em>no "
+        "price</em>: a useless step costs its time only. <em>looks ahead</em>: <em>hrcplan</em> "
+        "also weighs what the human's next action would tell. <em>hrcplan-switching</em>: with the "
+        "filter that it had first.</p>",
         picture(svg, caption),
     ]
     for human in cells.humans:
         methods = [method for method in present if method in cells.methods_of(human)]
         if methods:
             parts.append(f'<h3 class="part">{escape(human)}</h3>')
-            parts.append(tables.both(cells, human, COMPACT[:-1], BESIDE, methods))
+            parts.append(tables.both(cells, human, COMPACT, BESIDE, methods))
     parts.append(_note(f"Below the means: paired differences to <em>{BESIDE}</em>. {COLORED}"))
     return Section("Parts exchanged", "\n".join(parts))

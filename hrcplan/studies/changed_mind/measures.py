@@ -8,7 +8,7 @@ MEASURES = {
     "reached_pct": Measure("goals reached", "goal|reached", "%", True),
     "stuck_pct": Measure("stuck", "stuck", "%"),
     "unfinished_pct": Measure("unfinished", "unfinished", "%"),
-    "unreachable_pct": Measure("goals out of reach", "goal|out of reach", "%"),
+    "unreachable_pct": Measure("goals out of reach", "out of|reach", "%"),
     "first_correct": Measure("first right guess", "first|right guess", "timesteps"),
     "last_incorrect_step": Measure("last wrong guess", "last|wrong guess", "timesteps"),
     "last_incorrect_pct": Measure("last wrong guess", "last|wrong guess", "% of episode"),

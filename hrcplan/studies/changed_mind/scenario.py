@@ -12,6 +12,7 @@ from typing import Any
 
 from hrcplan.assistance import ASSISTANTS, Assistant
 from hrcplan.assistance.assistant import needs_training
+from hrcplan.assistance.waiting import may_wait
 from hrcplan.bank import Bank, BuildOptions, Goals, build, read_goals
 from hrcplan.bank.bank import OPTIMAL
 from hrcplan.core.text import nearest
@@ -19,7 +20,9 @@ from hrcplan.episodes.episode import TurnWorld
 from hrcplan.episodes.humans import HUMANS, Course, EpisodeHuman
 from hrcplan.episodes.worlds import WORLDS
 from hrcplan.errors import UsageError
+from hrcplan.inference.belief import Belief
 from hrcplan.inference.classifier.forest import ForestBelief
+from hrcplan.inference.recursive import LIKELIHOODS
 from hrcplan.inference.registry import METHODS
 from hrcplan.pddl.conventions import people, robots
 from hrcplan.studies.scenario import Scenario
@@ -167,15 +170,25 @@ def human(name: str, bank: Bank, course: Course, options: StudyOptions) -> Episo
 @lru_cache(maxsize=32)
 def robot(name: str, domain: str, goals: str, *multiples: str) -> Assistant[Any]:
     """Return an assistant: one of the study's methods, or a part of that name."""
-    changes = dict(data()["methods"].get(name, {}))
+    options = dict(data()["methods"].get(name, {}))
     bank = bank_of(domain, goals, *multiples)
-    kind = ASSISTANTS.find(changes.pop("part", name))
-    belief = str(changes.get("belief"))
-    if belief in METHODS.built_in:
-        changes["belief"] = METHODS.find(belief)(bank)
+    kind, waits = ASSISTANTS.find(options.pop("part", name)), options.pop("waits", False)
+    belief = options.get("belief")
+    if isinstance(belief, dict):
+        options["belief"] = _belief(bank, **belief)
+    elif isinstance(belief, str) and belief in METHODS.built_in:
+        options["belief"] = METHODS.find(belief)(bank)
     elif belief in data()["methods"]:
-        changes["belief"] = robot(belief, domain, goals, *multiples)
-    return kind(bank, **changes)
+        options["belief"] = robot(belief, domain, goals, *multiples)
+    assistant = kind(bank, **options)
+    return may_wait(assistant) if waits else assistant
+
+
+def _belief(bank: Bank, kind: str, **options: Any) -> Belief[Any]:
+    """Return a belief with options; a likelihood is given by its name and its number."""
+    for name, value in options.get("likelihood", {}).items():
+        options["likelihood"] = LIKELIHOODS[name](value)
+    return METHODS.find(kind)(bank, **options)
 
 
 def prepare(options: StudyOptions, jobs: int, say: Say) -> None:
@@ -196,7 +209,8 @@ def _learns(method: str) -> bool:
     """Return whether a method has the forest as its belief."""
     changes = data()["methods"].get(method, {})
     if "belief" in changes:
-        return changes["belief"] in data()["methods"] and _learns(changes["belief"])
+        other = changes["belief"]
+        return isinstance(other, str) and other in data()["methods"] and _learns(other)
     return needs_training(ASSISTANTS.find(changes.get("part", method)))
 
 

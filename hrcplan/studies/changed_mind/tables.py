@@ -119,6 +119,23 @@ def both(
     return table(["", *(MEASURES[name].head for name in measures)], lines, "tight")
 
 
+def by_human(cells: Cells, measure: str, beside: str) -> str:
+    """Return a measure, a line per human: its means, and below them differences to one method.
+
+    The oracle is not compared.
+    """
+    lines = []
+    for human in cells.humans:
+        line = [escape(human)]
+        for method in cells.methods:
+            e = cells.mean(human, method, measure)
+            is_alone = method in (beside, ORACLE) or beside not in cells.methods_of(human)
+            gap = None if is_alone else cells.difference(human, method, beside, measure)
+            line.append(NOTHING if e is None else mean_html(e) + _below(measure, gap))
+        lines.append(line)
+    return table(["", *(display_name(cells, method) for method in cells.methods)], lines, "tight")
+
+
 def _below(measure: str, gap: Interval | None) -> str:
     if gap is None:
         return ""
