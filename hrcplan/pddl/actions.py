@@ -60,7 +60,8 @@ def read_actions(
 def _action(node: GroupNode, scope: Scope) -> Action | None:
     source = scope.source
     if len(node) < 2 or not isinstance(node[1], WordNode) or node[1].startswith(":"):
-        source.error(node.at, "no-name", "the action has no name")
+        hint = f"write ({node.head} NAME …)"
+        source.error(node.at, "no-name", "the action has no name", hint)
         return None
     durative = node.head == ":durative-action"
     parts = _parts(node, source, durative)
@@ -120,6 +121,11 @@ def _parts(node: GroupNode, source: SourceText, durative: bool) -> dict[str, Par
         if key in _TYPED_PARTS:
             parts.setdefault(str(key), _typed_part(key, rest))
             continue
+        if name == ":parameters" and rest and isinstance(rest[0], WordNode) and rest[0][0] == "?":
+            message, hint = "parameters stand in parentheses", "write :parameters (?x - type …)"
+            source.error(rest[0].at, "not-a-list", message, hint)
+            parts[name] = _typed_part(key, rest)
+            continue
         if not rest or (isinstance(rest[0], WordNode) and rest[0].startswith(":")):
             source.error(key.at, "missing-part", f"nothing follows {quote(key)}")
             continue
@@ -163,8 +169,10 @@ def _part_name(key: WordNode, part_names: tuple[str, ...], source: SourceText) -
         name, hint = _OTHER_PARTS[key]
         source.error(key.at, "unsupported", f"{key} ({name}) is not supported", hint)
         return None
-    source.error(key.at, "unknown-section", message, nearest(key, part_names))
-    return nearest_name(key, part_names, _CLOSE)
+    begun = next((part for part in part_names if len(key) > 2 and part.startswith(key)), None)
+    hint = f"did you mean {quote(begun)}?" if begun else nearest(key, part_names)
+    source.error(key.at, "unknown-section", message, hint)
+    return begun or nearest_name(key, part_names, _CLOSE)
 
 
 def _durations(

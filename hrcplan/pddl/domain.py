@@ -10,6 +10,7 @@ from hrcplan.pddl import conventions
 from hrcplan.pddl.actions import PLUS, PROCESS, read_actions
 from hrcplan.pddl.annotations import read_notes
 from hrcplan.pddl.axioms import DERIVED, read_axioms
+from hrcplan.pddl.foreign import is_comment
 from hrcplan.pddl.formulas import OBJECT_FLUENTS
 from hrcplan.pddl.model import OBJECT, Domain, Signature
 from hrcplan.pddl.parentheses import ACTIONS
@@ -29,6 +30,15 @@ _KEYWORDS = frozenset([
     "decrease", "assign", "scale-up", "scale-down", "is-violated", "always", "sometime",
     "within",
 ])  # fmt: skip
+_ELSEWHERE = {
+    ":objects": "a domain's own objects stand in (:constants …)",
+    ":constants": "a problem's objects stand in (:objects …)",
+    **dict.fromkeys((":init", ":goal", ":metric"), "that belongs into a problem"),
+    **dict.fromkeys(
+        (":types", ":predicates", ":functions", ":action", ":durative-action", ":derived"),
+        "that belongs into a domain",
+    ),
+}
 _REPEATED = ACTIONS | PLUS | {DERIVED}
 _SECTIONS = (":requirements", ":types", ":constants", ":predicates", ":functions", SECTION,
              *_REPEATED)  # fmt: skip
@@ -78,7 +88,14 @@ def sections_of(
     A misspelt section is reported and then read as the one that was meant.
     """
     names: set[str] = set()
+    after = 0
     for node in root[2:]:
+        if node.at < after:
+            continue
+        if isinstance(node, WordNode) and is_comment(node):
+            after = source.line_end(node.at)
+            source.error(node.at, "stray-word", "a comment of PDDL begins with ;", "write ; here")
+            continue
         name = _section_name(node, source, section_names)
         if name is None or isinstance(node, WordNode):
             continue
@@ -102,7 +119,8 @@ def _section_name(node: ParseNode, source: SourceText, section_names: Sequence[s
         source.warn(node.at, "ignored-section", "hrcplan takes no notice of :length")
     else:
         message = f"there is no section {quote(name)} here"
-        source.error(node.at, "unknown-section", message, nearest(name, section_names))
+        hint = _ELSEWHERE.get(name) or nearest(name, section_names)
+        source.error(node.at, "unknown-section", message, hint)
         right = nearest_name(name, section_names, SECTION_SIMILARITY)
         if right is not None:
             node[0] = _rename(node[0], right)

@@ -56,11 +56,28 @@ FOREIGN = {
 }
 """Each operator with a hint."""
 
+NO_ARITHMETIC = frozenset(
+    ["%", "^", "**", "mod", "pow", "abs", "min", "max", "sqrt", "floor", "ceil", "round", "exp"]
+)
+"""Functions of other languages; the numbers of PDDL know the four operations."""
+
+PREFIXES = {"-": "write (not (p))", "!": "write (not (p))", "~": "write (not (p))"}
+"""What other languages write before a fact that is taken away."""
+
 OF_FACTS = frozenset(["if", "set", "inc", "dec", "add", "del", "delete", "remove", "implies"])
 """Foreign words that have groups as operands; with objects they are undeclared predicates."""
 
 _INFIX = frozenset(["=", "<", ">", "<=", ">=", "==", "!=", "<>", "+", "-", "*", "/", "+=", "-=",
                     "*=", ":=", "&&", "||", "and", "or"])  # fmt: skip
+
+
+def is_comment(word: str) -> bool:
+    """Return whether a comment of another language begins with a word.
+
+    >>> is_comment("//"), is_comment("goal")
+    (True, False)
+    """
+    return word.startswith(("//", "#", "/*"))
 
 
 def is_infix(group: GroupNode) -> bool:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Set
 
 from hrcplan.core.numbers import to_number
 from hrcplan.core.text import plural, quote
-from hrcplan.pddl.foreign import FOREIGN, OF_FACTS, is_infix
+from hrcplan.pddl.foreign import FOREIGN, NO_ARITHMETIC, OF_FACTS, PREFIXES, is_infix
 from hrcplan.pddl.model import (
     CONTINUOUS,
     DURATION,
@@ -101,10 +101,15 @@ def read_atom(node: GroupNode, scope: Scope) -> Atom | None:
     return None if args is None else Atom(str(head), args)
 
 
+def shown(node: GroupNode) -> str:
+    """Return a group of words as text."""
+    return f"({' '.join(word for word in node if isinstance(word, WordNode))})"
+
+
 def loose_cure(node: ParseNode, kind: str) -> str | None:
     """Return how to write what has no head: a bare word, or a group of groups."""
     if isinstance(node, WordNode):
-        return f"write ({node})"
+        return PREFIXES.get(str(node), f"write ({node})")
     if len(node) == 1:
         return "one pair of parentheses is too much"
     return f"put the {kind} in one (and …)"
@@ -219,6 +224,15 @@ def read_function(node: ParseNode, scope: Scope) -> Function | None:
         return None
     if is_unsupported(node, scope) or is_foreign(node, scope):
         return None
+    if head in NO_ARITHMETIC and head not in scope.domain.functions:
+        message = f"PDDL has no {quote(head)} for numbers"
+        scope.source.error(head.at, "foreign-operator", message, "it knows + - * / only")
+        return None
+    if head in scope.domain.predicates and head not in scope.domain.functions:
+        message = f"{quote(head)} is a predicate, not a function"
+        hint = f"as a condition write {shown(node)} or (not {shown(node)}), without a value"
+        scope.source.error(head.at, "unknown-function", message, hint)
+        return None
     signature = scope.signature(head, "function")
     if signature is None:
         _check_terms(node, scope)
@@ -242,7 +256,11 @@ def has_parts(node: GroupNode, n_parts: int, scope: Scope) -> bool:
     if len(node) == n_parts + 1:
         return True
     message = f"{quote(node.head)} takes {plural(n_parts, 'part')}, not {len(node) - 1}"
-    hint = "put them in one (and …)" if node.head in _ONE_BODY and len(node) > n_parts + 1 else None
+    hint = None
+    if node.head in ("forall", "exists") and len(node) > 1 and isinstance(node[1], WordNode):
+        hint = f"write ({node.head} (?x - type) …), the variables in parentheses"
+    elif node.head in _ONE_BODY and len(node) > n_parts + 1:
+        hint = "put them in one (and …)"
     scope.source.error(node.at, "wrong-arity", message, hint)
     return False
 
@@ -299,6 +317,10 @@ def _comparison(node: GroupNode, scope: Scope) -> Formula:
     if not has_parts(node, 2, scope):
         return TRUE
     left, right = node[1], node[2]
+    for side, other in ((left, right), (right, left)):
+        if isinstance(other, WordNode) and _is_fact(side, scope):
+            read_function(side, scope)
+            return TRUE
     if node.head == "=" and _is_term(left, scope) and _is_term(right, scope):
         scope.source.use(":equality", node.at)
         for term in (left, right):
@@ -307,6 +329,13 @@ def _comparison(node: GroupNode, scope: Scope) -> Formula:
         return Equal(scope.term(str(left)), scope.term(str(right)))
     scope.source.use(":numeric-fluents", node.at)
     return Compare(str(node.head), read_expression(left, scope), read_expression(right, scope))
+
+
+def _is_fact(node: ParseNode, scope: Scope) -> bool:
+    """Whether a group is a predicate, which has no value to compare."""
+    if not isinstance(node, GroupNode) or node.head in scope.domain.functions:
+        return False
+    return node.head in scope.domain.predicates
 
 
 def _is_term(node: ParseNode, scope: Scope) -> bool:

@@ -7,6 +7,7 @@ from hrcplan.core.text import nearest, quote
 from hrcplan.pddl.annotations import refuse_notes
 from hrcplan.pddl.conventions import check_problem
 from hrcplan.pddl.domain import declared_name, read_objects, sections_of
+from hrcplan.pddl.effects import ASSIGNMENTS
 from hrcplan.pddl.formulas import (
     OBJECT_FLUENTS,
     read_atom,
@@ -31,7 +32,7 @@ from hrcplan.pddl.model import (
 from hrcplan.pddl.preferences import read_preferences, with_names
 from hrcplan.pddl.reader import GroupNode, ParseNode, WordNode
 from hrcplan.pddl.requirements import check_requirements, read_requirements
-from hrcplan.pddl.scope import Scope, decimal_cure
+from hrcplan.pddl.scope import Scope, decimal_cure, looks_numeric
 from hrcplan.pddl.source import SourceText
 from hrcplan.pddl.trajectories import SECTION, read_constraints
 from hrcplan.pddl.typed_lists import report_types
@@ -108,6 +109,7 @@ class _Init:
         self.facts: set[Fact] = set()
         self.values: dict[FluentKey, Number] = {}
         self.places: dict[FluentKey, int] = {}
+        self.has_loose_word = False
         self.timed_changes: list[TimedChange] = []
         self.negative_facts: set[FluentKey] = set()
 
@@ -115,8 +117,18 @@ class _Init:
         source = self.scope.source
         if isinstance(node, GroupNode) and self.scope.is_atom(node):
             self._fact(node)
-        elif isinstance(node, WordNode) or not node.head or node.head in _LOGIC:
+        elif isinstance(node, GroupNode) and node.head == "and":
+            message = "facts of :init are listed one after the other"
+            source.error(node.at, "not-a-fact", message, "leave the (and …) out")
+            for part in node[1:]:
+                self.take(part)
+        elif isinstance(node, WordNode):
+            self._loose_word(node)
+        elif not node.head or node.head in _LOGIC:
             source.error(node.at, "not-a-fact", "a fact such as (p a b) is expected here")
+        elif self._is_value(node):
+            message = f"{quote(node.head)} cannot stand in :init"
+            source.error(node.at, "not-a-fact", message, "a function is set by (= (f a) NUMBER)")
         elif node.head == "=":
             self._value(node)
         elif node.head == "at" and len(node) == 3 and _is_time(node[1], node[2]):
@@ -125,6 +137,21 @@ class _Init:
             self._negative_fact(node)
         else:
             self._fact(node)
+
+    def _loose_word(self, word: WordNode) -> None:
+        """Report a word between the facts, once."""
+        if not self.has_loose_word:
+            message = "a fact such as (p a b) is expected here"
+            self.scope.source.error(word.at, "not-a-fact", message, f"write ({word} …)")
+        self.has_loose_word = True
+
+    def _is_value(self, node: GroupNode) -> bool:
+        """Return whether a group was meant to set a function: ``(f 1)``, ``(increase (f) 1)``."""
+        domain = self.scope.domain
+        if node.head in domain.predicates:
+            return False
+        sets = node.head in domain.functions and looks_numeric(str(node[-1]))
+        return sets or node.head in ASSIGNMENTS or (len(node) == 1 and "=" in node.head)
 
     def _timed_literal(self, node: GroupNode) -> None:
         """Take a change that comes by itself, such as ``(at 9 (open))``."""
@@ -187,6 +214,13 @@ class _Init:
         if len(node) != 3:
             source.error(node.at, "not-a-fact", "(= (f a) NUMBER) is expected here")
             return
+        if isinstance(node[2], GroupNode) and isinstance(node[1], WordNode):
+            message, hint = "the function stands before its value", "write (= (f a) NUMBER)"
+            source.error(node[1].at, "not-a-fact", message, hint)
+            return
+        if isinstance(node[1], GroupNode) and node[1].head in self.scope.domain.predicates:
+            read_function(node[1], self.scope)
+            return
         function = read_function(node[1], self.scope)
         value = self._number(node[2])
         if value is not None and function is not None:
@@ -233,6 +267,10 @@ def _goal(
         return TRUE, ()
     if len(section) > 2:
         hint = "put an (and …) around all"
+        if isinstance(section[1], WordNode):
+            hint = f"write (:goal ({section[1]} …))"
+            scope.source.error(section[1].at, "not-a-condition", "a goal is one condition", hint)
+            return TRUE, ()
         scope.source.error(section[2].at, "stray-word", "a goal is one condition", hint)
     hard, preferences = read_preferences(section[1], scope)
     return read_formula(hard, scope), preferences
@@ -253,5 +291,6 @@ def _metric_cure(section: GroupNode) -> str | None:
     if isinstance(word, GroupNode) and word.head in _SENSES:
         return f"write (:metric {word.head} …): the word takes no parentheses of its own"
     if isinstance(word, WordNode) and word not in _SENSES:
-        return nearest(word, _SENSES)
+        short = next((sense for sense in _SENSES if sense.startswith(word)), None)
+        return f"write {short}" if short else nearest(word, _SENSES)
     return None

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass, field, replace
 from itertools import count
 
-from hrcplan.core.numbers import to_number
+from hrcplan.core.numbers import fraction_of, number_text, to_number
 from hrcplan.core.text import plural, quote
 from hrcplan.pddl.foreign import FOREIGN
 from hrcplan.pddl.model import OBJECT, TOTAL_TIME, Domain, Param, Signature
@@ -174,6 +174,11 @@ def looks_numeric(word: str) -> bool:
 
 
 def decimal_cure(word: str) -> str | None:
-    """Return a hint for a number that is written with a comma."""
+    """Return a hint for a number with a comma, a unit, or as a fraction."""
     plain = word.replace(",", ".")
-    return f"write {plain}" if plain != word and to_number(plain) is not None else None
+    if plain != word and to_number(plain) is not None:
+        return f"write {plain}"
+    fraction, unit = fraction_of(word), word.rstrip("abcdefghijklmnopqrstuvwxyz%")
+    if fraction is not None and "/" in word:
+        return f"write {number_text(fraction)}"
+    return f"write {unit}" if unit != word and to_number(unit) is not None else None

@@ -23,16 +23,20 @@ def read_typed(
     A type that is not among ``types`` is an error, unless ``types`` is None.
     """
     waiting: list[WordNode] = []
-    rest = iter(with_dashes(nodes, source, types))
+    rest = iter(with_dashes(list(_flat(nodes, source)), source, types))
     for node in rest:
         if isinstance(node, GroupNode):
             source.error(node.at, "not-a-name", "a name is expected here, not a group")
+        elif node[0] in ":\"'" and types is not None:
+            _report_odd_name(node, source)
+            waiting += [_part(node, 1, len(node.rstrip("\"'")))]
         elif node != "-":
             waiting.append(node)
         else:
             if not waiting:
                 message = "no name stands before this '-', so it declares nothing"
-                source.warn(node.at, "empty-typed-list", message)
+                hint = "names stand before it, their type behind it: 'NAME - type'"
+                source.warn(node.at, "empty-typed-list", message, hint)
             words = _type_words(next(rest, None), node, source)
             if types is not None:
                 check_types(words, types, source)
@@ -42,6 +46,36 @@ def read_typed(
             waiting = []
     for name in waiting:
         yield name, (OBJECT,)
+
+
+def _flat(nodes: Sequence[ParseNode], source: SourceText) -> Iterator[ParseNode]:
+    """Yield the nodes of a list; groups of names in it are one error, and read all the same."""
+    is_first = True
+    for before, node in pairwise((None, *nodes)):
+        if node == ":":
+            message, hint = "':' cannot stand in a list", "a '-' stands before a type"
+            source.error(node.at, "bad-typed-list", message, hint)
+            dash = WordNode("-")
+            dash.at = node.at
+            yield dash
+            continue
+        if not isinstance(node, GroupNode) or before == "-" or node.head in ("", "either"):
+            assert node is not None
+            yield node
+            continue
+        if is_first:
+            message, hint = "a name is expected here, not a group", "leave its parentheses out"
+            source.error(node.at, "not-a-name", message, hint)
+        is_first = False
+        yield from node
+
+
+def _report_odd_name(word: WordNode, source: SourceText) -> None:
+    if word[0] == ":":
+        message, hint = f"{quote(word)} is no name", "a type stands behind ' - ', as in 'a - type'"
+    else:
+        message, hint = f"a name has no quotation marks: {quote(word)}", "remove them"
+    source.error(word.at, "not-a-name", message, hint)
 
 
 def with_dashes(
@@ -128,10 +162,15 @@ def params_of(
     """
     params: list[Param] = []
     names: set[str] = set()
+    wrong = 0
     for name, kinds in read_typed(nodes, source, types):
         text = str(name)
         if not name.startswith("?") or len(name) == 1:
-            source.error(name.at, "not-a-variable", f"{quote(name)} should start with '?'")
+            wrong += 1
+            hint = "the type stands behind: ?x - " + name if name in types else f"write ?{name}"
+            if wrong == 1:
+                message = f"{quote(name)} should start with '?'"
+                source.error(name.at, "not-a-variable", message, hint)
         elif name in names and declaration:
             source.warn(name.at, "repeated-parameter", f"parameter {quote(name)} is repeated")
             text = next(n for i in count(2) if (n := f"{name}-{i}") not in names)
