@@ -14,6 +14,40 @@
 ;;              the agent: the thing to fetch (its place on the shelf), the dish, the appliance. serve is done
 ;;              at no station.
 
+;; hrcplan: say get grab, take, took, fetch, bring, pick up, get out, reach for, hand, need, want
+;; hrcplan: say pour add, put, put in, put into, place, tip, tip into, throw, throw in, toss in, drop, drop in
+;; hrcplan: say pour sprinkle, scatter, drizzle, dash, dash of, pinch of, spoon into, season, season with, salt
+;; hrcplan: say pour in, into, goes in, goes into, go into, add in, add to, pour into, pour in, top with, over
+;; hrcplan: say mix stir, stir in, stir into, mix in, mix into, mix with, mix together, fold, fold in, whisk, toss
+;; hrcplan: say mix combine
+;; hrcplan: say cook boil, fry, simmer, saute, heat, heat up, roast, warm up, let cook, brown
+;; hrcplan: say blend blitz, whizz, puree, liquidize, crush, blend in, put through
+;; hrcplan: say turn_on switch on, put on, start, light, preheat, on
+;; hrcplan: say collect_water fill, fill with water, fill at tap, water, water into, water in, get water, get water for
+;; hrcplan: say collect_water add water, run water, run water into, pour water, pour water into, put water in
+;; hrcplan: say reduce_heat turn down, turn heat down, turn down heat, lower heat, lower, low heat, set to low, low
+;; hrcplan: say reduce_heat decrease heat, lower flame, turn down temperature, turn temperature down
+;; hrcplan: say serve serve up, ready, plate, plate up, dish up, bon appetit, eat, done
+;; hrcplan: call pasta macaroni, spaghetti, noodles
+;; hrcplan: call beans kidney beans, bean
+;; hrcplan: call potato spuds
+;; hrcplan: call lettuce salad leaves
+;; hrcplan: call cheese parmesan, feta, mozzarella
+;; hrcplan: call basil herbs
+;; hrcplan: call oil olive oil
+;; hrcplan: call nuts walnuts, almonds, hazelnuts
+;; hrcplan: call oats oatmeal, porridge oats
+;; hrcplan: call yogurt yoghurt
+;; hrcplan: call berries strawberries, blueberries, raspberries
+;; hrcplan: call measuring-cup measure, jug
+;; hrcplan: call serving-spoon ladle, big spoon, spoon for serving
+;; hrcplan: call eating-spoon small spoon, teaspoon, spoon for eating
+;; hrcplan: call bowl salad bowl
+;; hrcplan: call glass tumbler
+;; hrcplan: call pan pot, saucepan, frying pan, skillet
+;; hrcplan: call stove hob, burner, cooker
+;; hrcplan: call blender mixer, liquidizer
+
 (define (domain kitchen)
   (:requirements :strips :typing :numeric-fluents :action-costs)
 

@@ -13,6 +13,7 @@ from pathlib import Path
 from hrcplan.core.text import nearest, quote
 from hrcplan.errors import Diagnostic, InputError, PddlError
 from hrcplan.pddl import library
+from hrcplan.pddl.annotations import check_calls
 from hrcplan.pddl.domain import read_domain
 from hrcplan.pddl.model import Domain, Note, Problem
 from hrcplan.pddl.problem import named_domain, read_problem
@@ -36,7 +37,7 @@ class _File:
 
 @dataclass(frozen=True, slots=True)
 class CheckReport:
-    """The faults of some files, in order, and the notes of the domains among them."""
+    """The faults of some files, in order, and the notes in them."""
 
     n_files: int
     diagnostics: tuple[Diagnostic, ...]
@@ -74,14 +75,16 @@ def check(paths: Sequence[str | Path]) -> CheckReport:
     for file in files:
         if file.kind == "problem":
             _check_problem(file, domains)
+    _check_calls(files, domains)
     return CheckReport(
         n_files=len(files),
         diagnostics=in_order([d for file in files for d in file.source.diagnostics]),
         notes=tuple(
             (file.source.path, note)
             for file in files
-            if file.domain is not None
-            for note in file.domain.notes
+            for owner in (file.domain, file.problem)
+            if owner is not None
+            for note in owner.notes
         ),
     )
 
@@ -226,6 +229,15 @@ def _check_problem(file: _File, domains: _Domains) -> None:
         message = f"no domain {quote(name)} given, in the problem's folder, or shipped"
         hint = nearest(name, [*domains.by_name, *library.domain_names()])
         file.source.error(name.at, "domain-mismatch", message, hint)
+
+
+def _check_calls(files: Sequence[_File], domains: _Domains) -> None:
+    """Check which objects the domains ``call``, where problems that declare objects are given."""
+    for file in domains.by_name.values():
+        problems = [f.problem for f in files if f.problem and f.problem.domain is file.domain]
+        if file.domain is not None and problems:
+            objects = {name: t for problem in problems for name, t in problem.objects.items()}
+            check_calls(file.source, file.domain, objects)
 
 
 def _report_faulty(file: _File, at: int, domain_file: _File) -> None:

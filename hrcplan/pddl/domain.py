@@ -64,7 +64,6 @@ def read_domain(root: GroupNode, source: SourceText) -> Domain:
     scope = Scope(source, base, constants, {}, derived=derived_names)
     actions = list(read_actions(root, scope))
     plus = list(read_actions(root, scope, PLUS))
-    names = [action.name for _, action in actions]
     domain = replace(
         base,
         actions=tuple(action for _, action in actions),
@@ -72,8 +71,8 @@ def read_domain(root: GroupNode, source: SourceText) -> Domain:
         constraints=read_constraints(sections.get(SECTION), scope),
         processes=tuple(action for node, action in plus if node.head == PROCESS),
         events=tuple(action for node, action in plus if node.head != PROCESS),
-        notes=read_notes(source, names, base.functions),
     )
+    domain = replace(domain, notes=read_notes(source, domain))
     report_types(source, types, ":types" in sections)
     check_requirements(domain.requirements, source)
     conventions.check_domain(domain, actions, source)

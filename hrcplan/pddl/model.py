@@ -290,18 +290,22 @@ class Action:
 
 @dataclass(frozen=True, slots=True)
 class Note:
-    """A ``;; hrcplan:`` comment of a domain: simulation data that PDDL cannot hold.
+    """A ``;; hrcplan:`` comment of a domain or a problem: what PDDL cannot hold.
 
     ``success ACTION p``: the probability that an interaction has its effect.
     ``range FUNCTION low high``: the values that a function takes.
+    ``say ACTION words, …`` and ``call OBJECT words, …``: what people call an action or an object
+    (or every object of a type).
     """
 
     kind: str
     name: str
-    numbers: tuple[Number, ...]
+    numbers: tuple[Number, ...] = ()
+    phrases: tuple[str, ...] = ()
 
     def __str__(self) -> str:
-        return " ".join([self.kind, self.name, *map(number_text, self.numbers)])
+        values = [*map(number_text, self.numbers)]
+        return " ".join([self.kind, self.name, *values, ", ".join(self.phrases)]).rstrip()
 
 
 @dataclass(frozen=True)
@@ -419,6 +423,7 @@ class Problem:
     timed: tuple[TimedChange, ...] = ()
     preferences: tuple[Preference, ...] = ()
     constraints: tuple[Constraint, ...] = ()
+    notes: tuple[Note, ...] = ()
     path: str = ""
 
     def __repr__(self) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from hrcplan.core.numbers import Number, to_number
 from hrcplan.core.text import nearest, quote
-from hrcplan.pddl.annotations import refuse_notes
+from hrcplan.pddl.annotations import read_problem_notes
 from hrcplan.pddl.conventions import check_problem
 from hrcplan.pddl.domain import declared_name, read_objects, sections_of
 from hrcplan.pddl.effects import ASSIGNMENTS
@@ -76,12 +76,12 @@ def read_problem(root: GroupNode, source: SourceText, domain: Domain) -> Problem
         timed=tuple(sorted(init.timed_changes, key=lambda change: change.time)),
         preferences=preferences,
         constraints=constraints,
+        notes=read_problem_notes(source, domain, objects),
         path=source.path,
     )
     if domain.requirements:
         check_requirements([*domain.requirements, *flags], source)
     report_types(source, domain.types, bool(domain.types))
-    refuse_notes(source)
     _check_domain(root, source, domain)
     at = sections.get(":init", root).at
     check_problem(problem, at, source)

@@ -29,6 +29,7 @@ from hrcplan.pddl.model import (
     FluentKey,
     Formula,
     Not,
+    Note,
     Or,
     Param,
     Preference,
@@ -93,7 +94,7 @@ def problem_text(problem: Problem, *, strip_costs: bool = False) -> str:
 
 def _domain_lines(domain: Domain) -> Iterator[str]:
     for note in domain.notes:
-        yield f";; hrcplan: {note.kind} {note.name} {' '.join(map(decimal_text, note.numbers))}"
+        yield _note_line(note)
     yield f"(define (domain {domain.name})"
     if domain.requirements:
         yield f"  (:requirements {' '.join(domain.requirements)})"
@@ -115,7 +116,16 @@ def _domain_lines(domain: Domain) -> Iterator[str]:
     yield ")"
 
 
+def _note_line(note: Note) -> str:
+    values = [
+        *map(decimal_text, note.numbers),
+        *([", ".join(note.phrases)] if note.phrases else []),
+    ]
+    return f";; hrcplan: {' '.join([note.kind, note.name, *values])}"
+
+
 def _problem_lines(problem: Problem) -> Iterator[str]:
+    yield from map(_note_line, problem.notes)
     yield f"(define (problem {problem.name})"
     yield f"  (:domain {problem.domain.name})"
     yield from _section("objects", _typed_groups((n, (t,)) for n, t in problem.objects.items()))
