@@ -7,6 +7,15 @@
 ;; hrcplan: success remind 0.8
 ;; hrcplan: success instruct 0.8
 ;; hrcplan: success assist 0.8
+;; hrcplan: say move go to, walk to, drive to, head to, come to
+;; hrcplan: say grasp pick up, grab, get, lift, fetch
+;; hrcplan: say place put down, put, drop, set down, leave
+;; hrcplan: say take take over, take off, take from
+;; hrcplan: call wp waypoint
+;; hrcplan: call box parcel
+;; hrcplan: say remind motivate, cheer
+;; hrcplan: say instruct explain, show, teach, tell
+;; hrcplan: say assist help
 
 (define (domain transport-coached)
   (:requirements :strips :typing :numeric-fluents :action-costs :durative-actions)

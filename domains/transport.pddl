@@ -7,6 +7,12 @@
 ;; time-unit: s
 ;; abstraction: every action lasts 50 s; a hand holds one box; waypoints hold any number of agents and boxes;
 ;;              agent state (knowledge, motivation, capacity) is a cost per action, low = contributing
+;; hrcplan: say move go to, walk to, drive to, head to, come to
+;; hrcplan: say grasp pick up, grab, get, lift, fetch
+;; hrcplan: say place put down, put, drop, set down, leave
+;; hrcplan: say take take over, take off, take from
+;; hrcplan: call wp waypoint
+;; hrcplan: call box parcel
 
 (define (domain transport)
   (:requirements :strips :typing :numeric-fluents :action-costs :durative-actions)

@@ -1,9 +1,8 @@
 """The phrases of ``tests/data/phrases``, read in states of walks, and how well they were read."""
 
 import random
-from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fnmatch import fnmatchcase
 from pathlib import Path
 
@@ -12,80 +11,120 @@ from hrcplan.pddl.conventions import people
 from hrcplan.pddl.inputs import read
 from hrcplan.pddl.library import problem_names
 from hrcplan.pddl.model import Problem
-from hrcplan.reading import Lexicon, ReadingOutcome, Reading
+from hrcplan.reading import Lexicon, Reading, ReadingOutcome, make_lexicon
 from hrcplan.task import Task
 
 FOLDER = Path(__file__).parent / "data" / "phrases"
 TUNE, TEST = "tune", "test"
 KITCHEN = ("kitchen", "kitchen-recipes", "kitchen-alfred")
-PROBLEMS = {
-    "kitchen": [f"kitchen/{name}" for name in problem_names("kitchen")],
-    "transport": ["transport/two-boxes", "transport/handover", "transport/boxes-3"],
-    "blocks": ["block-words"],
-    "household": ["viplan_hh"],
-    "werkstatt": ["werkstatt"],
-}
-N_STATES = 4  # in which a phrase is read
-_STRAY = 0.25  # of the steps of a walk are any steps
+OTHERS = ("transport", "blocks", "household", "werkstatt")
 _LENGTH = 60
+_STRAY = 0.25  # of the steps of a walk are any steps
+_N_STATES = 4  # in which a phrase is read
 
 Words = tuple[str, ...]
+Read = Callable[[Lexicon, str, Sequence[Words]], Reading]
 
 
 @dataclass(frozen=True)
 class Saying:
     """A phrase and what it means: patterns of steps, none for no step."""
 
-    share: str
     meanings: tuple[str, ...]
     phrase: str
 
-    def among(self, steps: Sequence[Words]) -> frozenset[int]:
-        """Return which of ``steps``, given without agents, the phrase means."""
-        texts = [" ".join(step) for step in steps]
-        return frozenset(
-            i for i, text in enumerate(texts) if any(fnmatchcase(text, m) for m in self.meanings)
-        )
+    def means(self, step: Words) -> bool:
+        """Return whether the phrase means a step, given without agents."""
+        return any(fnmatchcase(" ".join(step), meaning) for meaning in self.meanings)
 
 
 @dataclass(frozen=True)
 class Moment:
-    """A state: what the human can do there, as said to the reader and without the agent."""
+    """What a human can do in a state: as said to the reader, and without agents."""
 
+    lexicon: Lexicon
     steps: tuple[Words, ...]
     bare: tuple[Words, ...]
+
+
+@dataclass(frozen=True)
+class Trial:
+    """One reading, and which of the steps were meant: none if none of them is possible."""
+
+    saying: Saying
+    moment: Moment
+    meant: frozenset[int]
+    reading: Reading
+
+    @property
+    def is_right(self) -> bool:
+        """Whether the likeliest step is meant, or nothing would be done where nothing is meant."""
+        if not self.meant:
+            return not self.is_acted
+        return any(i in self.meant for i, _ in self.reading.options[:1])
+
+    @property
+    def is_acted(self) -> bool:
+        """Whether a step would be done without a question."""
+        return self.reading.outcome is ReadingOutcome.ACT
+
+    @property
+    def is_wrong(self) -> bool:
+        """Whether another step than the one meant, or one of several, would be done unasked."""
+        return self.is_acted and self.meant != {self.reading.step}
+
+    @property
+    def is_offered(self) -> bool:
+        """Whether a question names a step that is meant."""
+        named = {i for i, _ in self.reading.options}
+        return self.reading.outcome is ReadingOutcome.ASK and bool(self.meant & named)
+
+    @property
+    def can_be_meant(self) -> bool:
+        """Whether this is no reading of a step which the state does not allow."""
+        return bool(self.meant) or not self.saying.meanings
 
 
 def sayings(name: str, share: str) -> list[Saying]:
     """Return the phrases of a file that are in a share."""
     lines = (FOLDER / f"{name}.txt").read_text().splitlines()
-    parts = [[p.strip() for p in line.split("|")] for line in lines if not line.startswith("#")]
+    rows = [[p.strip() for p in line.split("|")] for line in lines if not line.startswith("#")]
     return [
-        Saying(part[0], () if part[1] == "-" else tuple(part[1].split(" / ")), part[2])
-        for part in parts
-        if part[0] == share
+        Saying(() if meaning == "-" else tuple(meaning.split(" / ")), phrase)
+        for part, meaning, phrase in rows
+        if part == share
     ]
 
 
-def problem_called(name: str) -> Problem:
-    """Return a problem by its name in ``PROBLEMS``."""
+def problems_of(name: str) -> list[Problem]:
+    """Return the problems whose states the phrases of a file are about."""
     data = FOLDER.parent
-    if name == "block-words":
-        folder = data / "goal-recognition" / "block-words_p01_hyp-0_full"
-        goal = (folder / "hyps.dat").read_text().splitlines()[0].replace(",", " ")
-        text = (folder / "template.pddl").read_text().replace("<HYPOTHESIS>", goal)
-        return read((folder / "domain.pddl").read_text(), text)
-    if name == "viplan_hh":
-        folder = data / "public" / "unified-planning" / name
-        return read(str(folder / "domain.pddl"), str(folder / "problem.pddl"))
-    if name == "werkstatt":
-        return read(str(FOLDER / name / "domain.pddl"), str(FOLDER / name / "hocker.pddl"))
-    return read(*name.split("/"))
+    match name:
+        case "blocks":
+            folder = data / "goal-recognition" / "block-words_p01_hyp-0_full"
+            goal = (folder / "hyps.dat").read_text().splitlines()[0].replace(",", " ")
+            text = (folder / "template.pddl").read_text().replace("<HYPOTHESIS>", goal)
+            return [read((folder / "domain.pddl").read_text(), text)]
+        case "household":
+            folder = data / "public" / "unified-planning" / "viplan_hh"
+            return [read(str(folder / "domain.pddl"), str(folder / "problem.pddl"))]
+        case "werkstatt":
+            folder = FOLDER / name
+            return [read(str(folder / "domain.pddl"), str(folder / "hocker.pddl"))]
+        case "transport":
+            return [read(name, problem) for problem in ("two-boxes", "handover", "boxes-3")]
+    return [read("kitchen", problem) for problem in problem_names("kitchen")]
+
+
+def names_only(problem: Problem) -> Problem:
+    """Return a problem without notes."""
+    return replace(problem, notes=(), domain=replace(problem.domain, notes=()))
 
 
 def moments(problem: Problem, n_walks: int) -> list[Moment]:
-    """Return states of walks that mostly do what the goal needs, some of the beginning first."""
+    """Return states of walks that do what the goal may need, and now and then something else."""
     task = ground(problem)
+    lexicon = make_lexicon(problem)
     human = min(people(problem), default=None)
     needed = _needed(task)
     seen: dict[int, Moment] = {}
@@ -93,8 +132,10 @@ def moments(problem: Problem, n_walks: int) -> list[Moment]:
         dice = random.Random(seed)
         state = task.initial
         for _ in range(_LENGTH):
-            seen.setdefault(state, _moment(task, state, human))
             can = task.applicable(state)
+            mine = [task.actions[i] for i in can if task.actions[i].agent in (None, human)]
+            steps = tuple((action.name, *action.args) for action in mine)
+            seen.setdefault(state, Moment(lexicon, steps, tuple(a.step for a in mine)))
             useful = [i for i in can if i in needed]
             if not can:
                 break
@@ -103,113 +144,32 @@ def moments(problem: Problem, n_walks: int) -> list[Moment]:
     return list(seen.values())
 
 
-def _moment(task: Task, state: int, human: str | None) -> Moment:
-    actions = [task.actions[i] for i in task.applicable(state)]
-    mine = [a for a in actions if a.agent in (None, human)]
-    return Moment(tuple((a.name, *a.args) for a in mine), tuple(a.step for a in mine))
-
-
 def _needed(task: Task) -> frozenset[int]:
     """Return the actions that may be needed for the goal: those that add what it or they need."""
-    wanted = sum(test[1] for test in task.goal)
+    wanted = 0
+    for test in task.goal:
+        wanted |= test[1]
     needed: set[int] = set()
-    while True:
-        new = {a.index for a in task.actions if a.adds & wanted} - needed
-        if not new:
-            return frozenset(needed)
+    while new := {a.index for a in task.actions if a.adds & wanted} - needed:
         needed |= new
         for i in new:
             for test in task.actions[i].start:
                 wanted |= test[1]
+    return frozenset(needed)
 
 
-@dataclass(frozen=True)
-class Score:
-    """How often a reading was right, asked, refused, or wrong without asking.
-
-    ``wrong`` counts steps that were acted on and not meant. ``impossible`` are readings of phrases
-    that mean a step which the state does not allow; only wrong ones are counted there.
-    """
-
-    n: int
-    right: int
-    asked: int
-    offered: int
-    wrong: int
-    impossible: int
-    wrong_impossible: int
-    misses: tuple[str, ...]
-
-    @property
-    def right_share(self) -> float:
-        return self.right / self.n
-
-    @property
-    def wrong_share(self) -> float:
-        return (self.wrong + self.wrong_impossible) / (self.n + self.impossible)
-
-    @property
-    def right_or_asked_share(self) -> float:
-        return (self.right + self.offered) / self.n
-
-
-Read = Callable[[Lexicon, str, Sequence[Words]], Reading]
-
-
-def trial(
-    name: str,
-    share: str,
-    lexicons: dict[str, Lexicon],
-    scenes: dict[str, list[Moment]],
-    read_it: Read,
-) -> Score:
-    """Read the phrases of a file, each in up to four states in which it means something."""
-    count: Counter[str] = Counter()
-    misses = []
-    for k, saying in enumerate(sayings(name, share)):
-        for problem, moment, possible in _occasions(saying, scenes, k):
-            meant = saying.among(moment.bare)
-            reading = read_it(lexicons[problem], saying.phrase, moment.steps)
-            verdict = _judge(reading, meant, bool(saying.meanings))
-            if not possible:
-                count["impossible"] += 1
-                count["wrong_impossible"] += reading.outcome is ReadingOutcome.ACT
-            else:
-                count["n"] += 1
-                count[verdict] += 1
-            if verdict != "right" and (possible or reading.outcome is ReadingOutcome.ACT):
-                shown = [" ".join(moment.bare[i]) + f" {p:.2f}" for i, p in reading.options]
-                wanted = " / ".join(saying.meanings) or "-"
-                misses.append(
-                    f"{verdict}{'' if possible else ' (impossible)'}: {saying.phrase!r} = {wanted} ({len(meant)}): {shown} none {reading.none:.2f}"
-                )
-    return Score(
-        count["n"], count["right"], count["asked"] + count["offered"], count["offered"],
-        count["wrong"], count["impossible"], count["wrong_impossible"], tuple(misses),
-    )  # fmt: skip
-
-
-def _occasions(
-    saying: Saying, scenes: dict[str, list[Moment]], k: int
-) -> Iterator[tuple[str, Moment, bool]]:
-    """Yield states in which the phrase means a step, spread over the problems, and one of others."""
-    every = [(name, moment) for name, some in scenes.items() for moment in some]
-    random.Random(k).shuffle(every)
-    fits = [(n, m) for n, m in every if not saying.meanings or saying.among(m.bare)]
-    assert fits, saying
-    for name, moment in fits[:N_STATES]:
-        yield name, moment, True
-    if saying.meanings:
-        for name, moment in [(n, m) for n, m in every if not saying.among(m.bare)][:1]:
-            yield name, moment, False
-
-
-def _judge(reading: Reading, meant: frozenset[int], means: bool) -> str:
-    if reading.outcome is ReadingOutcome.ACT:
-        return "right" if meant == {reading.step} else "wrong"
-    if reading.outcome is ReadingOutcome.REFUSE:
-        return "refused" if means else "right"
-    offered = bool(meant & {i for i, _ in reading.options})
-    if offered and len(meant) > 1:
-        return "right"
-    return "offered" if offered else "asked"
+def trials(
+    sayings: Sequence[Saying], scenes: Sequence[Moment], read_words: Read
+) -> Iterator[Trial]:
+    """Yield readings of phrases: each in four states in which it means a step, and in another."""
+    every = {step for moment in scenes for step in moment.bare}
+    for k, saying in enumerate(sayings):
+        meant = {step for step in every if saying.means(step)}
+        order = random.Random(k).sample(scenes, len(scenes))
+        fit = [m for m in order if not meant.isdisjoint(m.bare)]
+        others = [m for m in order if meant.isdisjoint(m.bare)]
+        assert bool(fit) == bool(saying.meanings), f"no state allows {saying}"
+        for moment in [*fit[:_N_STATES], *others[: 1 if fit else _N_STATES]]:
+            reading = read_words(moment.lexicon, saying.phrase, moment.steps)
+            indices = frozenset(i for i, step in enumerate(moment.bare) if step in meant)
+            yield Trial(saying, moment, indices, reading)

@@ -21,8 +21,9 @@ class Lexicon:
     """What people can call actions and objects: names of the PDDL, and its notes.
 
     ``slots`` are the objects that each parameter of an action can be, agents left out. ``telling``
-    are parts of objects' names that no other object has: one of them is enough. The words are those
-    of the phrases by their first letter; words for types name no object.
+    are parts of objects' names that no other object has: one of them is enough; ``hinting`` are
+    words that one action alone has. The words are those of the phrases by their first letter; words
+    for types name no object.
     """
 
     actions: Phrases
@@ -30,6 +31,7 @@ class Lexicon:
     agents: frozenset[str]
     slots: Mapping[str, tuple[frozenset[str], ...]]
     telling: frozenset[str]
+    hinting: frozenset[str]
     action_words: WordsByInitial
     object_words: WordsByInitial
     type_words: WordsByInitial
@@ -59,6 +61,7 @@ def make_lexicon(problem: Problem) -> Lexicon:
         frozenset(problem.agents),
         {action.name: _slots(problem, action) for action in domain.actions},
         telling,
+        _telling(actions),
         _by_initial(_words(actions.values())),
         _by_initial(_words(objects.values())),
         _by_initial(_words(types.values())),
@@ -66,8 +69,8 @@ def make_lexicon(problem: Problem) -> Lexicon:
     )
 
 
-def _telling(objects: Mapping[str, set[Phrase]]) -> frozenset[str]:
-    owners = Counter(word for phrases in objects.values() for word in set(_words([phrases])))
+def _telling(names: Mapping[str, set[Phrase]]) -> frozenset[str]:
+    owners = Counter(word for phrases in names.values() for word in set(_words([phrases])))
     return frozenset(w for w, n in owners.items() if n == 1 and weight(w) >= _TELLS)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from hrcplan.reading.lexicon import Lexicon, Phrase, Phrases, WordsByInitial
 from hrcplan.reading.tokens import similarity, weight
@@ -22,12 +22,14 @@ WordPlaces = Mapping[str, Sequence[tuple[int, float]]]
 class Mention:
     """How a text names an action or an object.
 
-    ``share`` is how much of the name is there, 0 to 1, ``whole`` whether all of it is, ``weight``
-    how much these words tell. ``at`` are the places of the name, ``explains`` those of all names.
+    ``share`` is how much of the name is there, 0 to 1, ``whole`` whether all of it is, ``tells``
+    whether it has a word of no other name, ``weight`` how much its words say. ``at`` are the places
+    of the name, ``explains`` those of all names.
     """
 
     share: float
     whole: bool
+    tells: bool
     weight: float
     at: tuple[int, ...]
     explains: frozenset[int]
@@ -49,9 +51,10 @@ class Mentions:
 def find_mentions(lexicon: Lexicon, tokens: Sequence[str]) -> Mentions:
     """Return the actions and objects that the words of a text name, in whole or in part."""
     types = _places(lexicon.type_words, tokens)
-    actions = _named(lexicon.actions, _places(lexicon.action_words, tokens))
+    places = _places(lexicon.action_words, tokens)
+    actions = _named(lexicon.actions, places, lexicon.hinting, in_order=True)
     places = _places(lexicon.object_words, tokens)
-    objects = _named(lexicon.objects, places, lexicon.telling)
+    objects = _named(lexicon.objects, places, lexicon.telling, in_order=False)
     return Mentions(
         len(tokens),
         _without(actions, objects),
@@ -86,11 +89,11 @@ def _places(words: WordsByInitial, tokens: Sequence[str]) -> WordPlaces:
 
 
 def _named(
-    phrases_of: Phrases, places: WordPlaces, telling: frozenset[str] | None = None
+    phrases_of: Phrases, places: WordPlaces, telling: frozenset[str], in_order: bool
 ) -> NamesMentions:
-    """Return what is named; words of actions come in order, of objects by what is ``telling``."""
+    """Return what is named: actions in order, objects in any order or by a telling part."""
     matches = {
-        name: [m for phrase in phrases for m in _matches(phrase, places, telling)]
+        name: [m for phrase in phrases for m in _matches(phrase, places, telling, in_order)]
         for name, phrases in phrases_of.items()
         if any(word in places for phrase in phrases for word in phrase)
     }
@@ -102,7 +105,7 @@ def _named(
         best = max(whole or some, key=_rank, default=None)
         if best is not None and best.whole <= bool(whole):
             explains = frozenset(at for m in (whole or [best]) for at in m.at)
-            named[name] = Mention(best.share, best.whole, best.weight, best.at, explains)
+            named[name] = replace(best, explains=explains)
     return named
 
 
@@ -111,24 +114,23 @@ def _rank(mention: Mention) -> tuple[bool, float, float, int]:
 
 
 def _matches(
-    phrase: Phrase, places: WordPlaces, telling: frozenset[str] | None
+    phrase: Phrase, places: WordPlaces, telling: frozenset[str], in_order: bool
 ) -> Iterator[Mention]:
     """Yield the ways in which a text holds a phrase, one for each place where it can begin."""
-    in_order = telling is None
     starts = places.get(phrase[0], ()) if in_order else ()
     starts = starts or [place for word in phrase for place in places.get(word, ())]
     size = sum(map(len, phrase))
     for start, _ in starts:
         similarities, at = _align(phrase, places, start, in_order)
-        there = [(word, s) for word, s in zip(phrase, similarities, strict=True) if s]
+        there = {word: s for word, s in zip(phrase, similarities, strict=True) if s}
         if there:
-            share = sum(len(word) * s for word, s in there) / size
-            told = max(weight(word) for word, _ in there)
-            part = max((s for word, s in there if telling and word in telling), default=0.0)
-            whole = len(there) == len(phrase)
-            if part and not whole:
+            share = sum(len(word) * s for word, s in there.items()) / size
+            part = max((s for word, s in there.items() if word in telling), default=0.0)
+            whole = all(similarities)
+            if part and not (whole or in_order):
                 share, whole = max(share, _PART_TELLS * part), True
-            yield Mention(share, whole, told, tuple(at), frozenset(at))
+            weighs = max(map(weight, there))
+            yield Mention(share, whole, part > 0, weighs, tuple(at), frozenset(at))
 
 
 def _align(

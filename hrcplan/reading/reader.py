@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from hrcplan.reading.lexicon import Lexicon
-from hrcplan.reading.mentions import Mentions, find_mentions
+from hrcplan.reading.mentions import Mention, Mentions, find_mentions
 from hrcplan.reading.negations import denies
 from hrcplan.reading.tokens import split, weight
 
@@ -123,7 +123,7 @@ class _Scorer:
         self.actions = {
             name: m for name, m in mentions.actions.items() if m.whole and m.weight >= _CLEAR
         }
-        self.hints = [m for m in mentions.actions.values() if not m.whole and m.weight == 1]
+        self.hints = [m for m in mentions.actions.values() if m.tells and not m.whole]
         self.objects = {
             name: m
             for name, m in mentions.objects.items()
@@ -142,17 +142,12 @@ class _Scorer:
 
     def score(self, step: Sequence[str]) -> float:
         """Return the evidence for a step; only differences to others and to ``_NONE`` matter."""
-        explained = self._explained(step)
         others = (
             _OTHER_OBJECT if self._fits(name, step) else _ODD_OBJECT
             for name in self._other_objects(step)
         )
-        rivals = (
-            _OTHER_ACTION * m.weight
-            for name, m in self.actions.items()
-            if name != step[0] and not explained.issuperset(m.at)
-        )
-        return self._action(step[0]) + self._objects(step) - sum(others) - sum(rivals)
+        rival = _OTHER_ACTION * max(self._rivals(step), default=0.0)
+        return self._action(step[0]) + self._objects(step) - sum(others) - rival
 
     def is_sure(self, step: Sequence[str]) -> bool:
         """Return whether to do a step without asking: its action is named, and no other object.
@@ -160,7 +155,7 @@ class _Scorer:
         Where no object is named, a word that says nothing may be one. Without a word for the
         action all that is said has to be names of the step.
         """
-        if any(self._fits(name, step) for name in self._other_objects(step)):
+        if self._rivals(step) or any(self._fits(o, step) for o in self._other_objects(step)):
             return False
         named = [self.mentions.objects[name] for name in set(step[1:]) & self.objects.keys()]
         if any(mention.share < _SURE for mention in named) or not all(self._in_order(step)):
@@ -169,9 +164,10 @@ class _Scorer:
         rest = set(range(self.mentions.n)) - self._explained(step) - self.mentions.other
         if any(m.share >= _HINT and rest.issuperset(m.at) for m in self.hints):
             return False
+        unread = [len(self.tokens[i]) for i in rest]
         if action is None:
-            return bool(named) and not rest
-        is_open = not named and any(len(self.tokens[i]) >= _CONTENT for i in rest)
+            return bool(named) and not unread
+        is_open = not named and max(unread, default=0) >= _CONTENT
         return action.share >= _SURE and not (is_open and self.lexicon.slots[step[0]])
 
     def _fits(self, name: str, step: Sequence[str]) -> bool:
@@ -191,6 +187,24 @@ class _Scorer:
         for name, mention in self.objects.items():
             if name not in step[1:] and not explained.issuperset(mention.at):
                 yield name
+
+    def _rivals(self, step: Sequence[str]) -> list[float]:
+        """Return how much the words of other actions tell that the step does not explain.
+
+        Of two names that share a word the longer counts: "add water" is more than "add to".
+        """
+        explained = self._explained(step)
+        own = self.actions.get(step[0])
+
+        def size(mention: Mention) -> int:
+            return sum(len(self.tokens[i]) for i in mention.at)
+
+        return [
+            mention.weight
+            for name, mention in self.actions.items()
+            if name != step[0] and not explained.issuperset(mention.at)
+            if own is None or not set(own.at) & set(mention.at) or size(mention) > size(own)
+        ]
 
     def _in_order(self, step: Sequence[str]) -> list[bool]:
         """Return of each two objects that could change places whether they are named in order."""
