@@ -13,11 +13,14 @@ from hrcplan.pddl.model import Problem
 from hrcplan.planners import registry
 from hrcplan.planners.choice import fixed_order
 from hrcplan.planners.contract import Planner, Status
+from hrcplan.planners.result import is_better
 from hrcplan.planners.solve import Result, solve
 from hrcplan.task import Task
 from hrcplan.task.regrounding import Groundings
 
 DEFAULT_TIMEOUT_S = 20.0
+COMPARISON = 0.1
+"""The part of the time that each further planner gets for its first plan, once there is one."""
 _Key = tuple[object, ...]
 
 
@@ -26,8 +29,9 @@ class Replanner:
 
     ``planners`` (names or objects; the built-in ones follow) are asked in turn, each for at most
     half of the time left. What one of them says counts if it is a checked plan or a proof that
-    there is none. Groundings are kept, so ``exact`` keeps what it knows of them. Interactions are
-    priced with their retries.
+    there is none. Unless a plan is proven, or of a planner that was named, the other planners are
+    asked for their first one, and the best counts. Groundings are kept, so ``exact`` keeps what it
+    knows of them. Interactions are priced with their retries.
     """
 
     def __init__(
@@ -37,6 +41,7 @@ class Replanner:
         self.model = model
         self.timeout_s = timeout_s
         self.planners = list(with_successors(planners, model.problem))
+        self._n_chosen = sum(planner != "auto" for planner in planners)
         self.wall_s: list[float] = []
         self._groundings = Groundings()
         self._answers: dict[_Key, ev.Planned] = {}
@@ -64,21 +69,31 @@ class Replanner:
         deadline = time.monotonic() + self.timeout_s
         problem, task = self._from_now(ask)
         failures: list[str] = []
+        best: Result | None = None
+        note = ""
         for position in range(len(self.planners)):
             left_s = max(0.001, deadline - time.monotonic())
             share_s = left_s if position == len(self.planners) - 1 else left_s / 2
-            result = self._try(position, problem, task, share_s, failures)
-            if result is None:
+            if best is not None:
+                share_s = min(share_s, COMPARISON * self.timeout_s)
+            result = self._try(position, problem, task, share_s, best is not None, failures)
+            if result is None or (result.plan is None and best is not None):
                 continue
             if result.plan is None:
                 return ev.Planned(ask.t, None, None, result.planner, "the goal is unsolvable")
-            note = "; ".join(failures)
-            return ev.Planned(ask.t, result.plan, result.objective, result.planner, note)
-        return ev.Planned(ask.t, None, note="; ".join(failures))
+            if best is None:
+                note = "; ".join(failures)
+            if best is None or is_better(problem, result.objective, best.objective):
+                best = result
+            if best.status is Status.OPTIMAL or position < self._n_chosen:
+                break
+        if best is None:
+            return ev.Planned(ask.t, None, note="; ".join(failures))
+        return ev.Planned(ask.t, best.plan, best.objective, best.planner, note)
 
     def _try(
         self, position: int, problem: Problem, task: Task | None, share_s: float,
-        failures: list[str],
+        any_plan: bool, failures: list[str],
     ) -> Result | None:  # fmt: skip
         """Return a usable result, or None with one more failure noted."""
         planner = self.planners[position]
@@ -86,7 +101,9 @@ class Replanner:
         try:
             if isinstance(planner, str):
                 planner = self.planners[position] = registry.make(planner)
-            result = solve(problem, planner, timeout_s=share_s, lanes=True, task=task)
+            result = solve(
+                problem, planner, timeout_s=share_s, any_plan=any_plan, lanes=True, task=task
+            )
         except HrcplanError as error:
             failures.append(f"{name}: {error.message}")
             return None

@@ -7,6 +7,7 @@ import pytest
 from hrcplan.agents import load_profile
 from hrcplan.errors import PlannerError
 from hrcplan.execution import events as ev
+from hrcplan.execution import replanner
 from hrcplan.execution.model import ExecutionModel
 from hrcplan.execution.monitor import Monitor
 from hrcplan.execution.replanner import Replanner
@@ -123,3 +124,48 @@ def test_replanning_is_quick() -> None:
     walls = sorted(planner.wall_s[1:])
     assert len(walls) >= 8
     assert walls[len(walls) // 2] < 0.1
+
+
+class Claims:
+    """Answers with the plan of one planner, and proves nothing."""
+
+    def __init__(self, name: str, text: str | None) -> None:
+        self.card = Capabilities(name, "a plan that is written down", temporal=True)
+        self.text = text
+        self.any_plan: list[bool] = []
+
+    def missing(self) -> str | None:
+        return None
+
+    def solve(self, request: Request) -> Answer:
+        self.any_plan.append(request.any_plan)
+        if self.text is None:
+            return Answer(Status.UNSOLVABLE)
+        return Answer(Status.SOLVED, parse_plan(self.text))
+
+
+GOOD = """0: (move human wp1 wp4) [50]
+0: (move robot wp0 wp3) [50]
+50.001: (grasp human blue wp4) [50]
+50.001: (grasp robot green wp3) [50]
+100.002: (move robot wp3 wp2) [50]
+100.002: (move human wp4 wp5) [50]
+150.003: (place robot green wp2) [50]
+150.003: (place human blue wp5) [50]"""
+SLOW = GOOD.replace("150.003: (place human", "950.003: (place human")
+
+
+@pytest.mark.parametrize(("named", "asked", "best"), [((), 3, "good"), (("slow",), 1, "slow")])
+def test_plans_that_are_not_proven_are_compared(
+    named: tuple[str, ...], asked: int, best: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A planner that was named has the word for itself."""
+    claims = [Claims("slow", SLOW), Claims("none", None), Claims("good", GOOD)]
+    monkeypatch.setattr(replanner, "fixed_order", lambda problem: claims)
+    model = ExecutionModel(read("transport", "two-boxes"))
+    planner = Replanner(model, claims[:1] if named else ("auto",))
+    problem = model.problem
+    answer = planner.answer(ev.AskPlan(0.0, problem.facts, {}, problem.values))
+    assert answer.planner == best
+    assert [claim.any_plan for claim in claims][:asked] == [[False], [True], [True]][:asked]
+    assert sum(len(claim.any_plan) for claim in claims) == asked
