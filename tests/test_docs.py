@@ -93,7 +93,7 @@ LINK = re.compile(r"\]\((?!https?:|#|mailto:)([^)#\s]+)(?:#[^)]*)?\)")
 
 def test_links_lead_to_files() -> None:
     """Also those of pages that are not on the site; `mkdocs build --strict` looks at anchors."""
-    made = {ROOT / "docs/reference/cli.md"}
+    made = {ROOT / "docs" / "reference" / "cli.md"}
     targets = {(path, path.parent / link) for path in [*DOCUMENTS, ROOT / "CONTRIBUTING.md"]
                for link in LINK.findall(path.read_text("utf-8"))}  # fmt: skip
     assert len(targets) > 50

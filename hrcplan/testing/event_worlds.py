@@ -33,7 +33,7 @@ def check_event_world(
     state that the problem has, and a journal can hold every event.
 
     Plans of hrcplan are carried out in the world; in another one, the first actions are broken off
-    half-way. A world that was told to `Finish` may let go of its robots.
+    half-way. After `Finish`, a world may let go of its robots.
 
     Args:
         make: The class of the world (see `hrcplan.execution.worlds.EventWorld`).
