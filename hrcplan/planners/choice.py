@@ -6,11 +6,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from hrcplan.errors import LimitError, MissingPlannerError, UnsupportedError, UsageError
+from hrcplan.pddl.constructs import PREFERENCES
 from hrcplan.pddl.inlining import remaining
 from hrcplan.pddl.model import TOTAL_COST, Problem
 from hrcplan.planners import registry
 from hrcplan.planners.contract import Capabilities, Planner, Request
 from hrcplan.planners.relaxed_bound import RelaxedBound
+from hrcplan.planners.soft_goals import without_preferences
 
 _SEQUENCES = ("fast-downward", "enhsp")
 """Planners that read a temporal task as a sequence of actions, and that search in two ways: for a
@@ -104,7 +106,7 @@ def unable(card: Capabilities, request: Request) -> str | None:
     if not domain.is_temporal and not card.classical:
         return "it plans with time only"
     beyond = sorted(remaining(request.problem) - card.constructs)
-    if beyond:
+    if beyond and not (beyond == [PREFERENCES] and without_preferences(request.problem)):
         return f"it does not know {' and '.join(beyond)}"
     if not card.numeric and _is_numeric(request):
         return "it holds no numbers that actions change"

@@ -11,11 +11,21 @@ from html import escape
 from hrcplan.core.numbers import Number, exact, number_text
 from hrcplan.core.text import cut
 from hrcplan.errors import CostGuardError, MissingPlannerError, PlannerError, UnsupportedError
+from hrcplan.pddl.constructs import PREFERENCES
 from hrcplan.pddl.inlining import remaining
 from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, Problem
 from hrcplan.pddl.semantics import Undefined, evaluate
-from hrcplan.planners.contract import Answer, Capabilities, Planner, Request, Status
+from hrcplan.planners.contract import (
+    Answer,
+    Capabilities,
+    LazyTask,
+    Planner,
+    Replays,
+    Request,
+    Status,
+)
 from hrcplan.planners.lanes import schedule, with_durations
+from hrcplan.planners.soft_goals import HardGoals, without_preferences
 from hrcplan.plans import EPSILON_S, Plan
 from hrcplan.validation import Report, objective, validate
 
@@ -120,16 +130,35 @@ def ask(planner: Planner, request: Request, lanes: bool, why: str) -> Result:
     if missing is not None:
         raise MissingPlannerError(f"planner '{planner.card.name}' cannot run here: {missing}")
     beyond = sorted(remaining(request.problem) - planner.card.constructs)
-    if beyond:
+    hard_goals = without_preferences(request.problem) if beyond == [PREFERENCES] else None
+    if beyond and hard_goals is None:
         message = f"planner '{planner.card.name}' does not know {' and '.join(beyond)}"
         raise UnsupportedError(message, hint="kairos knows them" if planner.card.own else None)
     start_s = time.monotonic()
-    answer = planner.solve(request)
+    answer = _answer(planner, request, hard_goals)
     result = check_answer(planner.card, request.problem, answer, lanes, why, request.replays)
     wall_s = time.monotonic() - start_s
     notes = [note for note in (answer.note, result.mismatch) if note]
     attempts = tuple(Attempt(planner.card.name, note, wall_s) for note in notes)
     return replace(result, wall_s=wall_s, attempts=attempts)
+
+
+def _answer(planner: Planner, request: Request, hard_goals: HardGoals | None) -> Answer:
+    """Return what a planner says of a problem, or of the one without preferences."""
+    if hard_goals is None:
+        return planner.solve(request)
+
+    def on_plan(plan: Plan) -> None:
+        request.on_plan(hard_goals.plan(plan))
+
+    own = replace(
+        request, problem=hard_goals.problem, lazy_task=LazyTask(), replays=Replays(),
+        on_plan=on_plan,
+    )  # fmt: skip
+    answer = planner.solve(own)
+    if answer.plan is None:
+        return answer
+    return replace(answer, plan=hard_goals.plan(answer.plan))
 
 
 def is_better(problem: Problem, one: Number | None, other: Number | None) -> bool:

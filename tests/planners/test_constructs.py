@@ -83,8 +83,6 @@ def test_planners_that_know_axioms_find_the_cheapest_plan(planner: str) -> None:
         (WIRES, "uniform-cost", "derived predicates"),
         (WIRES, "enhsp", "derived predicates"),
         (DOOR, "exact", "timed initial literals"),
-        (TEA, "fast-downward", "preferences"),
-        (TEA, "uniform-cost", "preferences"),
         (MEMORY, "exact", "condition at the start"),
         (TANK, "enhsp", "processes"),
     ],
