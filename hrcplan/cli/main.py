@@ -29,6 +29,7 @@ COMMANDS = {
     "allocation": "hrcplan.cli.allocation",
     "validate": "hrcplan.cli.validate",
     "execute": "hrcplan.cli.execute",
+    "collaborate": "hrcplan.cli.collaborate",
     "robot": "hrcplan.cli.robot",
     "replay": "hrcplan.cli.replay",
     "check": "hrcplan.cli.check",

@@ -22,6 +22,7 @@ FILE_WIDTH = 160  # characters of a table that goes to a file or a program
 
 DEBUG = False
 JSON = False
+LINES = False
 VERBOSE = False
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -65,11 +66,14 @@ def common_options(function: F) -> F:
 
 
 def document(value: Mapping[str, Any]) -> None:
-    """Print one JSON document on stdout, in UTF-8 and harmless to a terminal."""
+    """Print one JSON document on stdout, in UTF-8 and harmless to a terminal.
+
+    It is one line if the command prints one for every event (``LINES``).
+    """
     limit = sys.get_int_max_str_digits()
     sys.set_int_max_str_digits(0)  # numbers are bounded where they are computed
     try:
-        text = json.dumps(value, indent=2, ensure_ascii=False)
+        text = json.dumps(value, indent=None if LINES else 2, ensure_ascii=False)
     finally:
         sys.set_int_max_str_digits(limit)
     _echo(text if text.isascii() else "".join(map(_json_character, text)))
@@ -83,6 +87,15 @@ def _json_character(character: str) -> str:
 def result(text: str) -> None:
     """Print a result in words on stdout."""
     _echo(harmless(text))
+
+
+def prompt(text: str) -> None:
+    """Print what asks for a line of input, at once."""
+    try:
+        click.echo(harmless(text), nl=False)
+        sys.stdout.flush()
+    except OSError as error:
+        raise PrintError(error) from None
 
 
 def table(grid: RenderableType) -> None:

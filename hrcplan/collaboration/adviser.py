@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from typing import Any
@@ -26,6 +26,7 @@ from hrcplan.execution.driver import PlanProvider
 from hrcplan.execution.replanner import Replanner
 from hrcplan.inference.belief import HasProgress, n_declared
 from hrcplan.pddl.model import fact_text
+from hrcplan.pddl.semantics import LiftedState
 from hrcplan.plans import PlannedAction
 
 N_HELPED = 3  # goals that are named as reasons for a step
@@ -61,7 +62,12 @@ class Adviser:
     @cached_property
     def fold(self) -> BeliefFold:
         """The belief of the assistant."""
-        return BeliefFold(self.bank, self._make(self.bank), self.setup.pace == TURNS)
+        return BeliefFold(self.bank, self._make(self.bank))
+
+    @property
+    def is_ready(self) -> bool:
+        """Whether the assistant has been made."""
+        return "fold" in self.__dict__
 
     @property
     def assistant(self) -> Assistant[Any]:
@@ -161,24 +167,48 @@ class Adviser:
 
     def possible(self, agents: Sequence[str]) -> list[ActionWords]:
         """Return the ground actions that people can begin now, in order."""
+        state = self._state_for(agents)
+        return [words for words in self._actions(agents) if self._obstacle(words, state) is None]
+
+    def _state_for(self, agents: Sequence[str]) -> LiftedState:
+        """Return the state in which people begin: what a plan asks of them has not begun."""
+        model = self.setup.model.actions
         if self.run is None:
-            return []
-        model, table = self.setup.model.actions, self.bank.table
-        actions = (table.task.actions[i] for step in range(len(table)) for i in table[step].actions)
-        possible = []
-        for action in actions:
-            if action.agent is not None and action.agent not in agents:
-                continue
-            step = model.step(PlannedAction(action.name, action.args))
-            if step is not None and model.obstacle(self.run.run.state, step) is None:
-                possible.append((action.name, *action.args))
-        return possible
+            return model.initial()
+        state = self.run.run.state
+        for action in self.run.running:
+            if action.index is not None and action.step.agent in agents:
+                state = model.revert(state, action.start_effects)
+        return state
+
+    def _actions(self, agents: Sequence[str]) -> Iterator[ActionWords]:
+        """Yield the ground actions of agents."""
+        table = self.bank.table
+        for step in range(len(table)):
+            for action in (table.task.actions[i] for i in table[step].actions):
+                if action.agent is None or action.agent in agents:
+                    yield action.name, *action.args
+
+    def _obstacle(self, words: ActionWords, state: LiftedState) -> str | None:
+        """Return what keeps an action from beginning in a state."""
+        model = self.setup.model.actions
+        step = model.step(PlannedAction(words[0], words[1:]))
+        return "an action of the domain" if step is None else model.obstacle(state, step)
 
     def read(self, ask: shared.AskReading) -> shared.Read:
-        """Return what a person means."""
+        """Return what a person means; of an action that cannot begin, what it needs."""
         steps = self.possible(ask.agents)
         reading = self.reader(ask.text, steps, self.prior(steps))
-        return shared.Read(ask.t, reading.outcome, tuple(map(fact_text, reading.options)))
+        options = tuple(map(fact_text, reading.options))
+        note = self._why_not(ask) if reading.outcome == shared.NONE else ""
+        return shared.Read(ask.t, reading.outcome, options, note)
+
+    def _why_not(self, ask: shared.AskReading) -> str:
+        named = read_exactly(ask.text, list(self._actions(ask.agents)), {}).options
+        if not named:
+            return ""
+        obstacle = self._obstacle(named[0], self._state_for(ask.agents))
+        return f"{fact_text(named[0])} needs {obstacle}"
 
     def prior(self, steps: Sequence[ActionWords]) -> Mapping[ActionWords, float]:
         """Return how probable each of several next actions of a person is, as the belief says.

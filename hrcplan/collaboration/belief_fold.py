@@ -28,12 +28,10 @@ class BeliefFold:
     Args:
         bank: The plans.
         assistant: Made from it.
-        takes_turns: Whether whoever acts has the turn (pace ``turns``); else whoever acts is put
-            in its turn first, where plans are team plans.
     """
 
-    def __init__(self, bank: Bank, assistant: Assistant[Any], takes_turns: bool = True) -> None:
-        self.bank, self.assistant, self.takes_turns = bank, assistant, takes_turns
+    def __init__(self, bank: Bank, assistant: Assistant[Any]) -> None:
+        self.bank, self.assistant = bank, assistant
         self.has_turns = team_moves(bank) is not None
         self._seen: tuple[SeenMark, ...] = ()
         self._states: list[_Folded] = [(assistant.start(), frozenset())]
@@ -89,6 +87,4 @@ class BeliefFold:
     def _after_pass(self, state: Any, agent: str) -> Any:
         if not self.has_turns:
             return state  # a wait says nothing where it is not known whose turn it is
-        if not self.takes_turns:
-            state = at_turn(self.assistant, state, agent)
-        return after_wait(self.assistant, state)
+        return after_wait(self.assistant, self.in_turn_of(state, agent))

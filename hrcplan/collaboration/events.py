@@ -49,12 +49,13 @@ class Said:
 class Read:
     """The answer to `AskReading`: ``act`` (one option), ``ask`` (several), or ``none``.
 
-    Options are ground actions as text.
+    Options are ground actions as text. ``note`` says why there are none, if that is clear.
     """
 
     t: float
     outcome: str
     options: tuple[str, ...] = ()
+    note: str = ""
 
 
 @dataclass(frozen=True, slots=True)

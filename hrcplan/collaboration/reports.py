@@ -38,7 +38,8 @@ class Reports:
     def begin(self, companion: CompanionRun, step: BoundAction) -> tuple[CompanionRun, ev.Dispatch]:
         """Return the run when an action that can begin has begun."""
         duration = self._duration(step)
-        lasts = float(duration if self.setup.pace == FREE and step.schema.durative else UNIT_S)
+        is_timed = self.setup.pace == FREE or self.setup.has_one_goal
+        lasts = float(duration if is_timed and step.schema.durative else UNIT_S)
         run, dispatch = begin_action(self.actions, companion.run, step, duration, lasts)
         companion = replace(companion, run=run, has_acted=True)
         return companion.with_dispatches((dispatch,), self.setup.robots), dispatch
@@ -67,7 +68,7 @@ class Reports:
         if agent not in self.setup.people or (step.agent and event.agent not in ("", step.agent)):
             return _told(companion, "unknown-agent", f"{text} is no action of a person here")
         if self.setup.has_one_goal and _runs(companion.run, step):
-            return _closed(companion), ()  # it was asked for
+            return _closed(_begun_now(companion, step)), ()  # it was asked for
         if not self._has_turn(companion, agent):
             return _told(companion, "not-your-turn", f"it is not the turn of {agent}")
         after, cancels = self._without_request(companion, agent)
@@ -131,7 +132,8 @@ class Reports:
         if event.outcome == shared.ASK and event.options:
             ask = shared.Ask(companion.t, shared.WHICH, event.options)
             return replace(companion, phase=CompanionPhase.ASKING, question=ask), (ask,)
-        return _told(companion, "not-understood", "this is no action that can be done now")
+        why = event.note or "this is no action that can be done now"
+        return _told(companion, "not-understood", why)
 
     def _begun_text(self, companion: CompanionRun, text: str) -> CompanionStep:
         action = parse_plan(text).actions[0]
@@ -189,6 +191,13 @@ class Reports:
 
 def _runs(run: Run, step: BoundAction) -> bool:
     return any(r.step == step for r in run.running)
+
+
+def _begun_now(companion: CompanionRun, step: BoundAction) -> CompanionRun:
+    """Return the run in which an action that a plan asked for begins now."""
+    run = companion.run
+    running = tuple(replace(r, begun_s=run.t) if r.step == step else r for r in run.running)
+    return replace(companion, run=replace(run, running=running))
 
 
 def _closed(companion: CompanionRun) -> CompanionRun:

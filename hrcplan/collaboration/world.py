@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from hrcplan.collaboration import events as shared
 from hrcplan.collaboration.events import SharedCommand, SharedEvent
 from hrcplan.collaboration.persons import Person
@@ -45,7 +47,7 @@ class SharedWorld:
             words = (event.action, *event.args)
             for number, request in list(self._requests.items()):
                 if (request.action, *request.args) == words:
-                    self._inner.do(self._requests.pop(number))
+                    self._inner.do(replace(self._requests.pop(number), t=run.t))
 
     def do(self, command: SharedCommand) -> None:
         """Begin or break off an action, or take note."""
@@ -85,7 +87,7 @@ class SharedWorld:
         return events
 
     def _who_can_act(self, run: CompanionRun) -> tuple[str, ...]:
-        if run.question is not None or run.is_paused:
+        if run.question is not None:
             return self.setup.people
         if run.phase is not CompanionPhase.LISTENING:
             return ()

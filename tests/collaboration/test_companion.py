@@ -98,7 +98,7 @@ class Script:
         return [c.code for c in self.commands if isinstance(c, ev.Tell)]
 
     def belief(self) -> Any:
-        return BeliefFold(self.bank, robot_of(self.name), False).state(self.run.history)
+        return BeliefFold(self.bank, robot_of(self.name)).state(self.run.history)
 
     def posterior(self) -> list[float]:
         return robot_of(self.name).posterior(self.belief()).tolist()  # type: ignore[no-any-return]
@@ -201,6 +201,16 @@ def test_undo_is_never_having_done_it(name: str, data: st.DataObject) -> None:
     assert state_after(with_x.run.history, with_x.machine.reports.actions)[0] == (
         with_x.run.run.state
     )
+
+
+def test_a_robots_wait_says_nothing_about_people_after_an_undo() -> None:
+    script, other = Script("hall", "turns"), Script("hall", "turns")
+    script.do("go ann b c")
+    script.robot("")
+    script.tell(shared.Undone(0.0, 0))
+    for one in (script, other):
+        one.do("go ann b a")
+    assert script.posterior() == pytest.approx(other.posterior())
 
 
 def test_undo_leaves_what_the_robot_has_done() -> None:

@@ -6,8 +6,7 @@ from typing import Any
 
 import pytest
 
-from hrcplan.assistance.assistant import Assistant
-from hrcplan.assistance.decision_points import DecisionPoints
+from hrcplan.assistance.assistant import Assistant, needs_training
 from hrcplan.assistance.registry import ASSISTANTS
 from hrcplan.assistance.rhp.assistant import RecedingHorizonPlanner
 from hrcplan.bank import Bank, build, build_bank
@@ -39,9 +38,9 @@ def assistant(method: str, name: str) -> Assistant[Any]:
     """Return an assistant; where it would train a forest, one with another belief."""
     if method == "rhp":
         return RecedingHorizonPlanner(bank_of(name), "presence")
-    if method == "cdp":
-        return DecisionPoints(bank_of(name), SwitchingBelief(bank_of(name)), width=2)
-    return ASSISTANTS.make(method, bank_of(name))
+    kind = ASSISTANTS.find(method)
+    bank = bank_of(name)
+    return kind(bank, SwitchingBelief(bank)) if needs_training(kind) else kind(bank)
 
 
 def steps_of_episode(bank: Bank, robot: Assistant[Any], course: Course) -> list[tuple[Any, ...]]:

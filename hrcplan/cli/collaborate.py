@@ -1,0 +1,179 @@
+"""``hrcplan collaborate``: a robot helps a person whose goal it does not know."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Hashable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import rich_click as click
+
+from hrcplan.cli import options, output
+from hrcplan.core.text import plural
+from hrcplan.errors import UsageError
+
+if TYPE_CHECKING:
+    from hrcplan.bank import Bank, Goals
+    from hrcplan.cli.narrator import Narrator
+    from hrcplan.collaboration.collaborate import Collaboration, CollaborationParts
+    from hrcplan.collaboration.events import SharedCommand, SharedEvent
+    from hrcplan.collaboration.run import CompanionRun
+    from hrcplan.collaboration.setup import CollaborationSetup
+
+TURNS = "turns"
+ME, SIMULATED = "me", "simulated"
+EXIT_NO = 1
+
+
+@click.command(
+    "collaborate",
+    epilog=options.notes(
+        options.GOALS,
+        "HUMAN: me (you type what you do), simulated (frontier), cc-htn, plans, or module:Class.",
+        options.ROBOTS,
+        "At the prompt: what you do in the words of the PDDL, or its number; Enter to wait; help.",
+        "With --json every event is one line, and so is the outcome at the end.",
+    ),
+)
+@click.argument("domain", metavar="DOMAIN")
+@click.argument("goals", required=False, metavar="[GOALS]")
+@click.option("--human", default=ME, show_default=True, metavar="HUMAN", help="Who the people are.")
+@click.option("--pace", default="turns", show_default=True, metavar="PACE",
+              help="turns: first you, then the robot; free: anybody begins at any time, and "
+                   "actions take their durations.")  # fmt: skip
+@click.option("--method", default="hrcplan", show_default=True, metavar="METHOD",
+              help="The robot.")  # fmt: skip
+@click.option("--journal", type=click.Path(path_type=Path), metavar="FILE",
+              help="Write everything down, to go on later and to replay it.")  # fmt: skip
+@click.option("--resume", is_flag=True, help="Go on with the collaboration in the journal.")
+@options.seed("Random seed of a simulated human.")
+@output.common_options
+def command(
+    domain: str, goals: str | None, human: str, pace: str, method: str, journal: Path | None,
+    resume: bool, seed: int,
+) -> int:  # fmt: skip
+    """Work together with a robot that does not know your goal.
+
+    The robot knows the GOALS that you may have, infers yours from what you do, and helps; you may
+    change your mind. It ends when a goal holds and you say that this was all. With one goal the
+    robot follows the best plan, and tells you your part of it.
+    """
+    from hrcplan.cli.lines import EndOfInputError
+    from hrcplan.collaboration.collaborate import bank_for, carry_out_collaboration, make_setup
+
+    output.LINES = output.JSON
+    bank = bank_for(_goals(domain, goals))
+    spec = {"name": "frontier" if human == SIMULATED else human}
+    setup = make_setup(bank, pace=pace, method=method, seed=seed, human=spec)
+    _check_method(setup, len(bank.names))
+    session = _Session(bank)
+    try:
+        done = carry_out_collaboration(
+            setup, session.make_parts, journal=journal, resume=resume, watch=session.watch
+        )
+    except (EndOfInputError, KeyboardInterrupt) as stop:
+        hint = f"go on with: --journal {journal} --resume" if journal else None
+        if isinstance(stop, KeyboardInterrupt):
+            if hint:
+                output.note(hint)
+            raise
+        output.fail("input-ended", "the input has ended before a goal was reached", hint=hint)
+        return EXIT_NO
+    _finish(done)
+    return 0 if done.outcome.success else EXIT_NO
+
+
+def _goals(domain: str, goals: str | None) -> Goals:
+    """Return the goals: a folder of them, those shipped, or that of one problem."""
+    from hrcplan.bank import from_problems, read_goals
+    from hrcplan.pddl.inputs import read
+
+    is_pair = goals is None and domain.count("/") == 1 and not domain.endswith(".pddl")
+    if is_pair and not os.path.exists(domain):
+        return from_problems([read(*domain.split("/"))])
+    if goals is not None and goals.endswith(".pddl") and not os.path.isdir(goals):
+        return from_problems([read(domain, goals)])
+    return read_goals(domain, goals)
+
+
+def _check_method(setup: CollaborationSetup, n_goals: int) -> None:
+    """Refuse a robot that has to be told the goal; say so if a classifier may be trained first.
+
+    Raises:
+        UsageError: if the goal of a live person would have to be known.
+    """
+    from hrcplan.assistance.assistant import KnowsGoal, needs_training
+    from hrcplan.assistance.registry import ASSISTANTS
+
+    kind: Hashable = ASSISTANTS.find(setup.method)
+    if setup.human["name"] == ME and n_goals > 1 and isinstance(kind, KnowsGoal):
+        message = f"the robot '{setup.method}' has to know your goal"
+        hint = "it works with --human simulated"
+        raise UsageError(message, code="goal-unknown", hint=hint)
+    if n_goals > 1 and needs_training(kind):
+        output.note("the robot may first train a classifier, which takes a minute")
+
+
+class _Session:
+    """The parts of one collaboration, made for the setup that it has in the end."""
+
+    def __init__(self, bank: Bank) -> None:
+        self.bank = bank
+        self.narrator: Narrator | None = None
+
+    def make_parts(self, setup: CollaborationSetup) -> CollaborationParts:
+        """Return the parts, with somebody at the terminal or a simulated human."""
+        from hrcplan.cli.lines import InputLines
+        from hrcplan.cli.narrator import Narrator
+        from hrcplan.cli.terminal import Terminal
+        from hrcplan.collaboration import collaborate
+        from hrcplan.collaboration.adviser import Adviser
+
+        human = str(setup.human["name"])
+        if human != ME:
+            course = collaborate.course_of(self.bank, setup.seed)
+            parts = collaborate.simulated(setup, self.bank, course, human)
+            self.narrator = Narrator(setup, parts.adviser)
+        else:
+            adviser = Adviser(setup, self.bank, collaborate.assistant_of(setup))
+            self.narrator = Narrator(setup, adviser)
+            terminal = Terminal(self.narrator, InputLines())
+            parts = collaborate.parts_with(setup, self.bank, adviser, terminal)
+        _begin(setup)
+        return parts
+
+    def watch(
+        self, run: CompanionRun, event: SharedEvent, commands: tuple[SharedCommand, ...]
+    ) -> None:
+        """Print one step of the machine."""
+        if self.narrator is not None:
+            self.narrator.watch(run, event, commands)
+
+
+def _begin(setup: CollaborationSetup) -> None:
+    """Print what the collaboration is about."""
+    if output.JSON:
+        output.document({
+            "domain": setup.problem.domain.name, "goals": list(setup.goals), "pace": setup.pace,
+            "method": setup.method, "people": list(setup.people),
+            "robots": sorted(setup.robots), "pddl_sha256": setup.pddl_sha256,
+        })  # fmt: skip
+        return
+    people, machines = ", ".join(setup.people), ", ".join(sorted(setup.robots))
+    goals = plural(len(setup.goals), "goal")
+    output.result(f"{setup.problem.domain.name}: {goals}, people {people}, robots {machines}")
+
+
+def _finish(done: Collaboration) -> None:
+    """Print what the collaboration came to."""
+    outcome = done.outcome
+    if output.JSON:
+        output.document({"outcome": outcome.to_json()})
+        return
+    why = f" ({outcome.why})" if outcome.why else ""
+    unit = " s" if done.setup.pace != TURNS or done.setup.has_one_goal else " turns"
+    output.result(
+        f"\n{outcome.ending}{why}: {outcome.done_human} human and {outcome.done_robot} robot "
+        f"actions, {outcome.failed} failed, {outcome.duration_s:g}{unit}"
+    )

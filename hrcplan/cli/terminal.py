@@ -1,0 +1,230 @@
+"""A person at a terminal, or a program at the other end of a pipe, in a collaboration."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from hrcplan.cli import output
+from hrcplan.cli.lines import MAX_LINE, InputLines
+from hrcplan.cli.narrator import Narrator, goals_text
+from hrcplan.collaboration import events as shared
+from hrcplan.collaboration.events import PersonEvent
+from hrcplan.collaboration.reading import ActionWords
+from hrcplan.collaboration.run import CompanionRun
+from hrcplan.core.numbers import number_text
+from hrcplan.errors import UsageError
+from hrcplan.execution import events as ev
+from hrcplan.pddl.model import FluentKey, fact_text
+
+N_SHOWN = 6  # steps that are offered before each of the person's turns
+N_GOALS_LISTED = 12
+N_ALONE = 2  # words of an agent state that depends on its agent alone
+YES = ("yes", "y", "ja", "j")
+NO = ("no", "n", "nein")
+HELP = """Say what you do, in the words of the PDDL ("get yogurt"), or give its number.
+Enter     do nothing now        undo    my last step was not done
+steps     what I can do now     failed  my last step was done, but failed
+why       what the robot weighs goals   what it believes
+state     what holds now        state motivation human 8   how somebody is
+pause     the robot waits       go      it goes on
+quit      end                   NAME: STEP   if several people are at this terminal"""
+
+
+class Terminal:
+    """Reads what people say; acts for all of them.
+
+    Args:
+        narrator: Prints what happens.
+        lines: What is typed.
+    """
+
+    is_live = True
+
+    def __init__(self, narrator: Narrator, lines: InputLines) -> None:
+        self.narrator, self.lines = narrator, lines
+        self.setup, self.adviser = narrator.setup, narrator.adviser
+        self._listed: list[ActionWords] = []
+        self._commands: Mapping[str, Callable[[CompanionRun, list[str]], PersonEvent | None]] = {
+            "undo": self._undo, "failed": self._failed, "why": self._why, "goals": self._goals,
+            "steps": self._steps, "state": self._state, "help": self._help,
+            "pause": lambda run, _: shared.Paused(run.t),
+            "go": lambda run, _: shared.Continued(run.t),
+            "quit": lambda run, _: ev.StopAsked(run.t, "quit"),
+        }  # fmt: skip
+
+    def act(self, run: CompanionRun, agents: tuple[str, ...]) -> tuple[PersonEvent, ...]:
+        """Return what these people do now.
+
+        Raises:
+            EndOfInputError: if there are no more lines.
+        """
+        if run.question is None:
+            self._offer(run, agents)
+        while True:
+            text = self.lines.next(f"{agents[0]}> " if len(self.setup.people) > 1 else "> ")
+            event = self._event(run, agents, text)
+            if event is not None:
+                return (event,)
+
+    def _event(self, run: CompanionRun, agents: tuple[str, ...], text: str) -> PersonEvent | None:
+        """Return what a line means; None if it is answered here and now."""
+        if self.lines.is_too_long:
+            return self._say(f"· a line has at most {MAX_LINE} characters")
+        if not text:
+            return shared.Passed(run.t, agents[0])
+        words = text.lower().split()
+        if run.question is not None:
+            answer = self._answer(run, run.question, words)
+            if answer is not None:
+                return answer
+        if words[0] in self._commands and (len(words) == 1 or words[0] == "state"):
+            return self._commands[words[0]](run, words[1:])
+        return self._step(run, text)
+
+    def _answer(
+        self, run: CompanionRun, question: shared.Ask, words: list[str]
+    ) -> PersonEvent | None:
+        if question.question == shared.DONE and words[0] in (*YES, *NO):
+            choice = shared.YES if words[0] in YES else shared.NO
+            return shared.Answered(run.t, choice)
+        if question.question == shared.WHICH and words[0].isdecimal():
+            place = int(words[0][:4]) - 1
+            if 0 <= place < len(question.options):
+                return shared.Answered(run.t, question.options[place])
+        return None
+
+    def _step(self, run: CompanionRun, text: str) -> PersonEvent | None:
+        agent = ""
+        name, colon, rest = text.partition(":")
+        if colon and name.strip().lower() in self.setup.people:
+            agent, text = name.strip().lower(), rest.strip()
+            if not text:
+                return shared.Passed(run.t, agent)
+        if not text.isdecimal():
+            return shared.Said(run.t, agent, text)
+        place = int(text[:6]) - 1
+        if not 0 <= place < len(self._listed):
+            return self._say(f"· there is no step {text[:6]}; 'steps' lists them")
+        action = self._listed[place]
+        return shared.Begun(run.t, agent, action[0], action[1:])
+
+    def _offer(self, run: CompanionRun, agents: tuple[str, ...]) -> None:
+        """Print the likeliest steps, with numbers."""
+        possible = self.adviser.possible(agents)
+        prior = self.adviser.prior(possible) if self.adviser.is_ready else {}
+        requests = [
+            (r.step.schema.name, *r.step.binding.values())
+            for r in run.running
+            if r.index is not None and r.step.agent in agents
+        ]
+        others = sorted(
+            (words for words in possible if words not in requests),
+            key=lambda words: -prior.get(words, 0.0),
+        )
+        self._listed = [*requests, *others]
+        if output.JSON:
+            return
+        shown = self._listed[:N_SHOWN]
+        steps = "  ".join(f"{n} {self.narrator.words(w)}" for n, w in enumerate(shown, start=1))
+        more = len(self._listed) - len(shown)
+        output.result(f"{steps}{f'  ({more} more: steps)' if more > 0 else ''}")
+
+    def _say(self, text: str) -> PersonEvent | None:
+        """Print an answer; there is no event."""
+        if output.JSON:
+            output.document({"message": text.removeprefix("· ")})
+        else:
+            output.result(text)
+        return None
+
+    # Commands.
+
+    def _undo(self, run: CompanionRun, words: list[str]) -> PersonEvent | None:
+        last = run.last_reported
+        if last is None:
+            return self._say("· there is nothing to take back")
+        return shared.Undone(run.t, last.number)
+
+    def _failed(self, run: CompanionRun, words: list[str]) -> PersonEvent | None:
+        last = run.last_reported
+        if last is None:
+            return self._say("· there is no step that could have failed")
+        return shared.Undone(run.t, last.number, attempted=True)
+
+    def _help(self, run: CompanionRun, words: list[str]) -> PersonEvent | None:
+        return self._say(HELP)
+
+    def _steps(self, run: CompanionRun, words: list[str]) -> None:
+        if output.JSON:
+            output.document({"steps": [fact_text(step) for step in self._listed]})
+            return
+        for n, step in enumerate(self._listed, start=1):
+            output.result(f"{n:4}  {self.narrator.words(step)}")
+
+    def _goals(self, run: CompanionRun, words: list[str]) -> PersonEvent | None:
+        if self.setup.has_one_goal:
+            return self._say(f"· there is one goal: {next(iter(self.setup.goals))}")
+        goals = self.adviser.likeliest(self.adviser.fold.state(run.history))
+        if output.JSON:
+            output.document({"goals": dict(goals)})
+            return None
+        for name, p in goals[:N_GOALS_LISTED]:
+            output.result(f"{100 * p:5.1f} %  {name}")
+        return None
+
+    def _why(self, run: CompanionRun, words: list[str]) -> PersonEvent | None:
+        if self.setup.has_one_goal:
+            return self._say("· the robot follows the plan that is cheapest as things are")
+        explanation = self.adviser.explain(self.adviser.fold.state(run.history))
+        if explanation is None:
+            return self._say(f"· the robot '{self.setup.method}' does not say why")
+        lines = [f"· believes {goals_text(explanation.goals, N_GOALS_LISTED)}"]
+        for candidate in explanation.candidates:
+            helps = ", ".join(goal for goal, _ in candidate.helps)
+            value = f"value {candidate.value:6.2f}, saves {candidate.saves:5.2f} steps"
+            lines.append(f"  {candidate.action:32} {value}{f', for {helps}' if helps else ''}")
+        return self._say("\n".join(lines))
+
+    def _state(self, run: CompanionRun, words: list[str]) -> PersonEvent | None:
+        if words:
+            return self._state_told(run, words)
+        agents = self.setup.model.agents
+        values = {" ".join(k): run.run.sensed_values.get(k, low) for k, low in agents.low.items()}
+        facts = sorted(map(fact_text, self.setup.model.actions.changing(run.run.state)))
+        if output.JSON:
+            numbers = {key: float(value) for key, value in values.items()}
+            output.document({"facts": facts, "agent_state": numbers})
+            return None
+        output.result(" ".join(facts) or "· no changing fact holds")
+        told = [
+            f"{' '.join(key)} {number_text(run.run.sensed_values.get(key, low))}"
+            for key, low in agents.low.items()
+            if len(key) == N_ALONE or key in run.run.sensed_values
+        ]
+        return self._say("· " + ", ".join(told)) if told else None
+
+    def _state_told(self, run: CompanionRun, words: list[str]) -> PersonEvent | None:
+        """Return what a person says about an agent, as in ``state motivation human 8``."""
+        agents = self.setup.model.agents
+        try:
+            key = _element(tuple(words[:-1]), agents.functions)
+            agents.check(key, float(words[-1]))
+        except ValueError:
+            return self._say("· say it as in: state motivation human 8")
+        except UsageError as error:
+            known = ", ".join(" ".join(one) for one in list(agents.low)[:N_SHOWN])
+            hint = f" (there are: {known})" if known else " (this domain has no agent states)"
+            return self._say(f"· {error.message}{hint}")
+        return shared.StateTold(run.t, {key: float(words[-1])})
+
+
+def _element(words: FluentKey, functions: frozenset[str]) -> FluentKey:
+    """Return words as an element of agent state: the function may stand anywhere.
+
+    >>> _element(("human", "motivation"), frozenset({"motivation"}))
+    ('motivation', 'human')
+    """
+    name = next((word for word in words if word in functions), None)
+    if name is None:
+        return words
+    return (name, *(word for word in words if word != name))
