@@ -43,6 +43,7 @@ COMMANDS = {
          "--journal", "{w}/run.jsonl"],
         ["execute", "transport/two-boxes", "--change", "motivation human=2@0"],
     ],
+    "collaborate": [["collaborate", "kitchen", "{w}/goals"]],
     "replay": [["replay", "{w}/run.jsonl"]],
     "bank build and bank show": [
         ["bank", "build", "kitchen", "{w}/goals", "-o", "{w}/k.bank"],
@@ -71,6 +72,14 @@ COMMANDS = {
     ],
     "Errors": [["plan", "transport", "no-such-problem"], ["check", "--nonsense"],
                ["validate", "transport/two-boxes", "{w}/cut.plan"]],
+}  # fmt: skip
+
+# Commands that read lines and print one document a line: a session, and one that reaches a goal.
+SESSIONS = {
+    "collaborate": [
+        "get yogurt\nnonsense\nundo\nstate motivation human 8\nwhy\ngoals\nsteps\nstate\nquit\n",
+        "get glass\nget yogurt\npour yogurt glass\n" + 9 * "\n1\n" + 9 * "yes\n",
+    ],
 }  # fmt: skip
 
 # Sections with documents that contain themselves: which part of a path may be repeated.
@@ -103,6 +112,12 @@ def written(folder: Path) -> dict[str, list[Any]]:
 def documents(section: str, folder: Path) -> list[Any]:
     """Return what the commands of a section print."""
     found = []
+    for session in SESSIONS.get(section, []):
+        line = [word.replace("{w}", str(folder)) for word in COMMANDS[section][0]]
+        result = CliRunner().invoke(main, [*line, "--json"], input=session, standalone_mode=False)
+        found += [json.loads(text) for text in result.stdout.splitlines()]
+    if found:
+        return found
     for words in COMMANDS[section]:
         line = [word.replace("{w}", str(folder)) for word in words]
         result = CliRunner().invoke(main, [*line, "--json"], standalone_mode=False)

@@ -31,6 +31,8 @@ EXIT_NO = 1
     epilog=options.notes(
         options.GOALS,
         "HUMAN: me (you type what you do), simulated (frontier), cc-htn, plans, or module:Class.",
+        "PACE: turns (first you, then the robot; a step lasts 1), or free (every agent begins at "
+        "any time, and actions take their durations). With one goal the plan says who begins when.",
         options.ROBOTS,
         "At the prompt: what you do in the words of the PDDL, or its number; Enter to wait; help.",
         "With --json every event is one line, and so is the outcome at the end.",
@@ -38,12 +40,13 @@ EXIT_NO = 1
 )
 @click.argument("domain", metavar="DOMAIN")
 @click.argument("goals", required=False, metavar="[GOALS]")
-@click.option("--human", default=ME, show_default=True, metavar="HUMAN", help="Who the people are.")
+@click.option(
+    "--human", default=ME, show_default=True, metavar="HUMAN", help="Who acts for the people."
+)
 @click.option("--pace", default="turns", show_default=True, metavar="PACE",
-              help="turns: first you, then the robot; free: anybody begins at any time, and "
-                   "actions take their durations.")  # fmt: skip
+              help="When agents begin: turns or free.")  # fmt: skip
 @click.option("--method", default="hrcplan", show_default=True, metavar="METHOD",
-              help="The robot.")  # fmt: skip
+              help="Which robot helps.")  # fmt: skip
 @click.option("--journal", type=click.Path(path_type=Path), metavar="FILE",
               help="Write everything down, to go on later and to replay it.")  # fmt: skip
 @click.option("--resume", is_flag=True, help="Go on with the collaboration in the journal.")
@@ -98,7 +101,7 @@ def _goals(domain: str, goals: str | None) -> Goals:
 
 
 def _check_method(setup: CollaborationSetup, n_goals: int) -> None:
-    """Refuse a robot that has to be told the goal; say so if a classifier may be trained first.
+    """Refuse a robot that has to know the goal; say so if a classifier may be trained first.
 
     Raises:
         UsageError: if the goal of a live person would have to be known.
@@ -123,7 +126,7 @@ class _Session:
         self.narrator: Narrator | None = None
 
     def make_parts(self, setup: CollaborationSetup) -> CollaborationParts:
-        """Return the parts, with somebody at the terminal or a simulated human."""
+        """Return the parts, with a person at the terminal or a simulated human."""
         from hrcplan.cli.lines import InputLines
         from hrcplan.cli.narrator import Narrator
         from hrcplan.cli.terminal import Terminal

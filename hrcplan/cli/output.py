@@ -47,8 +47,8 @@ def common_options(function: F) -> F:
     """Add ``--json`` and ``-v`` to a command; both take effect at once."""
 
     def set_json(ctx: click.Context, param: click.Parameter, value: bool) -> None:
-        global JSON
-        JSON = value
+        global JSON, LINES
+        JSON, LINES = value, False
 
     def set_verbose(ctx: click.Context, param: click.Parameter, value: bool) -> None:
         global VERBOSE

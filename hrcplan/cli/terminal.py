@@ -25,7 +25,7 @@ HELP = """Say what you do, in the words of the PDDL ("get yogurt"), or give its 
 Enter     do nothing now        undo    my last step was not done
 steps     what I can do now     failed  my last step was done, but failed
 why       what the robot weighs goals   what it believes
-state     what holds now        state motivation human 8   how somebody is
+state     what holds now        state motivation human 8   how an agent is
 pause     the robot waits       go      it goes on
 quit      end                   NAME: STEP   if several people are at this terminal"""
 

@@ -8,7 +8,7 @@ Parts, from the inside to the outside:
   taken back.
 * ``adviser.py``: answers the questions of the machine: which step, which plan, what was said.
 * ``world.py``, ``persons.py``: where actions are carried out, and who acts: a simulated human, or
-  somebody at a terminal.
+  a person at a terminal.
 * ``collaborate.py``: `collaborate` returns a finished `Collaboration`.
 
 Answers are events, so a journal is replayed without assistant, planner and reader.

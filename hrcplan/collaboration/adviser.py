@@ -24,7 +24,7 @@ from hrcplan.errors import UsageError
 from hrcplan.execution import events as ev
 from hrcplan.execution.driver import PlanProvider
 from hrcplan.execution.replanner import Replanner
-from hrcplan.inference.belief import HasProgress, n_declared
+from hrcplan.inference.belief import BeliefState, HasProgress, n_declared
 from hrcplan.pddl.model import fact_text
 from hrcplan.pddl.semantics import LiftedState
 from hrcplan.plans import PlannedAction
@@ -117,13 +117,13 @@ class Adviser:
                 return self._explained(chosen, state, action)
         return chosen
 
-    def likeliest(self, state: Any) -> tuple[tuple[str, float], ...]:
+    def likeliest(self, state: BeliefState) -> tuple[tuple[str, float], ...]:
         """Return every goal with its probability, the likeliest first."""
         posterior = self.assistant.posterior(state)
         order = np.argsort(-np.asarray(posterior), kind="stable").tolist()
         return tuple((self.bank.names[goal], float(posterior[goal])) for goal in order)
 
-    def _action(self, state: Any, agents: frozenset[str]) -> PlannedAction | None:
+    def _action(self, state: BeliefState, agents: frozenset[str]) -> PlannedAction | None:
         """Return the ground action that the assistant wants one of the robots to do now."""
         step = self.assistant.choose(state)
         if step is None:
@@ -142,7 +142,9 @@ class Adviser:
         ground = table.task.actions[action]
         return PlannedAction(ground.name, ground.args)
 
-    def _explained(self, chosen: shared.Chosen, state: Any, action: PlannedAction) -> shared.Chosen:
+    def _explained(
+        self, chosen: shared.Chosen, state: BeliefState, action: PlannedAction
+    ) -> shared.Chosen:
         """Return a choice with its action, and the likeliest goals that it helps."""
         step = self.bank.table.find((action.name, *action.args))
         following = self._following(state)
@@ -153,13 +155,13 @@ class Adviser:
             helps = tuple(name for name, _ in chosen.goals if name in names)[:N_HELPED]
         return replace(chosen, action=action.name, args=action.args, helps=helps)
 
-    def _following(self, state: Any) -> NextSteps | None:
+    def _following(self, state: BeliefState) -> NextSteps | None:
         """Return what each goal has next; None if the assistant does not follow plan graphs."""
         if isinstance(self.assistant, BankAssistant) and isinstance(state, HasProgress):
             return self.assistant.step_values.next_steps(state.progress)
         return None
 
-    def explain(self, state: Any) -> Explanation | None:
+    def explain(self, state: BeliefState) -> Explanation | None:
         """Return what the assistant weighs in a state; None if it does not say."""
         return self.assistant.explain(state) if isinstance(self.assistant, Explains) else None
 

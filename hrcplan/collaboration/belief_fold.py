@@ -16,7 +16,7 @@ from hrcplan.collaboration.history import (
     WantedGoal,
     evidence_in,
 )
-from hrcplan.inference.belief import IMPOSSIBLE, after_attempt, after_wait, at_turn
+from hrcplan.inference.belief import IMPOSSIBLE, BeliefState, after_attempt, after_wait, at_turn
 
 _Folded = tuple[Any, frozenset[int]]
 """A state, and the numbers of actions that were impossible in it when they began."""
@@ -48,11 +48,11 @@ class BeliefFold:
             self._states.append(self._after(*self._states[-1], mark))
         return self._states[-1][0]
 
-    def in_turn_of(self, state: Any, agent: str) -> Any:
+    def in_turn_of(self, state: BeliefState, agent: str) -> Any:
         """Return a state in which it is an agent's turn, where plans are team plans."""
         return at_turn(self.assistant, state, agent) if self.has_turns else state
 
-    def _after(self, state: Any, impossible: frozenset[int], mark: SeenMark) -> _Folded:
+    def _after(self, state: BeliefState, impossible: frozenset[int], mark: SeenMark) -> _Folded:
         match mark:
             case SeenAction():
                 return self._after_action(state, impossible, mark)
@@ -63,7 +63,9 @@ class BeliefFold:
             case WantedGoal(goal):
                 return inform(self.assistant, state, self.bank.goal_index(goal)), impossible
 
-    def _after_action(self, state: Any, impossible: frozenset[int], mark: SeenAction) -> _Folded:
+    def _after_action(
+        self, state: BeliefState, impossible: frozenset[int], mark: SeenAction
+    ) -> _Folded:
         step = self.bank.table.find(mark.words)
         if step is None:  # no plan of any goal could have it
             return state, impossible
@@ -74,7 +76,7 @@ class BeliefFold:
             return state, impossible | {mark.number}
         return after, impossible
 
-    def _after_end(self, state: Any, impossible: frozenset[int], number: int) -> _Folded:
+    def _after_end(self, state: BeliefState, impossible: frozenset[int], number: int) -> _Folded:
         if number not in impossible:
             return state, impossible
         seen = (m for m in self._seen if isinstance(m, SeenAction) and m.number == number)
@@ -84,7 +86,7 @@ class BeliefFold:
         after = self.assistant.observe(state, step, robot=action.is_robot)
         return after, impossible - {number}
 
-    def _after_pass(self, state: Any, agent: str) -> Any:
+    def _after_pass(self, state: BeliefState, agent: str) -> Any:
         if not self.has_turns:
             return state  # a wait says nothing where it is not known whose turn it is
         return after_wait(self.assistant, self.in_turn_of(state, agent))

@@ -128,7 +128,7 @@ def parts_with(
     setup: CollaborationSetup, bank: Bank, adviser: Adviser, person: Person,
     nature: Nature | None = None,
 ) -> CollaborationParts:  # fmt: skip
-    """Return the parts of a collaboration with somebody who acts for the people."""
+    """Return the parts of a collaboration in which an object acts for the people."""
     world = SharedWorld(setup, nature or Nature(setup.seed), person)
     return CollaborationParts(setup, bank, adviser, world)
 
@@ -265,7 +265,7 @@ def collaborate(
         human: The name of a simulated human (``frontier``, ``cc-htn``, ``plans``, or
             ``module:Class``), or an object that acts for the people. A simulated human has two
             goals one after the other, drawn from the seed.
-        pace: ``turns``, or ``free``: anybody begins at any time.
+        pace: ``turns``, or ``free``: every agent begins at any time.
         method: The robot: a name in ``assistants``, or ``module:Class``.
         seed: All random draws follow from it.
         journal: Where to write it down.

@@ -57,7 +57,7 @@ class Companion:
             case shared.Passed():
                 return self.reports.passed(run, event)
             case shared.Said():
-                return self.reports.said(run, event)
+                return self.reports.take_words(run, event)
             case shared.Read():
                 return self.reports.read(run, event)
             case shared.Answered():
@@ -149,20 +149,20 @@ class Companion:
             a for slot in self.setup.slots for a in slot
             if a in self.setup.robots and not run.is_busy(a)
         )  # fmt: skip
-        if not idle or run.asked == (idle, run.history):
+        if not idle or run.step_request == (idle, run.history):
             return run, ()
         return self._ask_step(run, idle)
 
     def _ask_step(self, run: CompanionRun, agents: tuple[str, ...]) -> CompanionStep:
-        run = replace(run, phase=CompanionPhase.CHOOSING, asked=(agents, run.history))
+        run = replace(run, phase=CompanionPhase.CHOOSING, step_request=(agents, run.history))
         return run, (shared.AskStep(run.t, agents),)
 
     # The assistant has answered.
 
     def _chosen(self, run: CompanionRun, event: shared.Chosen) -> CompanionStep:
-        if run.phase is not CompanionPhase.CHOOSING or run.asked is None:
+        if run.phase is not CompanionPhase.CHOOSING or run.step_request is None:
             return run, (ev.Tell(run.t, "unasked-step", "a step that was not asked for"),)
-        agents, history = run.asked
+        agents, history = run.step_request
         if history != run.history and run.n_asked_again < MAX_ASKED_AGAIN:
             return self._ask_step(replace(run, n_asked_again=run.n_asked_again + 1), agents)
         notes = self._change_notes(run, event)

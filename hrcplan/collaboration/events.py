@@ -20,7 +20,7 @@ YES, NO = "yes", "no"
 
 @dataclass(frozen=True, slots=True)
 class Begun:
-    """A person begins an action that nobody dispatched."""
+    """A person begins an action without a dispatch."""
 
     t: float
     agent: str
@@ -30,7 +30,7 @@ class Begun:
 
 @dataclass(frozen=True, slots=True)
 class Passed:
-    """A person does nothing now; "" is whoever has the turn."""
+    """A person does nothing now; "" is the person whose turn it is."""
 
     t: float
     agent: str = ""

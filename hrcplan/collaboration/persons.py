@@ -98,11 +98,11 @@ class SimulatedPerson:
         return is_last and self.bank.names[self.course.goal(turn)] in run.question.options
 
     def _why_stop(self, run: CompanionRun) -> str | None:
-        """Return why nobody goes on: all of them wait, or it takes too long."""
+        """Return why the episode ends: all agents wait, or it takes too long."""
         marks = [m for m in run.history if isinstance(m, BegunAction | PassedTurn)]
         least = ROUNDS * len(self.setup.slots)
         if len(marks) >= least and all(isinstance(m, PassedTurn) for m in marks[-least:]):
-            return "nobody can help the goal any more"
+            return "no agent can help the goal any more"
         return "it takes too long" if len(marks) > self._most else None
 
     def _move(self, run: CompanionRun, agents: tuple[str, ...], turn: int) -> HumanMove:

@@ -107,7 +107,7 @@ class Reports:
             return _told(companion, "not-your-turn", f"it is not the turn of {agent}")
         return replace(_closed(companion), has_acted=True).plus(PassedTurn(agent)), ()
 
-    def said(self, companion: CompanionRun, event: shared.Said) -> CompanionStep:
+    def take_words(self, companion: CompanionRun, event: shared.Said) -> CompanionStep:
         """Return the run when a person has said something, and the question what it means."""
         agents = (event.agent,) if event.agent else self._listeners(companion)
         companion = replace(companion, phase=CompanionPhase.READING)
@@ -201,7 +201,7 @@ def _begun_now(companion: CompanionRun, step: BoundAction) -> CompanionRun:
 
 
 def _closed(companion: CompanionRun) -> CompanionRun:
-    """Return the run without an open question: whoever goes on has not ended it."""
+    """Return the run without an open question; goals that people go on from are not all."""
     question = companion.question
     if question is None:
         return companion

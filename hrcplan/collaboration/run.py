@@ -35,7 +35,7 @@ class CompanionRun:
         has_acted: Whether the agent whose turn it is has acted or passed.
         question: The question that is open.
         denied: Goals that hold and of which people have said that they are not all.
-        asked: The robots that were asked for a step last, and the history then.
+        step_request: The robots that were asked for a step last, and the history then.
         n_asked_again: How often in a row the same choice was asked for again.
         belief: The last answer of the assistant.
         reached: The goals that held when people said that it is all.
@@ -50,7 +50,7 @@ class CompanionRun:
     has_acted: bool = False
     question: Ask | None = None
     denied: frozenset[str] = frozenset()
-    asked: tuple[tuple[str, ...], History] | None = None
+    step_request: tuple[tuple[str, ...], History] | None = None
     n_asked_again: int = 0
     belief: Chosen = field(default_factory=lambda: Chosen(0.0))
     reached: frozenset[str] = frozenset()

@@ -34,7 +34,8 @@ class CollaborationSetup:
         problem: The problem of the first goal.
         goals: The goals by name, in order.
         profile: Which values planners get, if there is one goal only.
-        pace: ``turns``, or ``free``: anybody begins at any time, and actions take their durations.
+        pace: ``turns``, or ``free``: every agent begins at any time, and actions take their
+            durations.
         slots: Who may act in which turn of a round; agents of one slot act for each other.
         method: The name of the assistant.
         human: Who the people are: ``me``, or a simulated human.

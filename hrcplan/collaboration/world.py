@@ -79,7 +79,7 @@ class SharedWorld:
             return acts
         self._passed.update(agents)
         if agents and self._who_can_act(self._run):
-            return self.next()  # somebody else can act
+            return self.next()  # another person can act
         events = self._seen(self._inner.next())
         self._passed.clear()
         if not events and self.person.is_live:
@@ -92,10 +92,10 @@ class SharedWorld:
         if run.phase is not CompanionPhase.LISTENING:
             return ()
         if self.setup.has_one_goal:
-            asked = {request.agent for request in self._requests.values()}
+            holders = {request.agent for request in self._requests.values()}
             people = self.setup.people if self.person.is_live else ()
             return tuple(a for a in people if a not in self._passed
-                         and (a in asked or not run.is_busy(a)))  # fmt: skip
+                         and (a in holders or not run.is_busy(a)))  # fmt: skip
         if self.setup.pace == TURNS:
             slot = self.setup.slots[run.slot]
             is_robots = self.setup.robots.issuperset(slot)

@@ -70,10 +70,10 @@ class DrivenWorld(Protocol[E_co, C_contra]):
         """Return the events of the next instant; none if nothing can happen any more."""
 
 
-class AnswersQuestions(Protocol):
+class AnswersQuestions(Protocol[C_contra]):
     """Answers the commands that are questions."""
 
-    def answer(self, ask: Any) -> Any:
+    def answer(self, ask: C_contra) -> Any:
         """Return the event that answers a question."""
 
 
@@ -124,7 +124,7 @@ class Driver(Generic[R, E, C]):
 
     monitor: Machine[R, E | ev.Overdue | ev.Settled | ev.StopAsked, C]
     world: DrivenWorld[E, C]
-    planner: AnswersQuestions
+    planner: AnswersQuestions[Any]
     record: RunRecord
     watch: Callable[[R, Any, tuple[C, ...]], None] | None = None
     questions: Mapping[type, type] = field(default_factory=lambda: QUESTIONS)

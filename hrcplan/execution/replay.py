@@ -20,6 +20,7 @@ from hrcplan.validation import validate
 
 R = TypeVar("R", bound=DrivenRun)
 O = TypeVar("O", bound=HasJson)  # noqa: E741
+JsonObject = dict[str, Any]
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +92,7 @@ def derive(
     return Replayed(n_events, n_decisions, outcome(run), difference)
 
 
-def _as_read(value: Any) -> Any:
+def _as_read(value: JsonObject | list[JsonObject]) -> Any:
     return json.loads(json.dumps(value))
 
 
