@@ -60,10 +60,6 @@ class Oracle(BankAssistant[OracleState]):
         move = self.tracker.wait(state.progress)
         return state if move is None else replace(state, progress=move[0])
 
-    def at_turn(self, state: OracleState, agent: str) -> OracleState:
-        """Return the state as it is if it is an agent's turn, where agents take turns."""
-        return replace(state, progress=self.tracker.at_turn(state.progress, agent))
-
     def posterior(self, state: OracleState) -> Floats:
         """Return certainty of the goal."""
         posterior = np.zeros(len(self.names))

@@ -11,7 +11,7 @@ from hrcplan.assistance.expected_help import WASTE_PRICE
 from hrcplan.assistance.explanation import StepChoice
 from hrcplan.bank.progress import Progress
 from hrcplan.core.arrays import Floats, Ids
-from hrcplan.inference.belief import after_wait
+from hrcplan.inference.belief import after_attempt, after_wait, at_turn
 
 
 class MayWait(ValueAssistant[Any]):
@@ -40,6 +40,14 @@ class MayWait(ValueAssistant[Any]):
     def observe_wait(self, state: Any) -> Any:
         """Return the state after a wait of the agent whose turn it is, where agents take turns."""
         return after_wait(self.inner, state)
+
+    def observe_attempt(self, state: Any, step: int) -> Any:
+        """Return the state after a step that the human tried to do."""
+        return after_attempt(self.inner, state, step)
+
+    def at_turn(self, state: Any, agent: str) -> Any:
+        """Return the state as it is if it is an agent's turn, where agents take turns."""
+        return at_turn(self.inner, state, agent)
 
     def posterior(self, state: Any) -> Floats:
         """Return the probability of each goal, in order."""

@@ -17,7 +17,7 @@ from hrcplan.collaboration import events as shared
 from hrcplan.collaboration.belief_fold import BeliefFold
 from hrcplan.collaboration.events import SharedCommand, SharedEvent
 from hrcplan.collaboration.history import History
-from hrcplan.collaboration.reading import ActionWords, Reader, read_exactly
+from hrcplan.collaboration.reading import ActionWords, Reader, read_exactly, reader_of
 from hrcplan.collaboration.run import CompanionRun
 from hrcplan.collaboration.setup import TURNS, CollaborationSetup
 from hrcplan.errors import UsageError
@@ -42,22 +42,27 @@ class Adviser:
         bank: The plans of its goals.
         make_assistant: Makes the assistant from the bank.
         planner: Answers requests for plans; by default the built-in planners.
-        reader: Finds the action that a person means.
+        reader: Finds the action that a person means; by default in free text.
     """
 
     def __init__(
         self, setup: CollaborationSetup, bank: Bank,
         make_assistant: Callable[[Bank], Assistant[Any]], planner: PlanProvider | None = None,
-        reader: Reader = read_exactly,
+        reader: Reader | None = None,
     ) -> None:  # fmt: skip
-        self.setup, self.bank, self.reader = setup, bank, reader
-        self._make, self._planner = make_assistant, planner
+        self.setup, self.bank = setup, bank
+        self._make, self._planner, self._reader = make_assistant, planner, reader
         self.run: CompanionRun | None = None
 
     @cached_property
     def planner(self) -> PlanProvider:
         """What answers requests for plans."""
         return self._planner or Replanner(self.setup.model)
+
+    @cached_property
+    def reader(self) -> Reader:
+        """What finds the action that a person means."""
+        return self._reader or reader_of(self.bank.goals.problem)
 
     @cached_property
     def fold(self) -> BeliefFold:

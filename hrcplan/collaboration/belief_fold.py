@@ -16,7 +16,14 @@ from hrcplan.collaboration.history import (
     WantedGoal,
     evidence_in,
 )
-from hrcplan.inference.belief import IMPOSSIBLE, BeliefState, after_attempt, after_wait, at_turn
+from hrcplan.inference.belief import (
+    IMPOSSIBLE,
+    BeliefState,
+    ObservesWaits,
+    after_attempt,
+    after_wait,
+    at_turn,
+)
 
 _Folded = tuple[Any, frozenset[int]]
 """A state, and the numbers of actions that were impossible in it when they began."""
@@ -89,4 +96,6 @@ class BeliefFold:
     def _after_pass(self, state: BeliefState, agent: str) -> Any:
         if not self.has_turns:
             return state  # a wait says nothing where it is not known whose turn it is
+        if not isinstance(self.assistant, ObservesWaits):
+            return state
         return after_wait(self.assistant, self.in_turn_of(state, agent))

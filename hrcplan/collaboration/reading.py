@@ -1,6 +1,6 @@
 """The interface of readers: what a person says, to the action that is meant.
 
-`read_exactly` takes an action's own words. A reader of free text has the same signature.
+`read_exactly` takes an action's own words, `reader_of` free text, too.
 """
 
 from __future__ import annotations
@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from hrcplan.collaboration.events import ACT, ASK, NONE
+from hrcplan.pddl.model import Problem
+from hrcplan.reading import ReadingOutcome, make_lexicon, read_words
 
 MAX_OPTIONS = 4
 ActionWords = tuple[str, ...]
@@ -55,3 +57,24 @@ def read_exactly(
         return StepReading(ACT, (fitting[0],))
     likeliest = sorted(fitting, key=lambda step: -prior.get(step, 0.0))
     return StepReading(ASK, tuple(likeliest[:MAX_OPTIONS]))
+
+
+def reader_of(problem: Problem) -> Reader:
+    """Return the reader of a problem: exact words first, then free text (`hrcplan.reading`)."""
+    lexicon = make_lexicon(problem)
+
+    def read(
+        text: str, steps: Sequence[ActionWords], prior: Mapping[ActionWords, float]
+    ) -> StepReading:
+        exact = read_exactly(text, steps, prior)
+        if exact.outcome != NONE or not steps:
+            return exact
+        chances = [prior.get(step, 0.0) for step in steps] if prior else None
+        reading = read_words(lexicon, text, steps, chances)
+        if reading.outcome is ReadingOutcome.ACT and reading.step is not None:
+            return StepReading(ACT, (steps[reading.step],))
+        if reading.outcome is ReadingOutcome.ASK:
+            return StepReading(ASK, tuple(steps[i] for i, _ in reading.options))
+        return StepReading(NONE)
+
+    return read

@@ -7,9 +7,9 @@ has its methods, and does without where it has not. `hrcplan.testing.check_belie
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import Protocol, TypeVar, runtime_checkable
+from collections.abc import Hashable, Sequence
+from dataclasses import dataclass, is_dataclass, replace
+from typing import Any, Protocol, TypeVar, cast, runtime_checkable
 
 from hrcplan.bank import StepTable
 from hrcplan.bank.progress import Progress, ProgressTracker
@@ -82,7 +82,7 @@ def after_wait(belief: Belief[S], state: S) -> S:
 
 @runtime_checkable
 class ObservesAttempts(Protocol[S]):
-    """A belief to which a step that failed says something, though it had no effect."""
+    """A belief that observes failed steps in its own way; see `after_attempt`."""
 
     def observe_attempt(self, state: S, step: int) -> S:
         """Return the belief after a step that the human tried to do."""
@@ -91,24 +91,11 @@ class ObservesAttempts(Protocol[S]):
 
 @runtime_checkable
 class ActsInAnyTurn(Protocol[S]):
-    """A belief in which it can be any agent's turn, where agents take turns."""
+    """A belief that passes turns on in its own way; see `at_turn`."""
 
     def at_turn(self, state: S, agent: str) -> S:
         """Return the belief as it is if it is an agent's turn."""
         ...
-
-
-def after_attempt(belief: Belief[S], state: S, step: int) -> S:
-    """Return a belief after a step that failed; as it was if attempts say nothing to it."""
-    if isinstance(belief, ObservesAttempts):
-        after: S = belief.observe_attempt(state, step)
-        return after
-    return state
-
-
-def at_turn(belief: Belief[S], state: S, agent: str) -> S:
-    """Return a belief as it is in an agent's turn; as it was if it does not tell turns apart."""
-    return belief.at_turn(state, agent) if isinstance(belief, ActsInAnyTurn) else state
 
 
 @dataclass(frozen=True, slots=True)
@@ -214,6 +201,49 @@ class HasProgress(Protocol):
     def progress(self) -> Progress:
         """The progress of all goals."""
         ...
+
+
+def after_attempt(belief: Belief[S], state: S, step: int) -> S:
+    """Return a belief after a step that the human tried to do: evidence, but no progress.
+
+    A belief that does not tell the two apart stays as it was.
+    """
+    if isinstance(belief, ObservesAttempts):
+        observed: S = belief.observe_attempt(state, step)
+        return observed
+    progress = _progress_in(belief, state)
+    if progress is None:
+        return state
+    after: S = belief.observe(state, step)
+    if after.ignored is not None:
+        return after
+    return _with_progress(after, progress[0].attempt(progress[1], step))
+
+
+def at_turn(belief: Belief[S], state: S, agent: str) -> S:
+    """Return a belief as it is in an agent's turn; as it was if it does not tell turns apart."""
+    if isinstance(belief, ActsInAnyTurn):
+        moved: S = belief.at_turn(state, agent)
+        return moved
+    progress = _progress_in(belief, state)
+    if progress is None:
+        return state
+    return _with_progress(state, progress[0].at_turn(progress[1], agent))
+
+
+def _progress_in(belief: Hashable, state: BeliefState) -> tuple[ProgressTracker, Progress] | None:
+    """Return what follows the plan graphs, and where they stand; None if a belief does not."""
+    if isinstance(belief, TracksProgress) and isinstance(state, HasProgress):
+        return belief.tracker, state.progress
+    return None
+
+
+def _with_progress(state: S, progress: Progress) -> S:
+    """Return a state with another progress; as it was if it is no data class."""
+    if not is_dataclass(type(state)):
+        return state
+    moved: S = replace(cast(Any, state), progress=progress)
+    return moved
 
 
 @runtime_checkable

@@ -99,17 +99,6 @@ class SwitchingBelief(PlanFollower):
         filter_state = self.filter.step(state.filter_state, self.likelihood(evidence))
         return SwitchingState(progress, filter_state, is_human=True)
 
-    def observe_attempt(self, state: SwitchingState, step: int) -> SwitchingState:
-        """Return the belief after a step that the human tried to do: evidence, but no progress."""
-        after = self.observe(state, step)
-        if after.ignored is not None:
-            return after
-        return replace(after, progress=self.tracker.attempt(state.progress, step))
-
-    def at_turn(self, state: SwitchingState, agent: str) -> SwitchingState:
-        """Return the belief as it is if it is an agent's turn, where agents take turns."""
-        return replace(state, progress=self.tracker.at_turn(state.progress, agent))
-
     def likelihood(self, evidence: Evidence) -> Floats:
         """Return the likelihood of a step, by mistake rate and goal."""
         likelihood: Floats = (
