@@ -7,7 +7,7 @@ has its methods, and does without where it has not. `hrcplan.testing.check_belie
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, is_dataclass, replace
 from typing import Any, Protocol, TypeVar, cast, runtime_checkable
 
