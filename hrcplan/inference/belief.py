@@ -231,7 +231,9 @@ def at_turn(belief: Belief[S], state: S, agent: str) -> S:
     return _with_progress(state, progress[0].at_turn(progress[1], agent))
 
 
-def _progress_in(belief: Hashable, state: BeliefState) -> tuple[ProgressTracker, Progress] | None:
+def _progress_in(
+    belief: Belief[Any], state: BeliefState
+) -> tuple[ProgressTracker, Progress] | None:
     """Return what follows the plan graphs, and where they stand; None if a belief does not."""
     if isinstance(belief, TracksProgress) and isinstance(state, HasProgress):
         return belief.tracker, state.progress
