@@ -9,6 +9,8 @@ our own evaluation.
 from __future__ import annotations
 
 import contextlib
+import time
+from dataclasses import replace
 from fractions import Fraction
 from importlib.util import find_spec
 from typing import TYPE_CHECKING
@@ -16,7 +18,16 @@ from typing import TYPE_CHECKING
 from hrcplan.core.numbers import Number
 from hrcplan.errors import LimitError, MissingPlannerError, PlannerError, UnsupportedError
 from hrcplan.pddl.constructs import ALL
-from hrcplan.pddl.model import TOTAL_COST, Function
+from hrcplan.pddl.model import (
+    TOTAL_COST,
+    TOTAL_TIME,
+    VIOLATED,
+    And,
+    Compare,
+    Constant,
+    Function,
+)
+from hrcplan.pddl.walks import functions_in
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
 from hrcplan.planners.handover import Handover
 from hrcplan.planners.lowering import Lowering, lower
@@ -33,6 +44,9 @@ CLASSICAL_PRESETS = ("auto",)
 LAST_PRESET = "auto"  # it has engines that choose durations, where the searches above give up
 PATIENCE = 0.1
 """A search that finds nothing better for this part of its time is over."""
+
+STEP = 0.3
+"""The part of the time left in which a plan with a higher metric must be found."""
 
 _TICK_S = 0.1
 _DECIMALS = 10**6
@@ -109,7 +123,32 @@ class _Portfolio:
         else:
             if last and self.best is None and self.request.time_left_s > 0:
                 self._check(self._search(problem, last, self.request.time_left_s))
+        self._raise_metric()
         return self._answer()
+
+    def _raise_metric(self) -> None:
+        """Look for plans with a higher metric, as long as some are found.
+
+        kairos does not maximize: it is asked for any plan beyond the best so far.
+        """
+        request, metric = self.request, self.request.problem.metric
+        if metric is None or not request.problem.maximize or request.any_plan or self.is_proven:
+            return
+        if any(f.name in (TOTAL_TIME, VIOLATED) for f in functions_in(metric)):
+            return
+        before = None
+        while self.best is not None and self.best is not before and request.time_left_s > 0:
+            before = self.best
+            above = Compare(">", metric, Constant(-before[0]))
+            goal = And((request.problem.goal, above))
+            harder = replace(request.problem, goal=goal, metric=None, maximize=False)
+            deadline = time.monotonic() + STEP * request.time_left_s
+            with contextlib.suppress(UnsupportedError, PlannerError):
+                answer = _Portfolio(Request(harder, deadline, True, request.memory_bytes)).solve(
+                    None
+                )
+                if answer.plan is not None:
+                    self._keep(answer.plan, None)
 
     def _parse(self) -> kairos.Problem:
         import kairos
@@ -156,6 +195,10 @@ class _Portfolio:
         if self.request.problem.domain.is_continuous:
             self.best = 0, plan, None  # hrcplan cannot judge it
             return
+        self._keep(plan, self._objective(candidate.cost))
+
+    def _keep(self, plan: Plan, figure: Number | None) -> None:
+        """Keep a plan if it is valid and the best so far; ``figure`` is what kairos says of it."""
         report = self.request.replays(self.request.problem, plan)
         if not report.valid:
             self.invalid = report
@@ -164,7 +207,7 @@ class _Portfolio:
         if self.request.problem.maximize:
             ours = -ours
         if self.best is None or ours < self.best[0]:
-            self.best = ours, plan, self._objective(candidate.cost)
+            self.best = ours, plan, figure
             self.request.on_plan(plan)
 
     def _check(self, result: kairos.SolveResult) -> None:

@@ -126,6 +126,7 @@ class Portfolio:
         """
         attempts = tuple(self._attempts)
         if self.best is not None:
+            attempts = tuple(map(self._refuted, attempts))
             return self._with_bound(replace(self.best, attempts=attempts))
         if self._unsolvable is not None:
             return replace(self._unsolvable, attempts=attempts)
@@ -138,6 +139,14 @@ class Portfolio:
             Status.UNSOLVED, AUTO, None, None, 0.0, why, attempts, bound=self.bound,
             claim=Status.UNSOLVED,
         )  # fmt: skip
+
+    def _refuted(self, attempt: Attempt) -> Attempt:
+        """Return an attempt; one that calls the task unsolvable with the plan that refutes it."""
+        claim = Status.UNSOLVABLE.value
+        if self.best is None or not attempt.outcome.startswith(claim):
+            return attempt
+        note = f"{claim}, which the plan of '{self.best.planner}' refutes"
+        return replace(attempt, outcome=note)
 
     def _with_bound(self, best: Result) -> Result:
         """Return the best plan as proven, if a planner or the bound says so."""

@@ -19,6 +19,7 @@ from hrcplan.planners.contract import Answer, Request, Status
 from hrcplan.planners.fast_downward import FastDownward
 from hrcplan.planners.kairos import TIMED_PRESETS, Kairos
 from hrcplan.validation import validate
+from tests.texts import problem_of
 
 HUMAN = ("motivation", "human")
 
@@ -181,3 +182,19 @@ def test_ctrl_c_stops_it() -> None:
     _, errors = child.communicate(timeout=20)
     assert time.monotonic() - begun < 15
     assert "KeyboardInterrupt" in errors
+
+
+def test_a_metric_to_be_maximized_is_raised_step_by_step() -> None:
+    """kairos itself stops at the first plan, which sells nothing."""
+    domain = """(define (domain shop) (:requirements :fluents :durative-actions)
+      (:predicates (done) (left ?x)) (:functions (gain) (worth ?x))
+      (:durative-action sell :parameters (?x) :duration (= ?duration 2)
+        :condition (at start (left ?x))
+        :effect (and (at start (not (left ?x))) (at end (increase (gain) (worth ?x)))))
+      (:durative-action close :parameters () :duration (= ?duration 2) :condition (and)
+        :effect (at end (done))))"""
+    text = """(define (problem p) (:domain shop) (:objects a b c)
+      (:init (left a) (left b) (left c) (= (gain) 0) (= (worth a) 1) (= (worth b) 5)
+        (= (worth c) -2)) (:goal (done)) (:metric maximize (gain)))"""
+    problem = problem_of(domain, text)
+    assert metric(problem, solve(problem)) == 6

@@ -83,6 +83,8 @@ def test_a_plan_refutes_a_claim_of_unsolvable(cast: Callable[..., None]) -> None
     cast(one=says(Status.UNSOLVABLE), two=says(Status.SOLVED, LONG))
     found = solve(walk(), timeout_s=10)
     assert (found.status, found.planner) == (Status.SOLVED, "two")
+    refuted = [a.outcome for a in found.attempts if a.planner == "one"]
+    assert refuted == ["unsolvable, which the plan of 'two' refutes"]
 
 
 def test_a_claim_of_a_planner_that_was_named_is_checked(cast: Callable[..., None]) -> None:
