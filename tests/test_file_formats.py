@@ -24,6 +24,9 @@ from hrcplan.agents import Profile
 from hrcplan.bank import Bank, build
 from hrcplan.bank.bank import BuildOptions
 from hrcplan.bank.store import save
+from hrcplan.collaboration import events as shared
+from hrcplan.collaboration.collaborate import collaborate
+from hrcplan.collaboration.events import KINDS as COLLABORATION_KINDS
 from hrcplan.execution import FactChange, Nature, StateChange
 from hrcplan.execution import events as ev
 from hrcplan.execution.codec import KINDS, to_json
@@ -50,6 +53,22 @@ RARE: list[ev.Event | ev.Command] = [
     ev.AskPlan(0.0, frozenset({FACT}), {("load", "robot"): 3}, {}, absent=frozenset({FACT})),
     ev.Planned(0.0, None, note="no plan in time"),
     ev.Finish(0.0, ev.STOPPED, "a user asked for it"),
+]
+
+RARE_IN_COLLABORATIONS = [
+    shared.Begun(0.0, "human", "get", ("human", "milk")),
+    shared.Passed(0.0, "human"),
+    shared.Said(0.0, "human", "the milk, please"),
+    shared.Read(0.0, shared.ACT, ("(get human milk)",)),
+    shared.Answered(0.0, shared.YES),
+    shared.Undone(0.0, 3, attempted=True),
+    shared.StateTold(0.0, {("motivation", "human"): 8}),
+    shared.Wanted(0.0, "parfait-nut"),
+    shared.Paused(0.0),
+    shared.Continued(0.0),
+    shared.AskReading(0.0, ("human",), "the milk, please"),
+    shared.Ask(0.0, shared.DONE, ("parfait-nut",)),
+    shared.Correct(0.0, frozenset({FACT}), {("load", "robot"): 3}, frozenset({FACT})),
 ]
 
 
@@ -112,6 +131,34 @@ def test_every_kind_of_event_and_decision_is_on_the_page() -> None:
     keys = [*SECTIONS["Journal: events"], *SECTIONS["Journal: decisions"]]
     named = {tuple(re.split(r"[.\[]", key.path)[:2]) for key in keys}
     assert named == {(kind, field.name) for kind, cls in KINDS.items() for field in fields(cls)}
+
+
+@pytest.fixture(scope="module")
+def collaboration(tmp_path_factory: pytest.TempPathFactory) -> list[dict[str, Any]]:
+    """Return the lines of the journal of a collaboration with a simulated human."""
+    bank = hrcplan.build_bank("kitchen", only=["parfait-nut", "smoothie-berry"])
+    path = tmp_path_factory.mktemp("collaboration") / "run.jsonl"
+    collaborate(bank, seed=1, journal=path)
+    return [json.loads(line) for line in path.read_text("utf-8").splitlines()]
+
+
+def test_the_journal_of_a_collaboration(collaboration: list[dict[str, Any]]) -> None:
+    first, *others = collaboration
+    schema.check([first], SECTIONS["Collaboration: first line"])
+    items = [item for line in others for item in line.get("decided", [line.get("event")]) if item]
+    own = [item for item in items if item["kind"] not in KINDS]
+    assert own
+    more = [json.loads(json.dumps(to_json(item))) for item in RARE_IN_COLLABORATIONS]
+    schema.check(map(by_kind, [*own, *more]), SECTIONS["Collaboration events"])
+    paths = (key.path for key in schema.sections("json.md")["collaborate"])
+    outcome = {match[1] for path in paths if (match := re.fullmatch(r"outcome\.(\w+)", path))}
+    assert set(others[-1]["row"]) == outcome
+
+
+def test_every_kind_of_collaborations_is_on_the_page() -> None:
+    named = {tuple(re.split(r"[.\[]", key.path)[:2]) for key in SECTIONS["Collaboration events"]}
+    own = {kind: cls for kind, cls in COLLABORATION_KINDS.items() if kind not in KINDS}
+    assert named == {(kind, field.name) for kind, cls in own.items() for field in fields(cls)}
 
 
 @pytest.fixture(scope="module")

@@ -17,6 +17,7 @@ from hrcplan.agents.profile import OLD_NAMES as OLD_PROFILES
 from hrcplan.assistance.registry import ASSISTANTS
 from hrcplan.bank import Bank, load
 from hrcplan.bank import store as bank_store
+from hrcplan.collaboration.journal import FORMAT as COLLABORATION_FORMAT
 from hrcplan.errors import InputError, UsageError
 from hrcplan.execution.journal import FORMAT, read_journal
 from hrcplan.execution.natures import OLD_NAMES as OLD_HUMANS
@@ -64,7 +65,8 @@ def test_the_formats_of_the_page_are_those_of_the_code() -> None:
     table = TEXT.partition("## Formats")[2]
     versions = dict(re.findall(r"^\| ([^|]+) \| (\d+) \|", table, re.MULTILINE))
     assert {name: int(version) for name, version in versions.items()} == {
-        "journals": FORMAT,
+        "journals of runs": FORMAT,
+        "journals of collaborations": COLLABORATION_FORMAT,
         "banks of sequences": bank_store.VERSION,
         "banks of team plans": bank_store.TEAM_VERSION,
         "trained forests": cache.VERSION,
@@ -75,9 +77,12 @@ def test_the_formats_of_the_page_are_those_of_the_code() -> None:
 def test_a_journal_of_another_format_is_refused(tmp_path: Path) -> None:
     assert read_journal(JOURNAL).setup().world == "simulated"
     first, *others = JOURNAL.read_text("utf-8").splitlines()
-    later = json.dumps({**json.loads(first), "journal": FORMAT + 1})
+    later_format = max(FORMAT, COLLABORATION_FORMAT) + 1
+    later = json.dumps({**json.loads(first), "journal": later_format})
     (tmp_path / "later.jsonl").write_text("\n".join([later, *others, ""]))
-    with pytest.raises(InputError, match=f"format {FORMAT + 1}; this hrcplan reads") as error:
+    with pytest.raises(
+        InputError, match=f"format {later_format}; that of a run has format 1"
+    ) as error:
         read_journal(tmp_path / "later.jsonl").setup()
     assert error.value.code in TEXT
 

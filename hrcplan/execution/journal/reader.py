@@ -39,7 +39,9 @@ class Journal:
         if head.get("journal") != FORMAT:
             message = f"this is no journal of format {FORMAT}"
             if isinstance(head.get("journal"), int):
-                message = f"a journal of format {head['journal']}; this hrcplan reads {FORMAT}"
+                message = (
+                    f"a journal of format {head['journal']}; that of a run has format {FORMAT}"
+                )
             raise InputError(message, code="bad-journal", path=str(self.path), line=1)
         return setup_from_json(head, str(self.path))
 
