@@ -19,6 +19,7 @@ from click.exceptions import Abort, ClickException, Exit
 
 from hrcplan import __version__
 from hrcplan.cli import output, streams
+from hrcplan.cli.progress_line import show_progress
 from hrcplan.core.deprecation import OldNameWarning
 from hrcplan.core.files import reason_of
 from hrcplan.core.text import harmless
@@ -67,6 +68,7 @@ class _Commands(click.RichGroup):
     ) -> NoReturn:  # fmt: skip
         """Run a command and exit; errors become messages and exit codes."""
         streams.prepare()
+        show_progress(sys.stderr)
         words = list(sys.argv[1:] if args is None else args)
         output.JSON = "--json" in words  # an error before options are read is a document, too
         if threading.current_thread() is threading.main_thread():

@@ -9,6 +9,7 @@ from itertools import product
 
 from hrcplan.core.bits import single_bits
 from hrcplan.core.numbers import Number
+from hrcplan.core.progress import counting
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.model import DURATION, TOTAL_COST, TRUE, Constant, Expr, FluentKey
 from hrcplan.pddl.semantics import Undefined, Values, evaluate, ground_key, instances
@@ -26,6 +27,7 @@ from hrcplan.task.numbers import ground_expression
 from hrcplan.task.reachable import SchemaInstance
 from hrcplan.task.transitions import BitEffect, Effects, Transition, net_effect
 
+_TELL = 256  # instances between two reports of progress
 MAX_COST_CONDITIONS = 4
 """Conditions of one action's cost that the state decides: each doubles its ground actions."""
 
@@ -78,12 +80,13 @@ def ground_actions(
     """
     builder = _Builder(grounder, value_sets)
     actions: list[GroundAction] = []
-    for instance in instances:
-        for choice in combinations(keys_read(grounder, instance, value_sets), value_sets):
-            try:
-                actions += builder.build(len(actions), instance, choice)
-            except Undefined:
-                continue  # what it needs has no value, so it can never run
+    with counting("ground actions") as tell:
+        for count, instance in enumerate(instances):
+            if count % _TELL == 0:
+                tell(len(actions))
+            for choice in combinations(keys_read(grounder, instance, value_sets), value_sets):
+                with contextlib.suppress(Undefined):  # what it needs has no value: it cannot run
+                    actions += builder.build(len(actions), instance, choice)
     return tuple(actions)
 
 

@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import time
 from collections import defaultdict, deque
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from math import inf
 from pathlib import Path
 from typing import NamedTuple
 
+from hrcplan.core.progress import counting
 from hrcplan.errors import LimitError
 from hrcplan.pddl.joins import FactIndex, Join, JoinBinding, needed_atoms
 from hrcplan.pddl.model import DURATION, Action, Atom, Domain, Fact, Formula, Problem
@@ -43,8 +44,9 @@ def reachable(problem: Problem, deadline: float = inf) -> tuple[list[SchemaInsta
     Raises:
         LimitError: at the deadline, or if memory becomes short.
     """
-    search = _ReachabilitySearch(problem, deadline)
-    search.run()
+    with counting("reachable ground actions") as tell:
+        search = _ReachabilitySearch(problem, deadline, tell)
+        search.run()
     order = {action.name: i for i, action in enumerate(problem.domain.actions)}
     rank = {name: i for i, name in enumerate(problem.all_objects)}
     instances = list(search.instances.values())
@@ -63,9 +65,10 @@ def available_bytes() -> int:
 class _ReachabilitySearch:
     """The reachable facts and instances so far, and the facts that wait to be joined."""
 
-    def __init__(self, problem: Problem, deadline: float) -> None:
+    def __init__(self, problem: Problem, deadline: float, tell: Callable[[int], None]) -> None:
         self.problem = problem
         self.deadline = deadline
+        self._tell = tell
         self.index = FactIndex()
         self.instances: dict[tuple[str, tuple[str, ...]], SchemaInstance] = {}
         self._n_bindings = 0
@@ -108,8 +111,10 @@ class _ReachabilitySearch:
 
     def _check(self) -> None:
         n_instances = len(self.instances)
-        if self._n_bindings % _CHECK == 0 and time.monotonic() > self.deadline:
-            raise LimitError(f"no time for more than {n_instances} ground actions", hint=_HINT)
+        if self._n_bindings % _CHECK == 0:
+            self._tell(n_instances)
+            if time.monotonic() > self.deadline:
+                raise LimitError(f"no time for more than {n_instances} ground actions", hint=_HINT)
         if self._n_bindings % _CHECK_MEMORY == 0 and available_bytes() < MIN_FREE_BYTES:
             message = f"no memory for more than {n_instances} ground actions"
             raise LimitError(message, hint=_HINT)

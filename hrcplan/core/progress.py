@@ -1,0 +1,39 @@
+"""How far long work has come: told by those who work, heard by the one who shows it, if any."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+Listener = Callable[[str, int | None], None]
+"""Is called with what is counted and how much there is; with None once the work has ended."""
+
+_listeners: list[Listener] = []
+
+
+def listen(listener: Listener | None) -> None:
+    """Let a listener hear of all work from now on; None for nobody."""
+    _listeners[:] = [] if listener is None else [listener]
+
+
+@contextmanager
+def counting(what: str) -> Iterator[Callable[[int], None]]:
+    """Give a function that tells how much there is; the end is told in any case.
+
+    >>> heard = []
+    >>> listen(lambda what, count: heard.append((what, count)))
+    >>> with counting("steps") as tell:
+    ...     tell(256)
+    >>> heard
+    [('steps', 256), ('steps', None)]
+    >>> listen(None)
+    """
+
+    def tell(count: int | None) -> None:
+        for listener in _listeners:
+            listener(what, count)
+
+    try:
+        yield tell
+    finally:
+        tell(None)
