@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Generic
 
 import numpy as np
 
-from hrcplan.assistance.assistant import Assistant, ValueAssistant
+from hrcplan.assistance.assistant import Assistant, P, ValueAssistant
 from hrcplan.assistance.expected_help import WASTE_PRICE
 from hrcplan.assistance.explanation import StepChoice
 from hrcplan.bank.progress import Progress
@@ -14,7 +14,7 @@ from hrcplan.core.arrays import Floats, Ids
 from hrcplan.inference.belief import after_attempt, after_wait, at_turn
 
 
-class MayWait(ValueAssistant[Any]):
+class MayWait(ValueAssistant[P], Generic[P]):
     """Another assistant that may also wait.
 
     It waits if the step that the other one chooses is worth less than nothing by the other's own
@@ -25,35 +25,35 @@ class MayWait(ValueAssistant[Any]):
         waste_price: What a step that is not needed costs, in steps.
     """
 
-    def __init__(self, inner: ValueAssistant[Any], waste_price: float = WASTE_PRICE) -> None:
+    def __init__(self, inner: ValueAssistant[P], waste_price: float = WASTE_PRICE) -> None:
         super().__init__(inner.bank, inner.tracker)
         self.inner, self.waste_price = inner, waste_price
 
-    def start(self) -> Any:
+    def start(self) -> P:
         """Return the state before anything was done."""
         return self.inner.start()
 
-    def observe(self, state: Any, step: int, *, robot: bool = False) -> Any:
+    def observe(self, state: P, step: int, *, robot: bool = False) -> P:
         """Return the state after one more step, done by the human or by the robot."""
         return self.inner.observe(state, step, robot=robot)
 
-    def observe_wait(self, state: Any) -> Any:
+    def observe_wait(self, state: P) -> P:
         """Return the state after a wait of the agent whose turn it is, where agents take turns."""
         return after_wait(self.inner, state)
 
-    def observe_attempt(self, state: Any, step: int) -> Any:
+    def observe_attempt(self, state: P, step: int) -> P:
         """Return the state after a step that the human tried to do."""
         return after_attempt(self.inner, state, step)
 
-    def at_turn(self, state: Any, agent: str) -> Any:
+    def at_turn(self, state: P, agent: str) -> P:
         """Return the state as it is if it is an agent's turn, where agents take turns."""
         return at_turn(self.inner, state, agent)
 
-    def posterior(self, state: Any) -> Floats:
+    def posterior(self, state: P) -> Floats:
         """Return the probability of each goal, in order."""
         return self.inner.posterior(state)
 
-    def options(self, state: Any) -> StepChoice:
+    def options(self, state: P) -> StepChoice:
         """Return the other assistant's options; waiting is the best one where its choice is not."""
         choice = self.inner.options(state)
         if choice.best is None:

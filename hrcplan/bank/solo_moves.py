@@ -1,8 +1,8 @@
 """What an agent of a team does next for each goal, where only its solo plans are looked at.
 
-It does what its own plan has next, as if nobody else acted. Where it has none, it does its part of
-the shortest sequence of all agents, and waits where that has no part for it now. All mistakes are
-alike, and a step that is not next loses a round.
+It does what its own plan has next, as if no other agent acted. Where it has none, it does its part
+of the shortest sequence of all agents, and waits where that has no part for it now. All mistakes
+are alike, and a step that is not next loses a round.
 """
 
 from __future__ import annotations

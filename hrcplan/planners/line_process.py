@@ -1,7 +1,7 @@
 """A program that is spoken to in lines while it runs, below the same guard as planners.
 
 It ends with this process, even if that is killed. Reading and writing never block for longer than
-they are told to, however the program behaves: deaf, flooding, or without an end of line.
+their time limit, however the program behaves: deaf, flooding, or without an end of line.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ import time
 from collections import deque
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from types import TracebackType
 
 from hrcplan.planners import orphans
 from hrcplan.planners.process import ProcessLimits, guarded_program, job_message
@@ -148,6 +149,9 @@ class LineProcess:
         """Return the process itself."""
         return self
 
-    def __exit__(self, *_: object) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:  # fmt: skip
         """End the program."""
         self.close()

@@ -67,7 +67,7 @@ class _Weights:
 def without_preferences(problem: Problem) -> HardGoals | None:
     """Return a classical problem without the preferences of its goal; None if that is not possible.
 
-    They are compiled away if they are all that stands in the way, and if the metric is to be
+    They are compiled away if nothing else prevents a classical problem, and if the metric is to be
     minimized and charges violations with fixed amounts.
     """
     domain = problem.domain

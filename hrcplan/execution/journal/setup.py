@@ -10,6 +10,7 @@ from typing import Any
 
 from hrcplan.agents import Profile
 from hrcplan.agents.profile import profile_from_table
+from hrcplan.core.json_values import JsonValue
 from hrcplan.errors import InputError
 from hrcplan.execution import events as ev
 from hrcplan.execution.codec import from_json, to_json
@@ -101,7 +102,7 @@ def _nature(table: Mapping[str, Any]) -> Nature:
     )  # fmt: skip
 
 
-def _text(value: object) -> str:
+def _text(value: JsonValue) -> str:
     if isinstance(value, str):
         return value
     raise TypeError(f"{value!r} is no text")

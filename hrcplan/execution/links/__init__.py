@@ -18,7 +18,7 @@ from hrcplan.execution.links.messages import LinkMessage
 
 @runtime_checkable
 class RobotLink(Protocol):
-    """Speaks to one robot or several; never blocks for longer than it is told to."""
+    """Speaks to one robot or several; never blocks for longer than its time limit."""
 
     def start(self) -> None:
         """Start, or start again after the link has ended."""

@@ -20,6 +20,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from hrcplan.core.json_values import JsonValue
 from hrcplan.core.text import cut, harmless
 from hrcplan.execution import events as ev
 from hrcplan.pddl.model import Fact, FluentKey
@@ -161,7 +162,7 @@ def _ended(document: Mapping[str, Any]) -> ActionEnded:
     return ActionEnded(_number(document), outcome, _text(document, "why"))
 
 
-def _words(text: object) -> tuple[str, ...]:
+def _words(text: JsonValue) -> tuple[str, ...]:
     """Return the words of a fact or function, with parentheses around it or without."""
     if not isinstance(text, str) or not (words := text.strip().strip("()").lower().split()):
         raise TypeError("a fact is a text such as 'at robot wp1'")

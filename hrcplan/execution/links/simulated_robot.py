@@ -15,6 +15,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from hrcplan.core.json_values import JsonValue
+
 _CHUNK = 1 << 16
 
 
@@ -71,7 +73,7 @@ class SimulatedRobotProgram:
                     return
                 self._take(command)
 
-    def _say(self, event: str, **values: object) -> None:
+    def _say(self, event: str, **values: JsonValue) -> None:
         if event != "ready" and self._chance.random() < self.faults.lost:
             return
         sys.stdout.write(json.dumps({"event": event, **values}) + "\n")
