@@ -1,4 +1,4 @@
-"""How far long work has come: told by those who work, heard by the one who shows it, if any."""
+"""How far long work has come: functions that work report it, and at most one listener shows it."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ _listeners: list[Listener] = []
 
 
 def listen(listener: Listener | None) -> None:
-    """Let a listener hear of all work from now on; None for nobody."""
+    """Call a listener for all work from now on; None for no listener."""
     _listeners[:] = [] if listener is None else [listener]
 
 
 @contextmanager
 def counting(what: str) -> Iterator[Callable[[int], None]]:
-    """Give a function that tells how much there is; the end is told in any case.
+    """Yield a function that reports how much there is; the end is reported in any case.
 
     >>> heard = []
     >>> listen(lambda what, count: heard.append((what, count)))

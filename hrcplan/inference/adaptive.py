@@ -1,7 +1,7 @@
 """A goal that may change, of a human who is not known: how often it errs and how it chooses.
 
 The hidden state is the goal, the rate of mistakes, the way of choosing among useful steps, and
-whether the goal may still change. Two priors of changes stand beside each other: one for acting,
+whether the goal may still change. There are two priors of changes: one for acting,
 and one for declaring changes, which should seldom be wrong.
 """
 
