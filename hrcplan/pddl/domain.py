@@ -21,10 +21,17 @@ from hrcplan.pddl.source import SECTION_SIMILARITY, SourceText
 from hrcplan.pddl.trajectories import SECTION, read_constraints
 from hrcplan.pddl.typed_lists import Entry, params_of, read_typed, report_types, with_dashes
 
+_HIERARCHICAL = "tasks and methods of HDDL (hierarchical planning)"
 _UNSUPPORTED = {
     ":axiom": "axioms of PDDL 1.2",
+    ":constraint": "global constraints of ENHSP",
+    ":free_functions": "free functions of ENHSP",
+    **dict.fromkeys((":task", ":method", ":htn"), _HIERARCHICAL),
 }
-_CURES = {":axiom": "write (:derived (p ?x) CONDITION)"}
+_CURES = {
+    ":axiom": "write (:derived (p ?x) CONDITION)",
+    ":constraint": "add its condition to the actions, or write (:constraints (always …))",
+}
 _KEYWORDS = frozenset([
     "and", "or", "not", "imply", "forall", "exists", "when", "preference", "increase",
     "decrease", "assign", "scale-up", "scale-down", "is-violated", "always", "sometime",
@@ -112,8 +119,8 @@ def _section_name(node: ParseNode, source: SourceText, section_names: Sequence[s
     elif name in section_names:
         return name
     elif name in _UNSUPPORTED:
-        source.error(node.at, "unsupported", f"{_UNSUPPORTED[name]} are not supported",
-                     _CURES.get(name))  # fmt: skip
+        message = f"{_UNSUPPORTED[name]} are not supported"
+        source.once(node.at, "unsupported", message, _CURES.get(name))
     elif name == ":length":
         source.warn(node.at, "ignored-section", "hrcplan takes no notice of :length")
     else:

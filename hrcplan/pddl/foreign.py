@@ -57,7 +57,25 @@ FOREIGN = {
 """Each operator with a hint."""
 
 NO_ARITHMETIC = frozenset(
-    ["%", "^", "**", "mod", "pow", "abs", "min", "max", "sqrt", "floor", "ceil", "round", "exp"]
+    [
+        "%",
+        "^",
+        "**",
+        "mod",
+        "pow",
+        "abs",
+        "min",
+        "max",
+        "sqrt",
+        "floor",
+        "ceil",
+        "round",
+        "exp",
+        "log",
+        "sin",
+        "cos",
+        "tan",
+    ]
 )
 """Functions of other languages; the numbers of PDDL know the four operations."""
 

@@ -95,7 +95,8 @@ class Scope:
             return self.variables.get(term)
         if term not in self.objects:
             message = f"there is no object {quote(term)}"
-            self.source.unknown(term.at, "unknown-object", message, term, self.objects)
+            hint = None if self.objects else "declare it in (:constants …) of the domain"
+            self.source.unknown(term.at, "unknown-object", message, term, self.objects, hint)
             return None
         return (self.objects[term],)
 

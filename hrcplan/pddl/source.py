@@ -74,6 +74,12 @@ class SourceText:
             hint = nearest(word, names)
         self.error(at, code, message, hint)
 
+    def once(self, at: int, code: str, message: str, hint: str | None = None) -> None:
+        """Note an error where it occurs first."""
+        if (code, message) not in self._unknown:
+            self._unknown.add((code, message))
+            self.error(at, code, message, hint)
+
     def use(self, requirement: str, at: int) -> None:
         """Remember where the file first needs a requirement flag."""
         self.uses.setdefault(requirement, at)

@@ -109,3 +109,23 @@ def test_a_type_that_is_listed_twice(tmp_path, types, hint):
  (:predicates (p ?x - a)) (:action n :parameters (?x - a) :effect (p ?x)))"""
     (fault,) = faults(tmp_path, text)
     assert (fault.code, fault.hint) == ("duplicate-type", hint)
+
+
+@pytest.mark.parametrize(
+    ("section", "name"),
+    [
+        ("(:task deliver :parameters (?x)) (:task fetch :parameters (?x))", "HDDL"),
+        ("(:constraint limit :condition (< (f) 3)) (:constraint low :condition (q))", "ENHSP"),
+        ("(:free_functions (v))", "ENHSP"),
+    ],
+)
+def test_sections_of_other_languages_are_named_once(tmp_path, section, name):
+    text = ONE_ACTION.format("(q)", "(q)").replace("(:action", f"{section} (:action")
+    found = errors(tmp_path, text)
+    assert [fault.code for fault in found] == ["unsupported"]
+    assert name in found[0].message
+
+
+def test_an_object_that_a_domain_does_not_have(tmp_path):
+    (found,) = errors(tmp_path, ONE_ACTION.format("(p wrench)", "(q)"))
+    assert "(:constants …)" in found.hint
