@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from hrcplan.assistance import Assistant, BeliefAssistant, StepChoice
     from hrcplan.bank import Bank, build_bank
     from hrcplan.bank import load as load_bank
+    from hrcplan.collaboration.collaborate import collaborate
     from hrcplan.episodes.episode import TurnWorld, play
     from hrcplan.episodes.humans import HUMANS as humans  # noqa: N811
     from hrcplan.episodes.humans import Course, EpisodeHuman
@@ -103,6 +104,7 @@ __all__ = [
     "assistants",
     "beliefs",
     "build_bank",
+    "collaborate",
     "event_worlds",
     "execute",
     "ground",
@@ -123,6 +125,7 @@ __all__ = [
 _HOMES = {
     "hrcplan.assistance": ("Assistant", "BeliefAssistant", "StepChoice", "assistants=ASSISTANTS"),
     "hrcplan.bank": ("Bank", "build_bank", "load_bank=load"),
+    "hrcplan.collaboration.collaborate": ("collaborate",),
     "hrcplan.episodes.episode": ("TurnWorld", "play"),
     "hrcplan.episodes.humans": ("Course", "EpisodeHuman", "humans=HUMANS"),
     "hrcplan.errors": (

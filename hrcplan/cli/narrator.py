@@ -97,6 +97,9 @@ class Narrator:
                 output.result(f"· plan: {plural(len(lanes), 'action')} ({shares}){reason}")
             case shared.Ask(_, shared.DONE, options):
                 output.result(f"· done: {', '.join(options)}. Was that all? (yes, no, or go on)")
+            case shared.Ask(_, _, (option,)):
+                words = self.words(tuple(option.strip("()").split()))
+                output.result(f"· do you mean: {words}? (yes, or say it in other words)")
             case shared.Ask(_, _, options):
                 output.result("· which of these?")
                 for n, option in enumerate(options, start=1):

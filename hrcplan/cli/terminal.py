@@ -87,6 +87,8 @@ class Terminal:
         if question.question == shared.DONE and words[0] in (*YES, *NO):
             choice = shared.YES if words[0] in YES else shared.NO
             return shared.Answered(run.t, choice)
+        if question.question == shared.WHICH and len(question.options) == 1 and words[0] in YES:
+            return shared.Answered(run.t, question.options[0])
         if question.question == shared.WHICH and words[0].isdecimal():
             place = int(words[0][:4]) - 1
             if 0 <= place < len(question.options):

@@ -175,7 +175,19 @@ class Adviser:
     def possible(self, agents: Sequence[str]) -> list[ActionWords]:
         """Return the ground actions that people can begin now, in order."""
         state = self._state_for(agents)
-        return [words for words in self._actions(agents) if self._obstacle(words, state) is None]
+        return [
+            words
+            for words in self._actions(agents)
+            if self._obstacle(words, state) is None and self._changes(words, state)
+        ]
+
+    def _changes(self, words: ActionWords, state: LiftedState) -> bool:
+        """Return whether an action that can begin leaves another state."""
+        model = self.setup.model.actions
+        step = model.step(PlannedAction(words[0], words[1:]))
+        assert step is not None
+        after = model.finish(model.begin(state, step)[0], step)
+        return frozenset(after.facts) != frozenset(state.facts) or after.values != state.values
 
     def _state_for(self, agents: Sequence[str]) -> LiftedState:
         """Return the state in which people begin: what a plan asks of them has not begun."""

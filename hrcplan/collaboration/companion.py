@@ -138,8 +138,7 @@ class Companion:
         if run.running:
             return run, ()
         if run.has_acted:
-            slot = (run.slot + 1) % len(self.setup.slots)
-            run = replace(run, slot=slot, round=run.round + (slot == 0), has_acted=False)
+            run = run.in_next_turn(len(self.setup.slots))
         agents = self.setup.slots[run.slot]
         return self._ask_step(run, agents) if self.setup.robots.issuperset(agents) else (run, ())
 

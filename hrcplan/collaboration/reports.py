@@ -69,6 +69,7 @@ class Reports:
             return _told(companion, "unknown-agent", f"{text} is no action of a person here")
         if self.setup.has_one_goal and _runs(companion.run, step):
             return _closed(_begun_now(companion, step)), ()  # it was asked for
+        companion = self._after_question(companion, agent)
         if not self._has_turn(companion, agent):
             return _told(companion, "not-your-turn", f"it is not the turn of {agent}")
         after, cancels = self._without_request(companion, agent)
@@ -80,6 +81,13 @@ class Reports:
             run = after.run.with_reason(ev.DEVIATION, f"{agent} does {text}")
             after = replace(after, run=run)
         return after, (*cancels, dispatch)
+
+    def _after_question(self, companion: CompanionRun, agent: str) -> CompanionRun:
+        """Return the run in a person's turn if they go on instead of saying that it was all."""
+        if companion.question is None or not companion.has_acted or companion.running:
+            return companion
+        following = companion.in_next_turn(len(self.setup.slots))
+        return following if agent in self.setup.slots[following.slot] else companion
 
     def _has_turn(self, companion: CompanionRun, agent: str) -> bool:
         if self.setup.pace != TURNS or self.setup.has_one_goal:
@@ -98,10 +106,10 @@ class Reports:
         return companion, tuple(ev.Cancel(companion.t, r.number) for r in requests)
 
     def passed(self, companion: CompanionRun, event: shared.Passed) -> CompanionStep:
-        """Return the run when a person does nothing in their turn, or now."""
+        """Return the run when a person does nothing now, or does not answer a question."""
         slot = self.setup.slots[companion.slot]
         agent = event.agent or slot[0]
-        if self.setup.has_one_goal:
+        if self.setup.has_one_goal or companion.question is not None:
             return _closed(companion), ()
         if not self._has_turn(companion, agent):
             return _told(companion, "not-your-turn", f"it is not the turn of {agent}")

@@ -79,6 +79,11 @@ class CompanionRun:
         """Return whether an agent does something that runs."""
         return any(agent in action.step.busy for action in self.running)
 
+    def in_next_turn(self, n_slots: int) -> CompanionRun:
+        """Return this run when the turn has passed on."""
+        slot = (self.slot + 1) % n_slots
+        return replace(self, slot=slot, round=self.round + (slot == 0), has_acted=False)
+
     def plus(self, *marks: Mark) -> CompanionRun:
         """Return this run with a longer history."""
         return replace(self, history=(*self.history, *marks)) if marks else self

@@ -254,7 +254,22 @@ def test_a_goal_that_holds_is_asked_about_once() -> None:
     assert script.run.question is None
 
 
-def test_whoever_confirms_ends_it() -> None:
+def test_a_person_who_goes_on_has_not_ended_it() -> None:
+    """The robot has reached a goal in its turn; the person's next step is the answer."""
+    script = Script("hall", "turns")
+    script.do("go ann b c")
+    for action in ("take robot key c", "use robot key"):
+        script.robot(action)
+        script.tell(ev.Ended(1.0, script.run.running[0].number, ev.DONE))
+        script.settle()
+        if script.run.question is None:
+            script.do("go ann c b")
+    assert script.run.question is not None
+    script.do("go ann b a")
+    assert (script.codes(), script.run.question, script.run.denied) == ([], None, {"key"})
+
+
+def test_who_confirms_ends_it() -> None:
     script = Script("durative")
     script.do("go ann b c")
     script.do("look ann key c")
