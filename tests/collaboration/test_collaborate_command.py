@@ -48,14 +48,15 @@ def collaborate(folder: Path, text: str | bytes, *words: str) -> subprocess.Comp
 def test_a_goal_is_reached_with_a_change_of_mind(folder: Path) -> None:
     """First the human begins a parcel of wire, then it turns to the blue box."""
     # Steps that the robot was quicker with are refused, which does no harm.
-    text = "cut wire\nunfold red\n" + 3 * f"{PIPE_BLUE}\n" + "help\nwhy\ngoals\nstate\nsteps\n"
-    done = collaborate(folder, f"{text}no\nquit\n")
+    steps = PIPE_BLUE.splitlines(keepends=True)
+    text = "cut wire\nunfold red\nhelp\nwhy\ngoals\nstate\nsteps\n" + 3 * "no\n\n".join(steps)
+    done = collaborate(folder, f"{text}quit\n")
     assert "you: cut wire" in done.stdout
     assert re.search(r"robo: .*, for .* · [\w-]+ \d+ %", done.stdout)
     assert re.search(r"done: .*(pipe-blue|either)", done.stdout)
     assert "stopped (quit)" in done.stdout
     assert done.returncode == 1
-    yes = collaborate(folder, f"{PIPE_BLUE}\nyes\n{PIPE_BLUE}yes\nyes\nyes\n")
+    yes = collaborate(folder, 3 * "yes\n\n".join([*steps, ""]))
     assert "goal reached" in yes.stdout
     assert yes.returncode == 0
 
