@@ -30,6 +30,11 @@ _NO_EFFECTS = COMPARISONS | {"or", "imply", "exists", "not", "over"}
 
 def read_effects(node: ParseNode, scope: Scope, when: str | None) -> Iterator[Effect]:
     """Yield the effects of an action; ``when`` is None where a durative one must still say it."""
+    if when is not None and isinstance(node, GroupNode):
+        atom = scope.plain_atom(node)
+        if atom is not None and when != "all" and atom.name not in scope.derived:
+            yield Effect(when, "add", atom)
+            return
     if not isinstance(node, GroupNode) or (node and not node.head):
         message = "an effect such as (p ?x) is expected here"
         scope.source.error(node.at, "not-an-effect", message, loose_cure(node, "effects"))
@@ -133,7 +138,7 @@ def _literal(node: GroupNode, scope: Scope, when: str) -> Iterator[Effect]:
             message = f"{quote(inner.head)} cannot be an effect"
         scope.source.error(inner.at, "not-an-effect", message, _cure(node, inner))
         return
-    atom = read_atom(inner, scope)
+    atom = scope.plain_atom(inner) or read_atom(inner, scope)
     if when == "all":
         message = "a process changes numbers only, such as (increase (f) (* #t 2))"
         scope.source.error(inner.at, "not-an-effect", message, "an event can change facts")

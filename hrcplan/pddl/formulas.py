@@ -56,6 +56,9 @@ _TIMES = {("at", "start"): "start", ("at", "end"): "end", ("over", "all"): "all"
 
 def read_formula(node: ParseNode, scope: Scope) -> Formula:
     """Return the condition that a tree stands for; a faulty part becomes ``TRUE``."""
+    atom = None if isinstance(node, WordNode) else scope.plain_atom(node)
+    if atom is not None:
+        return atom
     if isinstance(node, WordNode) or (node and not node.head):
         message = "a condition such as (p ?x) is expected"
         scope.source.error(node.at, "not-a-condition", message, loose_cure(node, "conditions"))

@@ -115,15 +115,19 @@ class _Init:
 
     def take(self, node: ParseNode) -> None:
         source = self.scope.source
-        if isinstance(node, GroupNode) and self.scope.is_atom(node):
+        if isinstance(node, WordNode):
+            self._loose_word(node)
+            return
+        atom = self.scope.plain_atom(node)
+        if atom is not None and atom.name not in self.scope.domain.derived:
+            self._add(atom, node)
+        elif self.scope.is_atom(node):
             self._fact(node)
-        elif isinstance(node, GroupNode) and node.head == "and":
+        elif node.head == "and":
             message = "facts of :init are listed one after the other"
             source.error(node.at, "not-a-fact", message, "leave the (and …) out")
             for part in node[1:]:
                 self.take(part)
-        elif isinstance(node, WordNode):
-            self._loose_word(node)
         elif not node.head or node.head in _LOGIC:
             source.error(node.at, "not-a-fact", "a fact such as (p a b) is expected here")
         elif self._is_value(node):
@@ -187,11 +191,15 @@ class _Init:
     def _fact(self, node: GroupNode) -> None:
         atom = self._base_atom(node)
         if atom is not None:
-            fact = (atom.name, *atom.args)
-            if fact in self.facts:
-                message = f"{quote(str(atom))} stands twice"
-                self.scope.source.warn(node.at, "duplicate-fact", message)
-            self.facts.add(fact)
+            self._add(atom, node)
+
+    def _add(self, atom: Atom, node: GroupNode) -> None:
+        fact = (atom.name, *atom.args)
+        if fact in self.facts:
+            message = f"{quote(str(atom))} stands twice"
+            self.scope.source.warn(node.at, "duplicate-fact", message)
+        self.facts.add(fact)
+        if self.negative_facts:
             self._check_negative(fact, node)
 
     def _negative_fact(self, node: GroupNode) -> None:

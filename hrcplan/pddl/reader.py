@@ -155,13 +155,17 @@ def _read_even(text: str, source: SourceText) -> list[ParseNode]:
             if not stack:
                 raise _UnevenError(match.start())
             group = stack[-1]
-        elif token[0] != ";":
+        else:
+            kind = token[0]
+            if kind == ";":
+                continue
             word = WordNode(token)
             word.at = match.start()
-            if token[0] == ":" and not _is_in_place(word, group, len(stack)):
+            if kind == "?":
+                if word.at and text[word.at - 1] not in _BEFORE_A_WORD:
+                    _report_gap(word, source)
+            elif kind == ":" and not _is_in_place(word, group, len(stack)):
                 raise _UnevenError(word.at)
-            if token[0] == "?":
-                _check_gap(word, text, source)
             group.append(word)
     if len(stack) != 1:
         raise _UnevenError(group.at)
@@ -176,11 +180,9 @@ def _is_in_place(word: WordNode, group: GroupNode, depth: int) -> bool:
     return word not in PARTS or not group or depth == _SECTION_DEPTH
 
 
-def _check_gap(word: WordNode, text: str, source: SourceText) -> None:
+def _report_gap(word: WordNode, source: SourceText) -> None:
     """Warn about ``pier?p``: two words for most readers, although nothing stands between."""
-    if word.at and text[word.at - 1] not in _BEFORE_A_WORD:
-        message = f"a space is missing before {word}"
-        source.warn(word.at, "missing-space", message)
+    source.warn(word.at, "missing-space", f"a space is missing before {word}")
 
 
 def _allow_depth(depth: int) -> None:
@@ -204,6 +206,8 @@ def _without_commas(source: SourceText) -> str:
 
 def notes(source: SourceText) -> Iterator[tuple[int, str]]:
     """Yield offset and text of every ``;; hrcplan: …`` comment."""
+    if "hrcplan:" not in source.text.lower():
+        return
     for match in _NOTE.finditer(source.text):
         yield match.start(), match.group(1).strip()
 

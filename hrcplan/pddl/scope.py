@@ -7,12 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass, field, replace
-from itertools import count
+from itertools import count, islice
 
 from hrcplan.core.numbers import fraction_of, number_text, to_number
 from hrcplan.core.text import plural, quote
 from hrcplan.pddl.foreign import FOREIGN
-from hrcplan.pddl.model import OBJECT, TOTAL_TIME, Domain, Param, Signature
+from hrcplan.pddl.model import OBJECT, TOTAL_TIME, Atom, Domain, Param, Signature
 from hrcplan.pddl.reader import GroupNode, WordNode
 from hrcplan.pddl.source import SourceText
 
@@ -81,6 +81,37 @@ class Scope:
             return False
         words = all(isinstance(part, WordNode) for part in node)
         return words and (len(node) > 1 or node.head not in ("and", "or"))
+
+    def plain_atom(self, node: GroupNode) -> Atom | None:
+        """Return the atom that a group is; None if anything about it needs a second look.
+
+        Most groups of a file are atoms without a fault, so they take this short way.
+        """
+        head = node[0] if node else None
+        if type(head) is not WordNode or self.renames:
+            return None
+        signature = self.domain.predicates.get(head)
+        if signature is None or len(node) != len(signature.params) + 1:
+            return None
+        if len(node) == 1 and head in ("and", "or"):
+            return None
+        names: list[str] = []
+        for term, param in zip(islice(node, 1, None), signature.params, strict=True):
+            if type(term) is not WordNode:
+                return None
+            types: tuple[str, ...] | None
+            if term[0] == "?":
+                types = self.variables.get(term)
+            else:
+                kind = self.objects.get(term)
+                types = None if kind is None else (kind,)
+            if types is None or (
+                types != param.types
+                and not (len(types) == 1 and self.domain.is_a(types[0], param.types))
+            ):
+                return None
+            names.append(str(term))
+        return Atom(signature.name, tuple(names))
 
     def types_of(self, term: WordNode) -> tuple[str, ...] | None:
         """Return the types of a variable or object; None, with an error, if it is unknown."""

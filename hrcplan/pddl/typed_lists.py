@@ -23,7 +23,9 @@ def read_typed(
     A type that is not among ``types`` is an error, unless ``types`` is None.
     """
     waiting: list[WordNode] = []
-    rest = iter(with_dashes(list(_flat(nodes, source)), source, types))
+    if any(type(node) is GroupNode or node == ":" for node in nodes):
+        nodes = list(_flat(nodes, source))
+    rest = iter(with_dashes(nodes, source, types))
     for node in rest:
         if isinstance(node, GroupNode):
             source.error(node.at, "not-a-name", "a name is expected here, not a group")
