@@ -16,6 +16,7 @@ from hrcplan.errors import UsageError
 from hrcplan.studies.store import Store
 from hrcplan.studies.study import Episode, Say, Seed, Study, StudyOptions, StudyRow, episodes, find
 
+_FEW = 16  # episodes that one process has done before others have prepared what they need
 _CHUNK = 32  # episodes a worker does before its rows are written: what a kill can lose
 ReportProgress = Callable[[int, int], None]
 
@@ -41,7 +42,7 @@ def run_study(
         folder: Where ``rows.sqlite`` is or will be.
         runs: Runs per cell; by default as many as the study says.
         seed: From which everything random is derived.
-        jobs: Worker processes.
+        jobs: Worker processes, if there are enough episodes for more than one.
         limit: Episodes of the study's first table, spread evenly over its cells, and at most as
             many of all its other tables together.
         options: The study's own options; None values stand for its defaults.
@@ -83,7 +84,7 @@ def _results(
 ) -> Iterator[list[tuple[Episode, StudyRow]]]:
     """Yield rows in the order of the episodes, not in that of their ends."""
     chunks = _chunks(missing)
-    if jobs == 1 or len(chunks) < 2:
+    if jobs == 1 or len(missing) < _FEW:
         yield from (_rows(name, options, seed, chunk) for chunk in chunks)
         return
     from joblib import Parallel, delayed
