@@ -30,6 +30,7 @@ from hrcplan.collaboration.events import KINDS as COLLABORATION_KINDS
 from hrcplan.execution import FactChange, Nature, StateChange
 from hrcplan.execution import events as ev
 from hrcplan.execution.codec import KINDS, to_json
+from hrcplan.inference.traces import Trace, TraceAction
 from hrcplan.pddl.model import Problem
 from hrcplan.studies.changed_mind import script
 from hrcplan.studies.study import find
@@ -276,3 +277,10 @@ def test_every_section_is_looked_at() -> None:
     looked_at = set(re.findall(r'SECTIONS\["([^"]+)"\]', Path(__file__).read_text("utf-8")))
     looked_at |= {"Journal: events", "Journal: decisions", *(f"Rows: {name}" for name in ROWS)}
     assert set(SECTIONS) == looked_at
+
+
+def test_traces() -> None:
+    actions = (TraceAction(0.0, "ann", "cut", ("ann", "pipe")), TraceAction(1.0, None, "ring", ()))
+    lines = [json.loads(line) for line in Trace("d", "0", actions).text().splitlines()]
+    schema.check(lines[:1], SECTIONS["Trace: first line"])
+    schema.check(lines[1:], SECTIONS["Trace: other lines"])

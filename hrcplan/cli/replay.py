@@ -8,25 +8,33 @@ from typing import TYPE_CHECKING
 import rich_click as click
 
 from hrcplan.cli import output
+from hrcplan.core.files import check_target
 
 if TYPE_CHECKING:
     from hrcplan.collaboration.outcome import CollaborationOutcome
     from hrcplan.execution.journal import Journal
     from hrcplan.execution.outcome import Outcome
     from hrcplan.execution.replay import Replayed
+    from hrcplan.inference.traces import Trace
 
 
 @click.command("replay")
 @click.argument("journal", type=click.Path(path_type=Path))
+@click.option("--trace", type=click.Path(path_type=Path), metavar="FILE",
+              help="Also write what was done, for hrcplan infer.")  # fmt: skip
 @output.common_options
-def command(journal: Path) -> int:
+def command(journal: Path, trace: Path | None) -> int:
     """Check that every decision in JOURNAL follows from what was written before it.
 
     JOURNAL was written by 'hrcplan execute' or 'hrcplan collaborate'.
     """
     from hrcplan.execution.journal import read_journal
 
-    check = _replay(read_journal(journal))
+    check_target(trace, journal)
+    content = read_journal(journal)
+    check = _replay(content)
+    if trace is not None:
+        output.write_atomically(trace, _trace(content).text())
     difference = check.difference
     if output.JSON:
         place = difference and {
@@ -43,6 +51,14 @@ def command(journal: Path) -> int:
         output.result(f"{journal}:{difference.line}: this does not follow")
         output.result(f"  expected  {difference.expected}\n  found     {difference.recorded}")
     return 0 if difference is None else 1
+
+
+def _trace(journal: Journal) -> Trace:
+    from hrcplan.collaboration.journal import is_collaboration, setup_of
+    from hrcplan.execution.traces import trace_of
+
+    setup = setup_of(journal) if is_collaboration(journal) else journal.setup()
+    return trace_of(journal.lines, setup.problem)
 
 
 def _replay(journal: Journal) -> Replayed[Outcome] | Replayed[CollaborationOutcome]:

@@ -92,7 +92,7 @@ class Companion:
 
     def _observed(self, run: CompanionRun, event: SharedEvent) -> CompanionStep:
         """Return the run after an event that the monitor of execution understands."""
-        assert isinstance(event, ev.Observed | ev.Sensed | ev.Planned | ev.StopAsked)
+        assert isinstance(event, ev.Event)
         inner, commands = self.monitor.step(run.run, event)
         return self._after(replace(run, run=inner), commands)
 

@@ -10,6 +10,7 @@ from hrcplan.bank import Goals, StepTable
 from hrcplan.bank.ramirez_geffner import read_actions
 from hrcplan.core.text import cut, nearest, quote
 from hrcplan.errors import InputError, UsageError
+from hrcplan.inference.traces import is_trace, observed_in
 from hrcplan.pddl.conventions import robots
 from hrcplan.pddl.model import Problem
 from hrcplan.pddl.source import read_text
@@ -29,8 +30,10 @@ def observed_words(
     r"""Return observed actions as words.
 
     Args:
-        actions: Text has parentheses, or it is the path of a file.
-        problem: Its domain names the actions, so that a planner's log can be read.
+        actions: Text has parentheses or is a trace (`hrcplan.inference.traces`), or it is the path
+            of a file.
+        problem: Its domain names the actions, so that a planner's log can be read; a trace has to
+            be of this problem's world.
 
     Raises:
         InputError: if a file cannot be read.
@@ -43,8 +46,12 @@ def observed_words(
     """
     if isinstance(actions, Plan):
         actions = actions.actions
-    if isinstance(actions, Path) or (isinstance(actions, str) and "(" not in actions):
-        actions = read_text(actions)
+    path: str | None = None
+    is_text = isinstance(actions, str) and ("(" in actions or is_trace(actions))
+    if isinstance(actions, Path | str) and not is_text:
+        path, actions = str(actions), read_text(actions)
+    if isinstance(actions, str) and is_trace(actions):
+        return observed_in(actions, problem, path)
     if isinstance(actions, str):
         return read_actions(actions, problem)
     if not isinstance(actions, Iterable):

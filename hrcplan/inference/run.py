@@ -31,6 +31,7 @@ from hrcplan.inference.observations import (
     observed_words,
 )
 from hrcplan.inference.registry import BANK_METHOD, GOALS_METHOD, METHODS, takes_goals
+from hrcplan.inference.traces import is_trace
 
 BUILD_S = 20.0  # for plan graphs of a folder that is no bank
 
@@ -173,7 +174,8 @@ def _path_of(actions: Observations | Bank | Goals) -> str | None:
     """Return the path that observations are read from; None if they are no file."""
     if isinstance(actions, Path):
         return str(actions / OBSERVATIONS if actions.is_dir() else actions)
-    return _path_of(Path(actions)) if isinstance(actions, str) and "(" not in actions else None
+    is_path = isinstance(actions, str) and "(" not in actions and not is_trace(actions)
+    return _path_of(Path(str(actions))) if is_path else None
 
 
 def steps_of(belief: Belief[S], default: StepTable) -> StepTable:
