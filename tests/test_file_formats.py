@@ -30,7 +30,7 @@ from hrcplan.collaboration.events import KINDS as COLLABORATION_KINDS
 from hrcplan.execution import FactChange, Nature, StateChange
 from hrcplan.execution import events as ev
 from hrcplan.execution.codec import KINDS, to_json
-from hrcplan.inference.traces import Trace, TraceAction
+from hrcplan.inference.traces import ActionTrace, TraceAction
 from hrcplan.pddl.model import Problem
 from hrcplan.studies.changed_mind import script
 from hrcplan.studies.study import find
@@ -281,6 +281,6 @@ def test_every_section_is_looked_at() -> None:
 
 def test_traces() -> None:
     actions = (TraceAction(0.0, "ann", "cut", ("ann", "pipe")), TraceAction(1.0, None, "ring", ()))
-    lines = [json.loads(line) for line in Trace("d", "0", actions).text().splitlines()]
+    lines = [json.loads(line) for line in ActionTrace("d", "0", actions).text().splitlines()]
     schema.check(lines[:1], SECTIONS["Trace: first line"])
     schema.check(lines[1:], SECTIONS["Trace: other lines"])

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from hrcplan.execution.journal import Journal
     from hrcplan.execution.outcome import Outcome
     from hrcplan.execution.replay import Replayed
-    from hrcplan.inference.traces import Trace
+    from hrcplan.inference.traces import ActionTrace
 
 
 @click.command("replay")
@@ -53,7 +53,7 @@ def command(journal: Path, trace: Path | None) -> int:
     return 0 if difference is None else 1
 
 
-def _trace(journal: Journal) -> Trace:
+def _trace(journal: Journal) -> ActionTrace:
     from hrcplan.collaboration.journal import is_collaboration, setup_of
     from hrcplan.execution.traces import trace_of
 

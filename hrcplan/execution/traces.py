@@ -6,13 +6,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from hrcplan.inference.traces import Trace, TraceAction, world_sha256
+from hrcplan.inference.traces import ActionTrace, TraceAction, world_sha256
 from hrcplan.pddl.model import Problem
 
 UNKNOWN = "unknown"  # of an action that still runs
 
 
-def trace_of(lines: Sequence[Mapping[str, Any]], problem: Problem) -> Trace:
+def trace_of(lines: Sequence[Mapping[str, Any]], problem: Problem) -> ActionTrace:
     """Return what was done, in the order in which it began; what was taken back is left out.
 
     Args:
@@ -35,4 +35,4 @@ def trace_of(lines: Sequence[Mapping[str, Any]], problem: Problem) -> Trace:
                     command["t"], command["agent"] or None, command["action"],
                     tuple(command["args"]), UNKNOWN,
                 )  # fmt: skip
-    return Trace(problem.domain.name, world_sha256(problem), tuple(actions.values()))
+    return ActionTrace(problem.domain.name, world_sha256(problem), tuple(actions.values()))

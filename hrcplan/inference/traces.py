@@ -35,7 +35,7 @@ class TraceAction:
 
 
 @dataclass(frozen=True, slots=True)
-class Trace:
+class ActionTrace:
     """What was done in one world; ``pddl_sha256`` is the result of ``world_sha256``."""
 
     domain: str
@@ -72,7 +72,7 @@ def is_trace(text: str) -> bool:
     return isinstance(head, dict) and "trace" in head
 
 
-def read_trace(text: str, path: str | None = None) -> Trace:
+def read_trace(text: str, path: str | None = None) -> ActionTrace:
     """Return the trace that a text holds.
 
     Raises:
@@ -85,7 +85,7 @@ def read_trace(text: str, path: str | None = None) -> Trace:
             message = f"a trace of version {head['trace']}; this version reads {VERSION}"
             raise InputError(message, code="bad-trace", path=path, line=1)
         actions = tuple(_actions(lines[1:], path))
-        return Trace(str(head["domain"]), str(head["pddl_sha256"]), actions)
+        return ActionTrace(str(head["domain"]), str(head["pddl_sha256"]), actions)
     except (ValueError, KeyError, TypeError, RecursionError) as error:
         message = f"the first line is no beginning of a trace: {error!r}"
         raise InputError(message, code="bad-trace", path=path, line=1) from None

@@ -10,7 +10,7 @@ from hrcplan.errors import InputError
 from hrcplan.execution.journal import read_journal
 from hrcplan.execution.traces import trace_of
 from hrcplan.inference import infer
-from hrcplan.inference.traces import Trace, TraceAction, is_trace, read_trace, world_sha256
+from hrcplan.inference.traces import ActionTrace, TraceAction, is_trace, read_trace, world_sha256
 from tests.worlds import PACKED, PARCELS, WORKSHOP, world
 
 ACTIONS = (
@@ -20,8 +20,8 @@ ACTIONS = (
 )
 
 
-def trace(workshop: Bank) -> Trace:
-    return Trace("workshop", world_sha256(workshop.goals.problem), ACTIONS)
+def trace(workshop: Bank) -> ActionTrace:
+    return ActionTrace("workshop", world_sha256(workshop.goals.problem), ACTIONS)
 
 
 def test_a_trace_is_read_as_it_was_written(workshop: Bank) -> None:
@@ -42,7 +42,7 @@ def test_what_was_done_is_observed(workshop: Bank, tmp_path: Path) -> None:
 def test_a_trace_of_other_pddl_is_refused(workshop: Bank) -> None:
     changed = WORKSHOP.replace(":effect (open ?b))", ":effect (and (open ?b) (not (sealed ?b))))")
     other = world(changed, PACKED, PARCELS).problem
-    text = Trace("workshop", world_sha256(other), ACTIONS).text()
+    text = ActionTrace("workshop", world_sha256(other), ACTIONS).text()
     with pytest.raises(InputError, match="other PDDL"):
         infer(workshop, text)
     assert world_sha256(workshop.goals.problem) == world_sha256(
