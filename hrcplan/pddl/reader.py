@@ -18,6 +18,9 @@ MAX_MENDED = 8 << 20  # characters: where parentheses do not match, a longer tex
 _PLAIN_DEPTH = 100  # deeper trees need more of Python's stack than it allows by itself
 _FRAMES = 12  # that one level of a formula may take
 _SECTION_DEPTH = 3  # groups around the head of a section: everything, define, the section
+# A group of words without a keyword is one token of a text whose parentheses match.
+_FLAT = r"\(\s*+[^\s();:?][^\s();?]*+(?:\s++\??[^\s();?:][^\s();?]*+)*+\s*+\)"
+_GROUP_OR_TOKEN = re.compile(_FLAT + r"|[()]|\?*[^\s();?]+|\?+|;[^\r\n]*")
 _TOKEN = re.compile(r"[()]|\?*[^\s();?]+|\?+|;[^\r\n]*")
 _COMMENT_OR_COMMA = re.compile(r";[^\r\n]*|(?<![0-9]),|,(?![0-9])")  # 1,5 is meant as a number
 _NOTE = re.compile(r"(?<!;);++[ \t]*+hrcplan:[ \t]*+([^\r\n;]*)", re.IGNORECASE)
@@ -139,9 +142,16 @@ def _read_even(text: str, source: SourceText) -> list[ParseNode]:
     group = GroupNode(0)
     stack = [group]
     deepest = 0
-    for match in _TOKEN.finditer(lower):
+    for match in _GROUP_OR_TOKEN.finditer(lower):
         token = match.group()
-        if token == "(":
+        if token[0] == "(" and len(token) > 1:
+            flat = _flat_group(token, match.start(), lower)
+            group.append(flat)
+            if len(stack) >= deepest:
+                deepest = len(stack) + 1
+                if deepest > MAX_DEPTH:
+                    raise _UnevenError(flat.at)
+        elif token == "(":
             inner = GroupNode(match.start())
             group.append(inner)
             stack.append(inner)
@@ -171,6 +181,18 @@ def _read_even(text: str, source: SourceText) -> list[ParseNode]:
         raise _UnevenError(group.at)
     _allow_depth(deepest)
     return list(group)
+
+
+def _flat_group(token: str, start: int, text: str) -> GroupNode:
+    """Return the group of words that begins at ``start``."""
+    group = GroupNode(start)
+    at = start
+    for part in token[1:-1].split():
+        word = WordNode(part)
+        word.at = text.find(part, at)
+        at = word.at + len(part)
+        group.append(word)
+    return group
 
 
 def _is_in_place(word: WordNode, group: GroupNode, depth: int) -> bool:

@@ -8,7 +8,7 @@ import pytest
 from hrcplan.core.text import nearest
 from hrcplan.pddl.check import check_files, load_domain, load_problem
 from hrcplan.pddl.model import Domain, Problem
-from hrcplan.pddl.reader import MAX_DEPTH, GroupNode, WordNode, read
+from hrcplan.pddl.reader import MAX_DEPTH, GroupNode, ParseNode, WordNode, read, read_nodes
 from hrcplan.pddl.source import MAX_FAULTS, SourceText, decode
 
 VALID = Path(__file__).parent / "valid"
@@ -176,3 +176,23 @@ def test_a_file_of_nonsense_gives_a_limited_number_of_faults_quickly() -> None:
 def test_a_hint_names_what_is_close_and_nothing_else() -> None:
     assert nearest("graps", ["grasp", "place"]) == "did you mean 'grasp'?"
     assert nearest("zzz", ["grasp", "place"]) is None
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["(a b)", "( a  ?b\t-c )", "(a (b c) d)", "(a ?b?c)", "(?a b)", "(:a b)", "(a :b)", "(a ; c\n b)",
+     "(a b", "a b)", "((a) (b))", "()", "(a)(b)", "(é İ x)"],
+)  # fmt: skip
+def test_groups_of_words_have_the_places_that_they_have_in_the_text(text: str) -> None:
+    """Such a group is read as one token: its words stand where they stand all the same."""
+
+    def check(node: ParseNode) -> None:
+        if isinstance(node, GroupNode):
+            assert text[node.at] == "("
+            for part in node:
+                check(part)
+        else:
+            assert text[node.at : node.at + len(node)].lower() == node
+
+    for node in read_nodes(SourceText("x", text)):
+        check(node)
