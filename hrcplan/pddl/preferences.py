@@ -21,7 +21,7 @@ def read_preferences(
 
     ``durative`` is None for a goal, else it says whether the tree is a durative action's condition.
     """
-    if not _mentions(node, scope):
+    if not scope.source.mentions("preference") or not _mentions(node, scope):
         return node, ()
     scope.source.use(":preferences", node.at)
     preferences: list[Preference] = []

@@ -228,7 +228,7 @@ def _without_commas(source: SourceText) -> str:
 
 def notes(source: SourceText) -> Iterator[tuple[int, str]]:
     """Yield offset and text of every ``;; hrcplan: …`` comment."""
-    if "hrcplan:" not in source.text.lower():
+    if not source.mentions("hrcplan:"):
         return
     for match in _NOTE.finditer(source.text):
         yield match.start(), match.group(1).strip()

@@ -77,10 +77,11 @@ class Scope:
 
         So is ``(when ?x)``, if there is such a predicate; ``(and)`` and ``(or)`` never are.
         """
-        if node.head not in self.domain.predicates or not node:
+        head = node.head
+        if head not in self.domain.predicates:
             return False
         words = all(isinstance(part, WordNode) for part in node)
-        return words and (len(node) > 1 or node.head not in ("and", "or"))
+        return words and (len(node) > 1 or head not in ("and", "or"))
 
     def plain_atom(self, node: GroupNode) -> Atom | None:
         """Return the atom that a group is; None if anything about it needs a second look.

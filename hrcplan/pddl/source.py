@@ -34,6 +34,7 @@ class SourceText:
     _unknown: set[tuple[str, str]] = field(default_factory=set)
     _counts: dict[str, int] = field(default_factory=dict)
     _lines: list[int] = field(default_factory=list)
+    _mentioned: dict[str, bool] = field(default_factory=dict)
 
     def position(self, at: int) -> tuple[int, int]:
         r"""Return the 1-based (line, column) of the character at offset ``at``.
@@ -73,6 +74,12 @@ class SourceText:
         if hint is None and len(self.diagnostics) < MAX_HINTS:
             hint = nearest(word, names)
         self.error(at, code, message, hint)
+
+    def mentions(self, word: str) -> bool:
+        """Return whether the text holds a word anywhere, in small letters or capitals."""
+        if word not in self._mentioned:
+            self._mentioned[word] = word in self.text.lower()
+        return self._mentioned[word]
 
     def once(self, at: int, code: str, message: str, hint: str | None = None) -> None:
         """Note an error where it occurs first."""

@@ -180,8 +180,10 @@ def test_a_hint_names_what_is_close_and_nothing_else() -> None:
 
 @pytest.mark.parametrize(
     "text",
-    ["(a b)", "( a  ?b\t-c )", "(a (b c) d)", "(a ?b?c)", "(?a b)", "(:a b)", "(a :b)", "(a ; c\n b)",
-     "(a b", "a b)", "((a) (b))", "()", "(a)(b)", "(é İ x)"],
+    [
+        "(a b)", "( a  ?b\t-c )", "(a (b c) d)", "(a ?b?c)", "(?a b)", "(:a b)", "(a :b)",
+        "(a ; c\n b)", "(a b", "a b)", "((a) (b))", "()", "(a)(b)", "(é É x)",
+    ],
 )  # fmt: skip
 def test_groups_of_words_have_the_places_that_they_have_in_the_text(text: str) -> None:
     """Such a group is read as one token: its words stand where they stand all the same."""
