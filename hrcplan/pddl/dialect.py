@@ -69,7 +69,12 @@ def with_binary_sums(problem: Problem) -> Problem:
     domain = problem.domain
     return replace(
         problem,
-        domain=replace(domain, actions=tuple(_binary_action(a) for a in domain.actions)),
+        domain=replace(
+            domain,
+            actions=tuple(map(_binary_action, domain.actions)),
+            processes=tuple(map(_binary_action, domain.processes)),
+            events=tuple(map(_binary_action, domain.events)),
+        ),
         goal=_binary_formula(problem.goal),
         metric=None if problem.metric is None else _binary(problem.metric),
     )

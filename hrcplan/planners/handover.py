@@ -58,8 +58,12 @@ class Handover:
         return domain_text(self.problem.domain), problem_text(self.problem)
 
     def plan(self, text: str) -> Plan:
-        """Return the plan of a text in the names of the task."""
-        return self.restored(parse_plan(text))
+        """Return the plan of a text in the names of the task.
+
+        The line with ``@``, which says when a plan of PDDL+ ends, is no action.
+        """
+        lines = (line for line in text.splitlines() if "@" not in line)
+        return self.restored(parse_plan("\n".join(lines)))
 
     def restored(self, plan: Plan) -> Plan:
         """Return a plan of the planner in the names of the task."""

@@ -191,7 +191,7 @@ class _Portfolio:
             return  # the search ends with the plan that it has shown before
         self.last = text
         source = self.handover if self.lowering is None else self.lowering
-        plan = source.plan(_without_end(text))
+        plan = source.plan(text)
         if self.request.problem.domain.is_continuous:
             self.best = 0, plan, None  # hrcplan cannot judge it
             return
@@ -277,11 +277,6 @@ class _Portfolio:
             note = "it says unsolvable, but counts in floating point"
             return Answer(Status.UNSOLVED, note=note)
         return Answer(Status.UNSOLVABLE)
-
-
-def _without_end(text: str) -> str:
-    """Return a plan without the line that says when a plan of PDDL+ ends: it is no action."""
-    return "\n".join(line for line in text.splitlines() if "@" not in line)
 
 
 def _lowering(request: Request) -> Lowering | None:

@@ -84,7 +84,7 @@ def test_planners_that_know_axioms_find_the_cheapest_plan(planner: str) -> None:
         (WIRES, "enhsp", "derived predicates"),
         (DOOR, "exact", "timed initial literals"),
         (MEMORY, "exact", "condition at the start"),
-        (TANK, "enhsp", "processes"),
+        (TANK, "fast-downward", "processes"),
     ],
 )
 def test_a_planner_that_does_not_know_a_construct_says_so(

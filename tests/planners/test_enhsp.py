@@ -15,6 +15,7 @@ from hrcplan.planners import enhsp, handover
 from hrcplan.planners.contract import Answer, Request, Status
 from hrcplan.planners.enhsp import Enhsp
 from hrcplan.planners.fast_downward import FastDownward
+from hrcplan.planners.solve import solve as solve_problem
 from hrcplan.task import Task
 from hrcplan.validation import validate
 from tests.texts import problem_of
@@ -184,3 +185,21 @@ def test_a_number_that_changes_for_all_objects_is_read() -> None:
     answer = solve(problem_of(domain, text))
     assert answer.plan is not None
     assert sorted(action.name for action in answer.plan.actions) == ["fill", "fill", "finish"]
+
+
+def test_processes_and_events_are_planned_and_not_judged() -> None:
+    domain = """(define (domain tank) (:requirements :fluents :time :negative-preconditions)
+      (:predicates (filling)) (:functions (level))
+      (:action open :parameters () :precondition (not (filling)) :effect (filling))
+      (:action close :parameters () :precondition (filling) :effect (not (filling)))
+      (:process flow :parameters () :precondition (filling)
+        :effect (increase (level) (* #t (+ 1 0.5 0.5))))
+      (:event overflow :parameters () :precondition (> (level) 20) :effect (not (filling))))"""
+    text = """(define (problem p) (:domain tank) (:init (= (level) 0))
+      (:goal (and (>= (level) 5) (not (filling)))))"""
+    result = solve_problem(problem_of(domain, text), "enhsp", timeout_s=20)
+    assert result.status is Status.SOLVED
+    assert result.plan is not None
+    assert [action.name for action in result.plan.actions] == ["open", "close"]
+    assert result.plan.actions[1].start_s == 3
+    assert "cannot judge" in str(result.mismatch)
