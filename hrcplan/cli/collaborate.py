@@ -70,7 +70,7 @@ def command(
     spec = {"name": "frontier" if human == SIMULATED else human}
     setup = make_setup(bank, pace=pace, method=method, seed=seed, human=spec)
     _check_method(setup, len(bank.names))
-    session = _Session(bank)
+    session = _Session(bank, journal if resume else None)
     try:
         done = carry_out_collaboration(
             setup, session.make_parts, journal=journal, resume=resume, watch=session.watch
@@ -121,8 +121,8 @@ def _check_method(setup: CollaborationSetup, n_goals: int) -> None:
 class _Session:
     """The parts of one collaboration, made for the setup that it has in the end."""
 
-    def __init__(self, bank: Bank) -> None:
-        self.bank = bank
+    def __init__(self, bank: Bank, past: Path | None) -> None:
+        self.bank, self.past = bank, past
         self.narrator: Narrator | None = None
 
     def make_parts(self, setup: CollaborationSetup) -> CollaborationParts:
@@ -144,6 +144,8 @@ class _Session:
             terminal = Terminal(self.narrator, InputLines())
             parts = collaborate.parts_with(setup, self.bank, adviser, terminal)
         _begin(setup)
+        if self.past is not None and not output.JSON:
+            output.result(f"· going on with {self.past}")
         return parts
 
     def watch(
