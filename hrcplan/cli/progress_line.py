@@ -51,6 +51,7 @@ class ProgressLine:
             self._width = len(text)
 
 
-def show_progress(stream: TextIO) -> None:
-    """Show the progress of work on a stream if it is a terminal."""
-    progress.listen(ProgressLine(stream) if stream.isatty() else None)
+def show_progress(stream: TextIO | None) -> None:
+    """Show the progress of work on a stream if it is a terminal; None is a closed stream."""
+    is_terminal = stream is not None and stream.isatty()
+    progress.listen(ProgressLine(stream) if stream is not None and is_terminal else None)

@@ -27,6 +27,7 @@ _BARE = re.compile(
     r"(?P<start>\d+(?:[.,]\d+)?s?\s*:)?\s*(?P<words>[^\s()\[\]:;,]+(?:(?:\s*,\s*|\s+)[^\s()\[\]:;,]+)*)"
     r"\s*(?:\[(?P<duration>[^\[\]]+)\])?"
 )
+_COMMENT = re.compile(r";[^\n]*")
 _PRICE = re.compile(r"\s\(\d+\)$")  # "go a b (1)" of Fast Downward
 _OF_A_LOG = re.compile(
     r"waiting|plan(?:\b|_)|(?:\b|_)(?:solution|cost|time|search|heuristic|states|steps)(?:\b|_)|^```|^[^a-z]+$"
@@ -40,7 +41,7 @@ def find_plans(text: str, problem: Problem) -> Iterator[Plan]:
 
     Plans of a classical domain have no times: some planners print the position of a step as one.
     """
-    for actions in _blocks(text, _Steps(problem)):
+    for actions in _blocks(text, _Steps(problem, text)):
         has_times = any(action.start_s is not None for action in actions)
         if has_times and problem.domain.is_temporal:
             if all(action.start_s is not None for action in actions):
@@ -117,10 +118,12 @@ def _blocks(text: str, steps: _Steps) -> Iterator[list[PlannedAction]]:
 class _Steps:
     """What a problem's actions look like in a text."""
 
-    def __init__(self, problem: Problem) -> None:
+    def __init__(self, problem: Problem, text: str) -> None:
         self.names = {action.name for action in problem.domain.actions}
         self._arity = {action.name: len(action.params) for action in problem.domain.actions}
         self._objects = problem.all_objects
+        # Among actions with parentheses a line without them is a fault.
+        self._is_bare = "(" not in _COMMENT.sub("", text)
 
     def on_line(self, line: str) -> tuple[PlannedAction, ...]:
         """Return the actions on a line; none if there is anything else on it."""
@@ -138,7 +141,7 @@ class _Steps:
         words = bare.split() if _WORDS.fullmatch(bare) else []
         if words and words[0] in self.names:
             return (PlannedAction(words[0], tuple(words[1:])),)
-        return self._without_parentheses(line)
+        return self._without_parentheses(line) if self._is_bare else ()
 
     def _without_parentheses(self, line: str) -> tuple[PlannedAction, ...]:
         """Return the action of a line such as ``0.5: go a b [5]``, if it names what is declared."""
@@ -156,7 +159,7 @@ class _Steps:
 
 def _is_log(text: str, problem: Problem) -> bool:
     """Return whether all lines without an action speak of something else than actions."""
-    steps = _Steps(problem)
+    steps = _Steps(problem, text)
     lines = [line.strip() for line in plain_text(text).lower().splitlines() if line.strip()]
     rest = [line for line in lines if not steps.on_line(line)]
     if any(not steps.names.isdisjoint(re.findall(r"[^\s()\[\]:;,]+", line)) for line in rest):
