@@ -68,7 +68,7 @@ def _steps(value: JsonValue) -> list[str] | None:
     if not isinstance(value, Sequence):
         return None
     lines = [_line(step) for step in value]
-    if all(lines):
+    if lines and all(lines):
         return [line for line in lines if line]
     inner = (_steps(part) for part in reversed(value) if isinstance(part, Mapping))
     return next((steps for steps in inner if steps is not None), None)
