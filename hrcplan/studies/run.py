@@ -16,6 +16,7 @@ from hrcplan.errors import UsageError
 from hrcplan.studies.store import Store
 from hrcplan.studies.study import Episode, Say, Seed, Study, StudyOptions, StudyRow, episodes, find
 
+FIRST_RUNS = 10  # of each cell, before what others need is prepared
 _FEW = 16  # episodes that one process has done before others have prepared what they need
 _CHUNK = 32  # episodes a worker does before its rows are written: what a kill can lose
 ReportProgress = Callable[[int, int], None]
@@ -58,6 +59,7 @@ def run_study(
     study = find(name)
     choice = study.with_defaults(options or {})
     all_episodes = list(episodes(study, choice, runs or study.runs(choice), limit))
+    say("goals are read, and their plans counted")
     digest = hashlib.sha256(study.inputs(choice).encode()).hexdigest()
     about = {"study": name, "version": __version__, "seed": seed, "options": choice,
              "inputs_sha256": digest}  # fmt: skip
@@ -66,17 +68,31 @@ def run_study(
         n_done = len(all_episodes) - len(missing)
         if progress is not None:
             progress(n_done, len(all_episodes))
-        if missing:
-            study.prepare(choice, jobs, say)
-        for results in _results(name, choice, seed, missing, jobs):
-            for table, rows in groupby(results, lambda pair: pair[0].table):
-                store.add(study.table(table), list(rows))
-            n_done += len(results)
-            if progress is not None:
-                progress(n_done, len(all_episodes))
+        for part, needs_more in _parts(study, missing):
+            if needs_more:
+                study.prepare(choice, jobs, say)
+            for results in _results(name, choice, seed, part, jobs):
+                for table, rows in groupby(results, lambda pair: pair[0].table):
+                    store.add(study.table(table), list(rows))
+                n_done += len(results)
+                if progress is not None:
+                    progress(n_done, len(all_episodes))
         if not store.is_compact:
             store.compact()
     return len(missing)
+
+
+def _parts(study: Study, missing: list[Episode]) -> Iterator[tuple[list[Episode], bool]]:
+    """Yield the episodes in parts, and whether a part needs what the study prepares.
+
+    The first runs of cells that are ready come first, so that there is a page to look at soon.
+    """
+    first = [e for e in missing if e.run < FIRST_RUNS and study.is_ready(e.cell)]
+    rest = missing if not first else [e for e in missing if e not in set(first)]
+    if first:
+        yield first, False
+    if rest:
+        yield rest, any(not study.is_ready(episode.cell) for episode in rest)
 
 
 def _results(

@@ -105,13 +105,13 @@ class Study:
     """A study; the first table holds what is reported by cell, the others what explains it.
 
     ``inputs`` returns the text of the files that rows depend on; where it has changed, rows made
-    before are not added to. ``prepare`` makes what all episodes need, with a number of processes,
-    and is given a function that tells the user. ``runs`` is how many runs a cell has by default.
-    ``unit`` names the columns of which each combination counts once in a standard error: means over
-    its rows are taken first, and those that share a value of a column are not taken as independent;
-    without it every row counts. ``renamed`` holds, by key column or option,
-    the names of earlier versions with the present ones: they still work in options, and in rows
-    that were written before.
+    before are not added to. ``prepare`` makes what episodes need, with a number of processes, and
+    is given a function that tells the user; cells that are ``is_ready`` without it begin before.
+    ``runs`` is how many runs a cell has by default. ``unit`` names the columns of which each
+    combination counts once in a standard error: means over its rows are taken first, and those that
+    share a value of a column are not taken as independent; without it every row counts. ``renamed``
+    holds, by key column or option, the names of earlier versions with the present ones: they still
+    work in options, and in rows that were written before.
     """
 
     name: str
@@ -124,6 +124,7 @@ class Study:
     options: StudyOptions = field(default_factory=dict)
     runs: Callable[[StudyOptions], int] = lambda options: 1000
     prepare: Callable[[StudyOptions, int, Say], None] = lambda options, jobs, say: None
+    is_ready: Callable[[Cell], bool] = lambda cell: True
     unit: tuple[str, ...] = ()
     renamed: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
 

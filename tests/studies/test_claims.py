@@ -8,7 +8,7 @@ import pytest
 
 from hrcplan.studies import report_study
 from hrcplan.studies.estimate import difference, estimate
-from hrcplan.studies.failure_anticipation import claims, scenario
+from hrcplan.studies.failure_anticipation import claims, figures, scenario
 from hrcplan.studies.store import Store
 from hrcplan.studies.study import Episode, StudyRow, find
 
@@ -136,3 +136,13 @@ def test_estimates() -> None:
 def test_differences_are_over_the_runs_that_both_have() -> None:
     found = difference({1: 2.0, 2: 3.0, 3: 9.0}, {2: 1.0, 1: 2.0})
     assert (found.mean, found.n) == (1.0, 2)
+
+
+def test_who_does_what_can_be_drawn_from_part_of_the_rows():
+    """A limit may leave out values for some of the times of the change."""
+    points = [(0, 1), (0, 2), (1, 1), (2, 3)]
+    rows = [
+        {"profile": "hrcplan", "action": at, "value": value, "n_human": 1, "n_robot": 2}
+        for at, value in points
+    ]
+    assert "<svg" in figures.allocation(rows, "motivation human")

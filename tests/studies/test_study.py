@@ -7,6 +7,7 @@ import sqlite3
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -14,8 +15,9 @@ import pytest
 
 from hrcplan.errors import InputError, UsageError
 from hrcplan.studies import report_study, run_study
+from hrcplan.studies.run import _parts
 from hrcplan.studies.store import Store
-from hrcplan.studies.study import episodes, find
+from hrcplan.studies.study import Episode, episodes, find
 
 NAME = "failure-anticipation"
 FETCH = Path(__file__).parent / "fetch"
@@ -339,3 +341,15 @@ def test_a_folder_of_a_stopped_run_is_reported(tmp_path: Path, one_in: int) -> N
     found = report_study(tmp_path)
     assert {claim["verdict"] for claim in found["claims"]} <= {"fails", "too-few"}
     assert (tmp_path / "report.html").is_file()
+
+
+def test_cells_that_need_nothing_prepared_come_first():
+    """So there is a page to look at before a forest is trained."""
+    missing = [Episode("rows", ("one", name), run) for run in range(2) for name in ("a", "b")]
+    study = replace(find("changed-mind"), is_ready=lambda cell: cell[1] == "a")
+    (first, before), (rest, after) = _parts(study, missing)
+    assert [episode.cell[1] for episode in first] == ["a", "a"]
+    assert (before, after) == (False, True)
+    assert set(first) | set(rest) == set(missing)
+    ready = replace(study, is_ready=lambda cell: True)
+    assert list(_parts(ready, missing)) == [(missing, False)]

@@ -7,6 +7,7 @@ uniform length: on whole plans any classifier is right, and useless early on.
 
 from __future__ import annotations
 
+import math
 import time
 from dataclasses import dataclass
 from typing import Protocol, cast, runtime_checkable
@@ -21,6 +22,8 @@ from hrcplan.inference.classifier.flat_forest import FlatForest, SklearnForest
 N_SAMPLES = 300_000
 N_TREES = 200
 MIN_LEAF, MIN_SPLIT = 2, 10
+MINUTE = 60.0
+TRIAL_SAMPLES, TRIAL_TREES = 6_000, 4  # of the forest that tells how long the whole takes
 HELD_OUT = 0.2
 
 
@@ -106,6 +109,20 @@ def forest(seed: int, n_trees: int, n_jobs: int) -> Classifier:
         n_jobs=n_jobs,
     )  # fmt: skip
     return classifier
+
+
+def training_time(bank: Bank, n_jobs: int) -> str:
+    """Return in words how long a forest takes to train, by the time that a small one takes."""
+    rng, small = np.random.default_rng(0), forest(0, TRIAL_TREES, 1)
+    prefixes(bank, 1, rng)  # what is counted once is not timed
+    began = time.monotonic()
+    rows, goals = prefixes(bank, TRIAL_SAMPLES, rng)
+    sampling_s = time.monotonic() - began
+    began = time.monotonic()
+    small.fit(rows, goals)
+    trees_s = (time.monotonic() - began) * N_TREES / TRIAL_TREES / max(1, n_jobs)
+    seconds = (sampling_s + trees_s) * N_SAMPLES / TRIAL_SAMPLES
+    return f"in about {math.ceil(seconds / 60)} min" if seconds > MINUTE else "in a minute"
 
 
 def train(bank: Bank, seed: int, n_samples: int, classifier: Classifier) -> TrainedClassifier:

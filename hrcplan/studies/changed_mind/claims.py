@@ -94,9 +94,10 @@ AHEAD = (
 
 def claims(options: StudyOptions, cells: Cells) -> list[Claim]:
     """Return the paper's claims; those about printed numbers on the study's own task only."""
-    results = [*(ahead(one, cells) for one in AHEAD), bounds(cells)]
     if not scenario.is_own_task(options):
+        results = [*(ahead(replace(one, note=""), cells) for one in AHEAD), bounds(cells)]
         return [replace(claim, group=OTHER_TASK) for claim in results if claim is not None]
+    results = [*(ahead(one, cells) for one in AHEAD), bounds(cells)]
     figures = scenario.data()["printed"]
     results += [midpoint(figures, cells), minimal(figures, cells), length(figures, cells)]
     return [claim for claim in results if claim is not None]

@@ -15,6 +15,7 @@ from hrcplan.assistance.assistant import needs_training
 from hrcplan.assistance.waiting import may_wait
 from hrcplan.bank import Bank, BuildOptions, Goals, build, read_goals
 from hrcplan.bank.bank import OPTIMAL
+from hrcplan.bank.cache import cached_bank
 from hrcplan.core.text import nearest
 from hrcplan.episodes.episode import TurnWorld
 from hrcplan.episodes.humans import HUMANS, Course, EpisodeHuman
@@ -22,6 +23,7 @@ from hrcplan.episodes.worlds import WORLDS
 from hrcplan.errors import UsageError
 from hrcplan.inference.belief import Belief
 from hrcplan.inference.classifier.forest import ForestBelief
+from hrcplan.inference.classifier.training import training_time
 from hrcplan.inference.recursive import LIKELIHOODS
 from hrcplan.inference.registry import METHODS
 from hrcplan.pddl.conventions import people, robots
@@ -128,7 +130,8 @@ def bank_of(domain: str, goals: str, quality: str = "", alternatives: str = "") 
     recipe = BuildOptions(
         quality=_multiple(quality) or OPTIMAL, alternatives=_multiple(alternatives)
     )
-    bank = build(goals_of(domain, goals), recipe)
+    goal_set = goals_of(domain, goals)
+    bank = cached_bank(goal_set) if recipe == BuildOptions() else build(goal_set, recipe)
     for kind, who in (("human", people(bank.goals.problem)), ("robot", robots(bank.goals.problem))):
         if bank.goals.problem.agents and not who:
             raise UsageError(f"there is no {kind} among the agents", code=f"no-{kind}")
@@ -197,20 +200,21 @@ def prepare(options: StudyOptions, jobs: int, say: Say) -> None:
         task_of(options, str(human))
         for table in data()["tables"]
         for human, method in cells(table, options)
-        if _learns(str(method))
+        if needs_forest(str(method))
     )
     for task in tasks:
-        n = len(bank_of(*task).names)
-        say(f"a forest for {n} goals: trained once, in a few minutes, then kept")
-        ForestBelief(bank_of(*task), n_jobs=jobs)
+        bank = bank_of(*task)
+        how_long = training_time(bank, jobs)
+        say(f"a forest for {len(bank.names)} goals: trained once, {how_long}, then kept")
+        ForestBelief(bank, n_jobs=jobs)
 
 
-def _learns(method: str) -> bool:
+def needs_forest(method: str) -> bool:
     """Return whether a method has the forest as its belief."""
     changes = data()["methods"].get(method, {})
     if "belief" in changes:
         other = changes["belief"]
-        return isinstance(other, str) and other in data()["methods"] and _learns(other)
+        return isinstance(other, str) and other in data()["methods"] and needs_forest(other)
     return needs_training(ASSISTANTS.find(changes.get("part", method)))
 
 

@@ -112,12 +112,13 @@ def _shares(axes: Axes, points: Sequence[StudyRow]) -> None:
         / max(1.0, float(row["n_human"] or 0) + float(row["n_robot"] or 0))
         for row in points
     }  # fmt: skip
-    mean = [estimate(share[at, v] for at in changes).mean for v in values]
+    mean = [estimate(share[at, v] for at in changes if (at, v) in share).mean for v in values]
     axes.fill_between(values, mean, 0, step="mid", color=plots.ORANGE, alpha=0.35, linewidth=0)
     axes.fill_between(values, mean, 100, step="mid", color=plots.BLUE, alpha=0.18, linewidth=0)
     for at, dashes in zip(changes, ("--", ":", "-.", (0, (1, 3)), (0, (5, 3))), strict=False):
         label = "change before its first action" if at == 0 else f"before action {at + 1}"
-        axes.step(values, [share[at, v] for v in values], where="mid", linestyle=dashes,
+        own = [v for v in values if (at, v) in share]  # a limit may leave some out
+        axes.step(own, [share[at, v] for v in own], where="mid", linestyle=dashes,
                   linewidth=2 if at == 0 else 1.1, color=plots.INK if at == 0 else plots.SOFT,
                   label=label)  # fmt: skip
     axes.step(values, mean, where="mid", color=plots.RED, linewidth=2.2, label="mean over these")
