@@ -142,7 +142,8 @@ def test_who_does_what_can_be_drawn_from_part_of_the_rows():
     """A limit may leave out values for some of the times of the change."""
     points = [(0, 1), (0, 2), (1, 1), (2, 3)]
     rows = [
-        {"profile": "hrcplan", "action": at, "value": value, "n_human": 1, "n_robot": 2}
+        {"profile": profile, "action": at, "value": value, "n_human": 1, "n_robot": 2}
+        for profile in ("replan-always", "hrcplan")
         for at, value in points
     ]
     assert "<svg" in figures.allocation(rows, "motivation human")
