@@ -55,7 +55,7 @@ def test_every_error_class_is_public() -> None:
 
 def test_the_root_holds_rooms_and_named_modules_only() -> None:
     modules = {path.stem for path in Path(hrcplan.__file__).parent.glob("*.py")}
-    allowed = {"__init__", "__main__", "pytest_plugin", "validation", "errors"}
+    allowed = {"__init__", "__main__", "pytest_plugin", "errors"}
     assert modules == allowed
 
 

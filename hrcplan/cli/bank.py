@@ -148,7 +148,9 @@ def _say(graph: PlanGraph) -> None:
     output.say(f"{graph.goal}: {graph.n_nodes} nodes")
 
 
-@command.command("show", cls=options.SettingsCommand, epilog=options.notes(options.SETTING))
+@command.command(
+    "show", cls=options.SettingsCommand, epilog=options.notes(options.SETTING, options.PROFILE)
+)
 @click.argument("bank", metavar="BANK")
 @click.option(
     "--htn",

@@ -30,6 +30,7 @@ SETTING = (
     'SETTING: FUNCTION OBJECT ...=NUMBER, as in "motivation human=8": the function of these '
     "objects has this value in the initial state."
 )
+PROFILE = "PROFILE: hrcplan, replan-always, or another one that `execute` knows."
 ROBOTS = (
     "METHOD: rhp (of the changed-mind paper), recursive, recursive-best, cdp, infogain, hrcplan, "
     "oracle, or module:Class of your own robot."
