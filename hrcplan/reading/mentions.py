@@ -51,7 +51,7 @@ class Mentions:
 def find_mentions(lexicon: Lexicon, tokens: Sequence[str]) -> Mentions:
     """Return the actions and objects that the words of a text name, in whole or in part."""
     types = _places(lexicon.type_words, tokens)
-    places = _places(lexicon.action_words, tokens)
+    places = _places(lexicon.action_words, tokens, every=True)
     actions = _named(lexicon.actions, places, lexicon.hinting, in_order=True)
     places = _places(lexicon.object_words, tokens)
     objects = _named(lexicon.objects, places, lexicon.telling, in_order=False)
@@ -73,15 +73,19 @@ def _without(mentions: NamesMentions, others: NamesMentions) -> NamesMentions:
     }
 
 
-def _places(words: WordsByInitial, tokens: Sequence[str]) -> WordPlaces:
-    """Return where words are in a text; a token means the words that it is most like."""
+def _places(words: WordsByInitial, tokens: Sequence[str], every: bool = False) -> WordPlaces:
+    """Return where words are in a text.
+
+    A token means the words that it is most like, or ``every`` word that it is a form of: "adding"
+    is "add", even if some action is "start adding"; but no "potato" is a "pot".
+    """
     places = defaultdict(list)
     for at, token in enumerate(tokens):
         likeness = {w: similarity(token, w) for w in words.get(token[0], ())}
         joined = f"{token}{tokens[at + 1]}" if at + 1 < len(tokens) else token
         best = max(likeness.values(), default=0.0)
         for word, value in likeness.items():
-            if value > 0 and value > best - _CLOSE:
+            if value > (0 if every else max(0, best - _CLOSE)):
                 places[word].append((at, value))
             elif word == joined:
                 places[word].append((at, 1.0))
