@@ -28,6 +28,7 @@ PARTS = {
     "growth": "grounding, walking and validating as tasks grow",
     "bank": "building, sampling, and listing plans beside top-k planners",
     "beliefs": "updates of 30 and of 10,000 goals",
+    "words": "phrases of people read as steps, in states of walks",
     "assistants": "decisions of robots, and how they grow with the goals",
 }
 
