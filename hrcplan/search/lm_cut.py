@@ -66,8 +66,9 @@ class RelaxedTask:
         self.goal, self.true = n_literals, n_literals + 1
         rules += [RelaxedRule(len(ops), needs, (self.goal,)) for needs in goals]
         # What needs nothing needs the literal that is always true, so that it has a supporter.
-        self.rules = [replace(rule, needs=rule.needs or (self.true,)) for rule in rules]
-        needs = {self.goal}.union(*(rule.needs for rule in self.rules))
+        rules = [replace(rule, needs=rule.needs or (self.true,)) for rule in rules]
+        needs = {self.goal}.union(*(rule.needs for rule in rules))
+        self.rules = [rule for rule in rules if not needs.isdisjoint(rule.gives)]
         self.op = [rule.op for rule in self.rules]
         self.gives = [tuple(x for x in rule.gives if x in needs) for rule in self.rules]
         self.n_needs = [len(rule.needs) for rule in self.rules]

@@ -111,10 +111,11 @@ def test_an_unsolvable_task_is_answered_no(tmp_path: Path) -> None:
     assert value["steps"] == []
 
 
-def test_no_time_is_unsolved(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("hrcplan.planners.exact.proof.QUICK", 10**6)  # no plan to begin with
-    value = document("plan", "transport/boxes-6", "--planner", "exact", "--timeout", "0.3", code=4)
+def test_what_is_beyond_the_limits_is_unsolved(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("hrcplan.planners.exact.search.MAX_NODES", 50)
+    value = document("plan", "transport/boxes-6", "--planner", "exact", code=4)
     assert value["status"] == "unsolved"
+    assert value["bound"] > 100
 
 
 @pytest.mark.parametrize(

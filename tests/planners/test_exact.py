@@ -155,7 +155,7 @@ def test_val_accepts_the_plans(tmp_path: Path) -> None:
 def test_answers_do_not_depend_on_hashes() -> None:
     script = (
         "from hrcplan import ground; from hrcplan.planners.exact import ExactPlanner\n"
-        "for name in ('two-boxes', 'handover'):\n"
+        "for name in ('two-boxes', 'handover', 'boxes-3'):\n"
         "    print(ExactPlanner().replan(ground('transport', name)))"
     )
     texts = {
@@ -186,10 +186,10 @@ def test_any_plan_is_a_valid_one_without_a_proof(two_boxes: Task) -> None:
 
 def test_it_gives_up_at_the_deadline() -> None:
     task = ground("transport", "boxes-6")
-    for seconds in (0.0, 0.5):
+    for seconds in (0.0, 0.05):  # a proof takes twenty times as long
         begun = time.monotonic()
         answer = ExactPlanner().replan(task, begun + seconds)
-        assert time.monotonic() - begun < 10 * (seconds + 0.4)  # a busy machine
+        assert time.monotonic() - begun < seconds + 10
         assert answer.status is Status.UNSOLVED
         assert "out of time" in answer.note
 
@@ -270,3 +270,30 @@ def test_a_fact_that_comes_anyway_may_be_worth_having_earlier(tmp_path: Path) ->
     task = Task(read(str(tmp_path / "d.pddl"), str(tmp_path / "p.pddl")))
     # Waiting is free here, so bob may be quick more than once: gaps are all that is added.
     assert proven(task).makespan_s == pytest.approx(100, abs=0.05)
+
+
+CLEARED = """
+(define (domain dom)
+  (:requirements :strips :typing :negative-preconditions :durative-actions)
+  (:types agent)
+  (:predicates (idle ?a - agent) (blocked) (clean) (through))
+  (:durative-action clear :parameters (?a - agent) :duration (= ?duration 9)
+    :condition (and (at start (idle ?a)) (at start (blocked)))
+    :effect (and (at start (not (idle ?a))) (at end (idle ?a)) (at start (not (blocked)))
+      (at end (clean))))
+  (:durative-action pass :parameters (?a - agent) :duration (= ?duration 9)
+    :condition (and (at start (idle ?a)) (at start (not (blocked))))
+    :effect (and (at start (not (idle ?a))) (at end (idle ?a)) (at end (through)))))
+"""
+
+
+def test_what_a_start_deletes_is_false_at_once(tmp_path: Path) -> None:
+    """The chain of both actions takes 9 s, not 18 s; no bound may say more."""
+    (tmp_path / "d.pddl").write_text(CLEARED)
+    (tmp_path / "p.pddl").write_text(
+        "(define (problem p) (:domain dom) (:objects ann bob - agent) (:init (idle ann) (idle bob)"
+        "(blocked)) (:goal (and (clean) (through))) (:metric minimize (total-time)))"
+    )
+    answer = ExactPlanner().replan(Task(read(str(tmp_path / "d.pddl"), str(tmp_path / "p.pddl"))))
+    assert answer.bound == 9
+    assert answer.objective == 9 + GAP

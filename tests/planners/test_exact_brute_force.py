@@ -268,6 +268,7 @@ def compare(problem: Problem, answer: Answer, optimum: Fraction | None, w_time: 
     assert report.metric == answer.objective
     gaps = w_time * len(answer.plan.actions) * (EPSILON_S + Fraction(1, 10**9))
     assert optimum <= report.metric <= optimum + gaps
+    assert answer.bound == optimum
 
 
 @pytest.mark.parametrize("block", range(4))

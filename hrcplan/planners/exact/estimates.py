@@ -17,6 +17,7 @@ from hrcplan.planners.exact.graph import FAR, Graph
 from hrcplan.planners.exact.weights import Weights
 from hrcplan.search.lm_cut import RelaxedTask
 from hrcplan.task import Task
+from hrcplan.task.conditions import Tests
 from hrcplan.task.steps import Operator
 
 
@@ -89,9 +90,12 @@ class Landmarks:
         self._graph, self._weights, self._deadline = graph, weights, deadline
         self._relaxed = RelaxedTask(_operators(task), task.goal)
         self._limits = tuple([*costs, 0] for costs in (weights.work, weights.cost, weights.busy))
-        self._ticks = [*weights.ticks, 0]
+        self._in_time = RelaxedTask(_halves(task), task.goal)
+        self._half_ticks = [0 if half else ticks for ticks in weights.ticks for half in (1, 0)] + [
+            0
+        ]
         self._landmarks: list[_Landmark] = []
-        self._hit_by = [0] * len(self._ticks)
+        self._hit_by = [0] * (len(weights.ticks) + 1)
         self._estimates: dict[int, Estimate] = {}
         self._ahead: dict[int, int] = {}
         self._final: set[int] = set()
@@ -113,7 +117,7 @@ class Landmarks:
             busy -= shares.busy
         before = self._estimates.get(child)
         if before is None or before.work < work:
-            chain = max(0, chain - self._ticks[action])
+            chain = max(0, chain - self._weights.ticks[action])
             self._estimates[child] = Estimate(work, cost, busy, chain)
             self._ahead[child] = ahead & ~hits
 
@@ -125,18 +129,20 @@ class Landmarks:
         """
         if state in self._final:
             return False
-        start = self._relaxed.start(self._graph.states[state])
-        estimate = self[state]
-        more = self._more_landmarks(state, start, estimate)
-        if more.work < FAR and self._may_wait(more):
-            chain = self._relaxed.h_max(start, self._ticks)
+        facts = self._graph.states[state]
+        more = self._more_landmarks(state, self._relaxed.start(facts), self[state])
+        if more.work < FAR and self._may_decide(more):
+            chain = self._in_time.h_max(self._in_time.start(facts), self._half_ticks)
             more = more._replace(chain=max(more.chain, chain))
         self._estimates[state] = more
         self._final.add(state)
         return True
 
-    def _may_wait(self, estimate: Estimate) -> bool:
-        """Return whether a chain may take longer than the agents are busy: it is no small look."""
+    def _may_decide(self, estimate: Estimate) -> bool:
+        """Return whether the longest chain may say more than the work, by what is inherited of it.
+
+        To look for it takes as long as to look for a landmark.
+        """
         if not self._weights.tick:
             return False
         return not self._final or 2 * estimate.chain * self._weights.n_agents >= estimate.busy
@@ -188,14 +194,35 @@ def _take(costs: list[int], actions: Sequence[int]) -> int:
 
 
 def _operators(task: Task) -> list[Operator]:
-    """Return the actions without conditions that hold in every state that can be reached."""
+    """Return the actions as operators, without conditions that always hold."""
+    always = _always(task)
+    return [
+        Operator(_without(action.tests, always), *action.sequential, action.index, 1)
+        for action in task.actions
+    ]
+
+
+def _halves(task: Task) -> list[Operator]:
+    """Return two operators for each action: what it does at its start, and what at its end.
+
+    What a start deletes is false at once, and others may wait for that.
+    """
+    always = _always(task)
+    halves: list[Operator] = []
+    for action in task.actions:
+        tests = _without(action.tests, always)
+        halves.append(Operator(tests, action.at_start, (), action.index, 1))
+        halves.append(Operator(tests, (), action.at_end, action.index, 1))
+    return halves
+
+
+def _always(task: Task) -> int:
+    """Return the facts that hold in every state of the sequential reading."""
     always = task.initial
     for action in task.actions:
         always &= ~action.deletes
-    return [
-        Operator(
-            tuple((mask & ~always, value & ~always) for mask, value in action.tests),
-            *action.sequential, action.index, 1,
-        )
-        for action in task.actions
-    ]  # fmt: skip
+    return always
+
+
+def _without(tests: Tests, facts: int) -> Tests:
+    return tuple((mask & ~facts, value & ~facts) for mask, value in tests)

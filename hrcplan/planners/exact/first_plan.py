@@ -117,7 +117,7 @@ def _started_early(task: Task, frame: StaticMasks, sequence: list[int]) -> str:
     facts = task.initial
     running: RunningActions = ()
     for action in sequence:
-        while not can_start(frame, facts, running, action):
+        while not _can_start(frame, facts, running, action):
             _, facts, running = pass_time(frame, facts, running)
             path.append(WAIT)
         path.append(chr(action))
@@ -126,7 +126,7 @@ def _started_early(task: Task, frame: StaticMasks, sequence: list[int]) -> str:
     return "".join(path)
 
 
-def can_start(frame: StaticMasks, facts: int, running: RunningActions, action: int) -> bool:
+def _can_start(frame: StaticMasks, facts: int, running: RunningActions, action: int) -> bool:
     """Return whether an action can start now, and disturbs none that runs."""
     after = facts & ~frame.deletes[action]
     return meets(facts, frame.tests[action]) and all(

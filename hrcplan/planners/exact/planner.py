@@ -30,7 +30,7 @@ class ExactPlanner:
     def __init__(self) -> None:
         self.card = Capabilities(
             "exact",
-            "A* over schedules of two or more agents: proves weighted metrics of cost and time",
+            "A* over schedules of any number of agents: proves weighted metrics of cost and time",
             classical=False,
             temporal=True,
             metric="cost+time",
