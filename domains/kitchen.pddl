@@ -15,7 +15,7 @@
 ;;              at no station.
 
 ;; hrcplan: say get grab, take, took, fetch, bring, pick up, get out, reach for, hand, need, want
-;; hrcplan: say pour add, cover, put, put in, put into, place, tip, tip into, throw, throw in, toss in, drop, drop in
+;; hrcplan: say pour add, put, put in, put into, place, tip, tip into, throw, throw in, toss in, drop, drop in
 ;; hrcplan: say pour sprinkle, scatter, drizzle, dash, dash of, pinch of, spoon into, season, season with, salt, salt water
 ;; hrcplan: say pour in, goes in, goes into, go into, add in, add to, pour into, pour in, top with, start adding
 ;; hrcplan: say mix stir, stir in, stir into, mix in, mix into, mix with, mix together, fold, fold in, whisk, toss
@@ -24,7 +24,7 @@
 ;; hrcplan: say blend blitz, whizz, puree, liquidize, crush, blend in, put through
 ;; hrcplan: say turn_on switch on, put on, start, light, preheat, on
 ;; hrcplan: say collect_water fill, fill with water, fill at tap, water into, water in, get water, get water for
-;; hrcplan: say collect_water add water, run water, run water into, pour water, pour water into, put water in
+;; hrcplan: say collect_water add water, run water, run water into, pour water into, put water in
 ;; hrcplan: say reduce_heat turn down, turn heat down, turn down heat, lower heat, lower, low heat, set to low, low
 ;; hrcplan: say reduce_heat decrease heat, lower flame, heat on low heat, allow to simmer, turn down temperature, turn temperature down
 ;; hrcplan: say serve serve up, ready, plate, plate up, dish up, bon appetit, eat, done
