@@ -18,7 +18,7 @@ from hrcplan.errors import MissingPlannerError, PlannerError, UsageError
 from hrcplan.execution import events as ev
 from hrcplan.execution.execute import Execution, execute
 from hrcplan.execution.journal import read_journal
-from hrcplan.execution.links import LINKS, RobotLink
+from hrcplan.execution.links import LINKS, RobotLink, session
 from hrcplan.execution.links import messages as msg
 from hrcplan.execution.links import world as link_world
 from hrcplan.execution.links.process import FLOOD, ProcessLink
@@ -197,7 +197,7 @@ def test_two_runs_cannot_drive_one_robot() -> None:
 
 
 def test_programs_that_are_no_robots(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(link_world, "READY_S", 0.3)
+    monkeypatch.setattr(session, "READY_S", 0.3)
     with pytest.raises(MissingPlannerError, match="no program 'no-such-robot'"):
         execute("transport/two-boxes", robot="cmd:no-such-robot")
     with pytest.raises(PlannerError, match="ended: exit code 3"):

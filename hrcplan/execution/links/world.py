@@ -8,31 +8,28 @@ action without an answer has the outcome *unknown*, and what is observed then sa
 from __future__ import annotations
 
 import time
-from collections import deque
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 
-from hrcplan.core.numbers import exact
-from hrcplan.errors import PlannerError, UsageError
+from hrcplan.core.numbers import Number, exact
+from hrcplan.errors import UsageError
 from hrcplan.execution import events as ev
 from hrcplan.execution.changes import checked_changes
 from hrcplan.execution.driver import PATIENCE
 from hrcplan.execution.events import Command, Event
 from hrcplan.execution.links import RobotLink
 from hrcplan.execution.links import messages as msg
+from hrcplan.execution.links.clock import RunClock
+from hrcplan.execution.links.session import LinkSession
 from hrcplan.execution.model import ExecutionModel
 from hrcplan.execution.worlds.simulated import FactChange, Nature, SimulatedWorld, StateChange
+from hrcplan.pddl.model import FluentKey
 
-READY_S = 10.0  # how long a link may take to start
 ACCEPT_S = 2.0  # how long it may take to accept or refuse an action, to cancel, and to observe
 MAX_TRIES = 3  # how often an action is asked for
-MAX_RESTARTS = 3
-MAX_INBOX = 10_000  # messages that are taken in at a time
 MAX_FAULTS = 20  # reported per run
 _FEEDBACK_S = 1.0  # between two reports of how far an action is
-_TICK_S = 3600.0
-
-_NOTED = msg.BadLine | msg.Feedback | msg.LinkReady
+_LONG_S = 3600.0
 
 
 @dataclass(slots=True)
@@ -56,19 +53,14 @@ class LinkWorld:
         self, model: ExecutionModel, nature: Nature, link: RobotLink, *, speed: float = 1.0,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:  # fmt: skip
-        self.model, self.link, self.speed = model, link, speed
+        self.model = model
+        self.clock = RunClock(speed, clock)
+        self.session = LinkSession(link, model, self.clock)
         self.simulated = SimulatedWorld(model, nature)
-        self.served: frozenset[str] = frozenset(model.agents.robots)
-        self._clock = clock
         self._requests: dict[int, _Request] = {}
         self._outcomes: dict[int, str] = {}  # of the actions that have ended
-        self._inbox: deque[msg.LinkMessage] = deque()
         self._waiting: list[Command] = []  # while an emergency stop lasts
-        self._stopped_s: float | None = None
-        self._last_s = 0.0
-        self._begun_s = 0.0
-        self._n_restarts = self._n_faults = 0
-        self._is_lost = False
+        self._n_faults = 0
 
     def begin(self) -> tuple[Event, ...]:
         """Start the link and return what is seen at time 0.
@@ -77,33 +69,24 @@ class LinkWorld:
             PlannerError: if the program is missing, ends at once, or does not say that it is ready.
             UsageError: if it takes actions of agents that the problem has not.
         """
-        self._start()
-        self._begun_s = self._clock()
+        self.session.start()
+        self.clock.begin()
         return self.simulated.begin()
 
     def close(self) -> None:
         """Cancel what is under way, and end the link."""
         for number in list(self._requests):
-            self.link.send({"do": "cancel", "n": number})
-        self.link.send({"do": "end"})
-        self.link.close()
-
-    # The clock of the run: it stands still during an emergency stop.
-
-    def _now(self) -> float:
-        if self._stopped_s is None:
-            now_s = (self._clock() - self._begun_s) * self.speed
-            self._last_s = max(self._last_s, round(now_s, 2))  # instants are not shorter
-        return self._last_s
+            self.session.send({"do": "cancel", "n": number})
+        self.session.close()
 
     # Commands.
 
     def do(self, command: Command) -> None:
         """Begin or break off an action; during an emergency stop actions wait for its release."""
         match command:
-            case ev.Dispatch() if self._stopped_s is not None:
+            case ev.Dispatch() if self.clock.is_stopped:
                 self._waiting.append(command)
-            case ev.Dispatch(agent=agent) if agent in self.served:
+            case ev.Dispatch(agent=agent) if agent in self.session.served:
                 self._dispatch(command)
             case ev.Cancel(_, number) if number in self._requests:
                 self._cancel(number)
@@ -114,24 +97,24 @@ class LinkWorld:
 
     def _dispatch(self, command: ev.Dispatch) -> None:
         self.simulated.begin_action(command)
-        self._requests[command.number] = _Request(command, self._clock() + ACCEPT_S)
+        self._requests[command.number] = _Request(command, self.clock.real_s + ACCEPT_S)
         limit_s = PATIENCE * command.duration_s
         # The monitor judges what is overdue whenever something happens: so something has to.
-        self.simulated.wake_at(self._now() + limit_s + 2 * ev.INSTANT_S)
+        self.simulated.wake_at(self.clock.now_s + limit_s + 2 * ev.INSTANT_S)
         self._send_dispatch(command)
 
     def _send_dispatch(self, command: ev.Dispatch) -> None:
-        self.link.send({
+        self.session.send({
             "do": "dispatch", "n": command.number, "agent": command.agent, "action": command.action,
-            "args": list(command.args), "duration_s": command.duration_s / self.speed,
-            "limit_s": PATIENCE * command.duration_s / self.speed,
+            "args": list(command.args), "duration_s": command.duration_s / self.clock.speed,
+            "limit_s": PATIENCE * command.duration_s / self.clock.speed,
         })  # fmt: skip
 
     def _cancel(self, number: int) -> None:
         request = self._requests[number]
-        request.is_accepted, request.until_s = True, self._clock() + ACCEPT_S
+        request.is_accepted, request.until_s = True, self.clock.real_s + ACCEPT_S
         request.n_tries = MAX_TRIES  # no answer to it leaves the outcome unknown
-        self.link.send({"do": "cancel", "n": number})
+        self.session.send({"do": "cancel", "n": number})
 
     # Events.
 
@@ -140,48 +123,34 @@ class LinkWorld:
         while True:
             events = self._happened()
             if events:
-                t = self._now()
+                t = self.clock.now_s
                 events = [replace(event, t=t) for event in events]
                 events.append(replace(self.simulated.observation(), t=t))
                 return tuple(sorted(events, key=lambda event: ev.RANK[type(event)]))
             if self._is_idle():
                 return ()
-            self._receive(self._wait_s())
+            self.session.wait(self._wait_s())
 
     def _happened(self) -> list[Event]:
         """Return what has happened until now, at the link and on the simulated clock."""
-        while self._receive(0.0) and len(self._inbox) < MAX_INBOX:
-            pass  # the planner may have taken its time
-        events: list[Event] = []
-        while (due := self.simulated.next_s) is not None and due <= self._now():
+        events = [event for message in self.session.messages() for event in self._take(message)]
+        while (due := self.simulated.next_s) is not None and due <= self.clock.now_s:
             events += self.simulated.next()
-        while self._inbox:
-            events += self._take(self._inbox.popleft())
         for number, request in list(self._requests.items()):
-            if self._clock() >= request.until_s and self._stopped_s is None:
+            if self.clock.real_s >= request.until_s and not self.clock.is_stopped:
                 events += self._ask_again(number, request)
         return events
 
-    def _receive(self, timeout_s: float) -> bool:
-        """Take messages in; return whether there were any, and the link lives."""
-        if self._is_lost:
-            return False
-        messages = self.link.receive(timeout_s)
-        self._inbox.extend(messages)
-        return bool(messages) and not isinstance(messages[-1], msg.LinkEnded)
-
     def _is_idle(self) -> bool:
-        stopped = self._stopped_s is not None
-        return not (stopped or self._requests or self.simulated.next_s is not None)
+        is_due = self.simulated.next_s is not None
+        return not (self.clock.is_stopped or self._requests or is_due)
 
     def _wait_s(self) -> float:
-        """Return for how long (real time) nothing can happen but a message."""
-        if self._stopped_s is not None:
-            return _TICK_S
-        times = [request.until_s - self._clock() for request in self._requests.values()]
+        """Return for how many real seconds nothing can happen but a message."""
+        times = [request.until_s - self.clock.real_s for request in self._requests.values()]
         if self.simulated.next_s is not None:
-            times.append((self.simulated.next_s - self._now()) / self.speed)
-        return max(0.0, min(times, default=_TICK_S))
+            times.append(self.clock.real_until(self.simulated.next_s))
+        return _LONG_S if self.clock.is_stopped else max(0.0, min([*times, _LONG_S]))
 
     def _take(self, message: msg.LinkMessage) -> Iterable[Event]:
         match message:
@@ -192,7 +161,7 @@ class LinkWorld:
             case msg.StopReleased():
                 return self._release()
             case msg.FactsObserved(facts, absent):
-                return self._observe(FactChange(self._now(), facts, absent))
+                return self._observe(FactChange(self.clock.now_s, facts, absent))
             case msg.ValuesSensed():
                 return self._sense(message)
             case msg.BadLine(reason):
@@ -245,24 +214,24 @@ class LinkWorld:
 
     def _feedback(self, request: _Request, text: str) -> Iterable[Event]:
         request.is_accepted, request.until_s = True, float("inf")
-        if not text or self._clock() < request.feedback_s + _FEEDBACK_S:
+        if not text or self.clock.real_s < request.feedback_s + _FEEDBACK_S:
             return ()
-        request.feedback_s = self._clock()
+        request.feedback_s = self.clock.real_s
         return [self._notice("robot", f"{request.dispatch}: {text}")]
 
     def _end(self, number: int, outcome: str) -> Sequence[Event]:
         self._requests.pop(number, None)
         self._outcomes[number] = outcome
-        return self.simulated.end_action(self._now(), number, outcome)
+        return self.simulated.end_action(self.clock.now_s, number, outcome)
 
     def _ask_again(self, number: int, request: _Request) -> Iterable[Event]:
         """Ask for an action again that was not accepted; give it up after some tries."""
         if request.n_tries >= MAX_TRIES:
             if not request.is_accepted:
-                self.link.send({"do": "cancel", "n": number})
+                self.session.send({"do": "cancel", "n": number})
             return self._unknown(number, "the robot does not answer")
         request.n_tries += 1
-        request.until_s = self._clock() + ACCEPT_S
+        request.until_s = self.clock.real_s + ACCEPT_S
         self._send_dispatch(request.dispatch)
         return ()
 
@@ -273,20 +242,8 @@ class LinkWorld:
 
     def _look(self) -> Iterable[Event]:
         """Ask the link what it observes, and wait a moment for the answer."""
-        if not self.link.send({"do": "observe"}):
-            return ()
-        until = self._clock() + ACCEPT_S
-        others: list[msg.LinkMessage] = []
-        while (left_s := until - self._clock()) > 0:
-            for message in self.link.receive(left_s):
-                if isinstance(message, msg.FactsObserved):
-                    self._inbox.extend(others)
-                    return self._take(message)
-                others.append(message)
-                if isinstance(message, msg.LinkEnded):
-                    until = 0.0
-        self._inbox.extend(others)
-        return ()
+        seen = self.session.observe(ACCEPT_S)
+        return () if seen is None else self._take(seen)
 
     # What is sensed.
 
@@ -299,29 +256,29 @@ class LinkWorld:
         return [self.simulated.observation()]
 
     def _sense(self, message: msg.ValuesSensed) -> Iterable[Event]:
-        events: list[Event] = []
-        for key, value in message.values.items():
-            if key in self.simulated.state.values:
-                self.simulated.set_state(frozenset(), frozenset(), {key: exact(repr(value))})
-                events.append(self.simulated.observation())
-                continue
-            try:
-                checked_changes([StateChange(self._now(), {key: exact(repr(value))})], self.model)
-            except UsageError as error:
-                events += self._fault(f"sensed: {error.message}")
-                continue
-            self.simulated.values[key] = exact(repr(value))
-            events.append(ev.Sensed(self._now(), {key: exact(repr(value))}))
-        return events
+        return [event for key, value in message.values.items()
+                for event in self._sense_value(key, exact(repr(value)))]  # fmt: skip
+
+    def _sense_value(self, key: FluentKey, value: Number) -> Iterable[Event]:
+        t = self.clock.now_s
+        if key in self.simulated.state.values:
+            self.simulated.set_state(frozenset(), frozenset(), {key: value})
+            return [self.simulated.observation()]
+        try:
+            checked_changes([StateChange(t, {key: value})], self.model)
+        except UsageError as error:
+            return self._fault(f"sensed: {error.message}")
+        self.simulated.values[key] = value
+        return [ev.Sensed(t, {key: value})]
 
     # Emergency stop.
 
     def _stop(self, why: str) -> Iterable[Event]:
-        if self._stopped_s is not None:
+        if self.clock.is_stopped:
             return ()
-        self._stopped_s = self._now()
+        self.clock.stop()
         for number in self._requests:
-            self.link.send({"do": "cancel", "n": number})
+            self.session.send({"do": "cancel", "n": number})
         text = "emergency stop" + (f": {why}" if why else "")
         events: list[Event] = [self._notice("emergency-stop", text)]
         for number in self.simulated.running:
@@ -329,11 +286,9 @@ class LinkWorld:
         return events
 
     def _release(self) -> Iterable[Event]:
-        if self._stopped_s is None:
+        if not self.clock.is_stopped:
             return ()
-        # The run's clock goes on where it stopped.
-        self._begun_s = self._clock() - self._stopped_s / self.speed
-        self._stopped_s = None
+        self.clock.go_on()
         commands, self._waiting = self._waiting, []
         for command in commands:
             self.do(command)
@@ -341,46 +296,14 @@ class LinkWorld:
 
     # Faults of the link.
 
-    def _start(self) -> None:
-        self.link.start()
-        self.link.send({
-            "do": "begin", "link": 1, "agents": sorted(self.model.agents.robots),
-            "actions": [action.name for action in self.model.problem.domain.actions],
-            "speed": self.speed,
-        })  # fmt: skip
-        until = self._clock() + READY_S
-        while (left_s := until - self._clock()) > 0:
-            for message in self.link.receive(left_s):
-                if isinstance(message, msg.LinkEnded):
-                    raise PlannerError(f"the robot's program ended: {message.why}", code="robot")
-                if isinstance(message, msg.LinkReady):
-                    self._serve(message.agents)
-                    return
-        message_text = f"the robot's program does not say that it is ready within {READY_S:g} s"
-        hint = 'it prints {"event": "ready"} when it can take actions'
-        raise PlannerError(message_text, code="robot", hint=hint)
-
-    def _serve(self, agents: Sequence[str]) -> None:
-        unknown = sorted(set(agents) - set(self.model.problem.agents))
-        if unknown:
-            message = f"the robot's program takes actions of {', '.join(unknown)}: no agents here"
-            raise UsageError(message, hint=f"agents: {', '.join(self.model.problem.agents)}")
-        self.served = frozenset(agents) or frozenset(self.model.agents.robots)
-
     def _restart(self, why: str) -> Iterable[Event]:
         """Start a link again that has ended; what was under way has an unknown outcome."""
         events: list[Event] = [self._notice("robot", f"the robot's program ended: {why}")]
         for number in list(self._requests):
             events += self._end(number, ev.UNKNOWN)
-        self._n_restarts += 1
-        try:
-            if self._n_restarts > MAX_RESTARTS:
-                raise PlannerError(f"it ended {self._n_restarts} times")
-            self._start()
-        except (PlannerError, UsageError) as error:
-            self._is_lost = True
-            stop = ev.StopAsked(self._now(), f"the robot is lost: {error.message}")
-            return [*events, stop]
+        fault = self.session.restart()
+        if fault is not None:
+            return [*events, ev.StopAsked(self.clock.now_s, f"the robot is lost: {fault}")]
         return [*events, self._notice("robot", "the robot's program was started again"),
                 *self._look()]  # fmt: skip
 
@@ -394,4 +317,4 @@ class LinkWorld:
         return [self._notice("bad-message", text)]
 
     def _notice(self, code: str, message: str) -> ev.Noticed:
-        return ev.Noticed(self._now(), code, message)
+        return ev.Noticed(self.clock.now_s, code, message)
