@@ -2,12 +2,14 @@
 """Try settings of an assistant on domains made by chance, and print how well each guesses.
 
     tools/tune_changed_mind.py recursive --set stay=.8,.9 --set "likelihood=Needed(.01),Next(.1)"
-    tools/tune_changed_mind.py hrcplan --set hazard=.05,.1 --set "mistake_rates=(.05,),(.002,.1)"
+    tools/tune_changed_mind.py hrcplan --set hazard=.05,.1 --set "mistake_rates={.05: 1},{.1: 1}"
+    tools/tune_changed_mind.py hrcplan --chains --human habit inertia --set hazard=.1,.2 --by T
 
 Goals are varied from the domain's own, which are never used themselves, so that what is chosen here
 was not chosen on what it is then measured on. A setting is a keyword of the assistant or of its
 belief; all combinations are tried, and every one meets the same humans. The criterion is the mean
-over the two humans who change their goal of the share of right guesses, or of what --by names.
+over the humans who change their goal of the share of right guesses, or of what --by names. With
+--chains the goals are not of a kitchen: jobs in chains, of which each goal needs some beginnings.
 """
 
 import argparse
@@ -24,17 +26,29 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from hrcplan.assistance import ASSISTANTS
-from hrcplan.bank import build, read_goals
+from hrcplan.bank import Goals, build, from_problems, read_goals
 from hrcplan.bank.variants import vary
 from hrcplan.episodes.episode import play
 from hrcplan.episodes.humans import HUMANS, Course
-from hrcplan.episodes.measures import guesses, wasted
+from hrcplan.episodes.measures import guesses, n_wasted
 from hrcplan.errors import HrcplanError
 from hrcplan.inference.recursive import Attractor, Needed, Next
 from hrcplan.inference.registry import METHODS
+from hrcplan.pddl.check import domain_in, problem_in
+from hrcplan.pddl.source import SourceText
 
-BELIEFS = {"recursive": "recursive", "hrcplan": "switching", "cdp": "forest", "infogain": "forest"}
+BELIEFS = {"recursive": "recursive", "hrcplan": "adaptive", "cdp": "forest", "infogain": "forest"}
 LIKELIHOODS = {kind.__name__: kind for kind in (Needed, Attractor, Next)}
+JOBS = """
+(define (domain jobs) (:requirements :strips :typing) (:types agent job - object)
+  (:predicates (controllable ?a - agent) (after ?j ?k - job) (done ?j - job))
+  (:action do :parameters (?a - agent ?j ?k - job)
+    :precondition (and (after ?j ?k) (done ?j)) :effect (done ?k)))
+"""
+JOBS_PROBLEM = """
+(define (problem g{n}) (:domain jobs) (:objects ann robo - agent begin {jobs} - job)
+  (:init (controllable robo) (done begin) {after}) (:goal (and {goal})))
+"""
 HUMAN_KINDS = ("fixed", "optimal", "suboptimal")
 MEASURES = ("first", "last%", "correct%", "waste", "T")
 BEST = "correct%"  # more of it is better, of all others less
@@ -52,7 +66,10 @@ def main() -> int:
     parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3], help="one bank each")
     parser.add_argument("--episodes", type=int, default=60, help="per bank and human")
     parser.add_argument("--mistake-rate", type=float, default=0.1, help="of the suboptimal human")
-    parser.add_argument("--human", default="frontier", help="how the human chooses steps")
+    parser.add_argument(
+        "--human", default=["frontier"], nargs="+", help="how humans choose steps; several, or all"
+    )
+    parser.add_argument("--chains", action="store_true", help="goals of jobs in chains")
     parser.add_argument("--by", choices=MEASURES, default=BEST, help="what is to be good")
     args = parser.parse_args()
     try:
@@ -61,7 +78,7 @@ def main() -> int:
     except HrcplanError as error:
         print(f"error: {error}", file=sys.stderr)
         return error.exit_code
-    show(settings, scores, args.by)
+    show(settings, scores, args)
     return 0
 
 
@@ -83,20 +100,48 @@ def _value(node: ast.expr) -> object:
 
 def tried(args: argparse.Namespace, settings: list[dict[str, object]]) -> np.ndarray:
     """Return the measures of every episode: [setting, human, episode, measure]."""
-    found: list[list[list[tuple[float, ...]]]] = [[[] for _ in HUMAN_KINDS] for _ in settings]
-    human = HUMANS.find(args.human)
+    people = [(HUMANS.find(name), kind) for name in args.human for kind in HUMAN_KINDS]
+    found: list[list[list[tuple[float, ...]]]] = [[[] for _ in people] for _ in settings]
     for seed in args.seeds:
-        bank = build(vary(read_goals(args.domain), args.goals, seed))
+        bank = build(
+            chains(args.goals, seed)
+            if args.chains
+            else vary(read_goals(args.domain), args.goals, seed)
+        )
         plans = {kind: courses(bank, kind, args, seed) for kind in HUMAN_KINDS}
         known: dict[str, object] = {}  # beliefs; a forest is trained once
         for i, setting in enumerate(settings):
             robot = made(bank, args, setting, known)
             began = time.monotonic()
-            for j, kind in enumerate(HUMAN_KINDS):
+            for j, (human, kind) in enumerate(people):
                 found[i][j] += [measured(bank, human, robot, course) for course in plans[kind]]
-            took = (time.monotonic() - began) / (3 * args.episodes)
+            took = (time.monotonic() - began) / (len(people) * args.episodes)
             print(f"bank {seed}: {setting} {1e3 * took:.1f} ms an episode", file=sys.stderr)
     return np.array(found)
+
+
+def chains(n: int, seed: int, n_chains: int = 14, length: int = 5) -> Goals:
+    """Return goals that need the beginnings of four to six chains of jobs, some of them popular."""
+    rng = random.Random(seed)
+    jobs = [f"j{chain}-{i}" for chain in range(n_chains) for i in range(length)]
+    after = [
+        f"(after {'begin' if j.endswith('-0') else jobs[i - 1]} {j})" for i, j in enumerate(jobs)
+    ]
+    popular = [1 / (1 + 0.35 * chain) for chain in range(n_chains)]
+    wanted: dict[tuple[str, ...], None] = {}
+    while len(wanted) < n:
+        n_needed, needed = rng.randint(4, 6), list[int]()
+        while len(needed) < n_needed:
+            chain = rng.choices(range(n_chains), popular)[0]
+            needed += [] if chain in needed else [chain]
+        last = sorted((chain, rng.randint(2, length)) for chain in needed)
+        wanted[tuple(f"(done j{chain}-{steps - 1})" for chain, steps in last)] = None
+    domain = domain_in(SourceText("jobs", JOBS))
+    words = {"jobs": " ".join(jobs), "after": " ".join(after)}
+    texts = [
+        JOBS_PROBLEM.format(n=i, goal=" ".join(facts), **words) for i, facts in enumerate(wanted)
+    ]
+    return from_problems([problem_in(domain, SourceText(f"g{i}", t)) for i, t in enumerate(texts)])
 
 
 def made(bank, args: argparse.Namespace, setting: dict[str, object], known: dict[str, object]):
@@ -130,17 +175,20 @@ def courses(bank, kind: str, args: argparse.Namespace, seed: int) -> list[Course
 def measured(bank, human, robot, course: Course) -> tuple[float, ...]:
     record = play(bank, human(bank, course), robot, course)
     g = guesses(record)
-    return g.first_correct, g.last_incorrect_pct, g.correct_pct, wasted(record), record.n_turns
+    first = record.n_turns if g.first_correct is None else g.first_correct
+    return first, g.last_incorrect_pct, g.correct_pct, n_wasted(record), record.cost
 
 
-def show(settings: list[dict[str, object]], scores: np.ndarray, by: str) -> None:
-    score = scores[:, 1:, :, MEASURES.index(by)].mean(axis=1)
+def show(settings: list[dict[str, object]], scores: np.ndarray, args: argparse.Namespace) -> None:
+    by, people = args.by, list(itertools.product(args.human, HUMAN_KINDS))
+    changing = [i for i, (_, kind) in enumerate(people) if kind != "fixed"]
+    score = scores[:, changing, :, MEASURES.index(by)].mean(axis=1)
     sign = -1 if by == BEST else 1
     order = np.argsort(sign * score.mean(axis=1), kind="stable")
     best, n = order[0], score.shape[1]
     print(f"{n} episodes per human, the same for every setting; score: {by}, mean over the humans")
     print("who change; behind: the best, with the standard error of the paired difference;")
-    print("humans: " + ", ".join(HUMAN_KINDS))
+    print("humans: " + ", ".join(" ".join(person) for person in people))
     print(f"score  behind       | {' / '.join(MEASURES)} of each human | setting")
     for i in order:
         gap = sign * (score[i] - score[best])

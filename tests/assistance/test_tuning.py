@@ -40,6 +40,7 @@ def test_all_combinations_are_tried(tool):
     [
         ("recursive", "--set", "stay=.9,.5", "--set", "likelihood=Next(.1)"),
         ("hrcplan", "--set", "waste_price=.05,100", "--by", "waste"),
+        ("hrcplan", "--chains", "--human", "habit", "inertia", "--set", "hazard=.1,.6"),
     ],
 )
 def test_settings_are_listed_the_best_first(tool, monkeypatch, capsys, words):

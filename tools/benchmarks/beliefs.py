@@ -18,6 +18,7 @@ from rows import Row, milliseconds
 from hrcplan.assistance.rhp.set_posterior import PrefixPosterior
 from hrcplan.bank import Bank, build, build_bank, from_problems
 from hrcplan.core.arrays import Rows
+from hrcplan.inference.adaptive import AdaptiveBelief
 from hrcplan.inference.classifier.forest import ForestBelief
 from hrcplan.inference.classifier.training import columns
 from hrcplan.inference.exact import ExactBelief
@@ -77,7 +78,7 @@ def _speed(bank: Bank, n_runs: int, what: str, goal_us: float) -> Iterator[Row]:
     rng = np.random.default_rng(0)
     goals = rng.integers(len(bank.names), size=n_runs)
     runs = [bank.sample(int(goal), 1, rng)[0] for goal in goals]
-    for kind in (ExactBelief, SwitchingBelief, RecursiveBelief):
+    for kind in (ExactBelief, SwitchingBelief, AdaptiveBelief, RecursiveBelief):
         began = time.process_time()
         belief = kind(bank)
         made_s = time.process_time() - began
