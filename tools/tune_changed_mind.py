@@ -124,9 +124,8 @@ def chains(n: int, seed: int, n_chains: int = 14, length: int = 5) -> Goals:
     """Return goals that need the beginnings of four to six chains of jobs, some of them popular."""
     rng = random.Random(seed)
     jobs = [f"j{chain}-{i}" for chain in range(n_chains) for i in range(length)]
-    after = [
-        f"(after {'begin' if j.endswith('-0') else jobs[i - 1]} {j})" for i, j in enumerate(jobs)
-    ]
+    before = ["begin" if i % length == 0 else jobs[i - 1] for i in range(len(jobs))]
+    after = [f"(after {first} {then})" for first, then in zip(before, jobs, strict=True)]
     popular = [1 / (1 + 0.35 * chain) for chain in range(n_chains)]
     wanted: dict[tuple[str, ...], None] = {}
     while len(wanted) < n:
@@ -182,7 +181,7 @@ def measured(bank, human, robot, course: Course) -> tuple[float, ...]:
 def show(settings: list[dict[str, object]], scores: np.ndarray, args: argparse.Namespace) -> None:
     by, people = args.by, list(itertools.product(args.human, HUMAN_KINDS))
     changing = [i for i, (_, kind) in enumerate(people) if kind != "fixed"]
-    score = scores[:, changing, :, MEASURES.index(by)].mean(axis=1)
+    score = scores[:, changing][..., MEASURES.index(by)].mean(axis=1)
     sign = -1 if by == BEST else 1
     order = np.argsort(sign * score.mean(axis=1), kind="stable")
     best, n = order[0], score.shape[1]

@@ -20,7 +20,6 @@ from hrcplan.bank import Bank, build, build_bank, from_problems
 from hrcplan.core.arrays import Rows
 from hrcplan.inference.adaptive import AdaptiveBelief
 from hrcplan.inference.classifier.forest import ForestBelief
-from hrcplan.inference.classifier.training import columns
 from hrcplan.inference.exact import ExactBelief
 from hrcplan.inference.recursive import RecursiveBelief
 from hrcplan.inference.switching import SwitchingBelief
@@ -123,7 +122,7 @@ def _forest(bank: Bank) -> Iterator[Row]:
     began = time.monotonic()
     belief = ForestBelief(bank, n_jobs=2)
     ready_s = time.monotonic() - began
-    column = columns(bank)
+    column = np.array(bank.table.labels)
     table = np.zeros((len(prefixes), belief.n_labels), dtype=np.uint8)
     for row, steps in zip(table, prefixes, strict=True):
         row[column[list(steps)]] = 1
