@@ -15,7 +15,7 @@ import numpy as np
 from hrcplan.bank import Bank
 from hrcplan.bank.combined_graph import CombinedGraph
 from hrcplan.bank.progress import Evidence, Progress, ProgressTracker
-from hrcplan.core.arrays import Floats, Ids
+from hrcplan.core.arrays import Floats
 from hrcplan.errors import UsageError
 from hrcplan.inference.belief import IMPOSSIBLE, GoalChange, PlanFollower
 from hrcplan.inference.changes import (
@@ -23,18 +23,19 @@ from hrcplan.inference.changes import (
     NEVER,
     SETTLES,
     ChangeFilter,
-    FilterState,
     change_points,
     changes_before,
 )
+from hrcplan.inference.paired_filters import PairedFilters, PairedState
 from hrcplan.inference.probabilities import weights_to_posterior
 
 # Tuned on randomly generated goals of two domains (docs/papers/changed-mind-targets.md).
 RATES: Mapping[float, float] = {0.002: 0.6, 0.1: 0.3, 0.3: 0.1}
 CHOOSERS: Mapping[str, float] = {"uniform": 0.6, "plans": 0.2, "general": 0.1, "special": 0.1}
 ACTING_HAZARD = 0.2
-_KINDS = ("uniform", "plans", "general", "special")
-_POWERS = {"general": 1.0, "special": -1.0}
+PLANS = "plans"
+_POWERS = {"uniform": 0.0, "general": 1.0, "special": -1.0}  # of the number of goals
+_TINY = 1e-300
 _UNLIKELY = 1e-12  # the least share of a step among the mistakes
 
 
@@ -42,13 +43,11 @@ _UNLIKELY = 1e-12  # the least share of a step among the mistakes
 class AdaptiveState:
     """The state of `AdaptiveBelief`: the goals' progress, and a filter for each prior of changes.
 
-    ``filter_state`` is that for declaring changes. ``is_human`` says whether the last observation
-    was an applicable step of the human.
+    ``is_human`` says whether the last observation was an applicable step of the human.
     """
 
     progress: Progress
-    acting: FilterState
-    filter_state: FilterState
+    filter_state: PairedState
     is_human: bool = False
     ignored: str | None = None
 
@@ -79,37 +78,37 @@ class StepPreferences:
 
     def __init__(self, graph: CombinedGraph, choosers: Sequence[str]) -> None:
         for name in choosers:
-            if name not in _KINDS:
-                raise UsageError(
-                    f"there is no chooser '{name}'", hint=f"one of {', '.join(_KINDS)}"
-                )
+            if name not in (PLANS, *_POWERS):
+                hint = f"one of {', '.join((PLANS, *_POWERS))}"
+                raise UsageError(f"there is no chooser '{name}'", hint=hint)
         self.graph, self.choosers = graph, tuple(choosers)
-        n_goals = np.maximum(1, graph.needs.sum(axis=0))
-        self._weights = {name: n_goals**power for name, power in _POWERS.items()}
-        self._totals = {
-            name: graph.label_sums(weights)
-            for name, weights in self._weights.items()
-            if name in choosers
-        }
+        n_goals = np.maximum(1.0, graph.needs.sum(axis=0))
+        by_chooser = [n_goals ** _POWERS.get(name, 0.0) for name in choosers]
+        totals = [graph.label_sums(weights) for weights in by_chooser]
+        self._weights = np.stack(by_chooser, axis=1)
+        self._totals = np.maximum(np.stack(totals, axis=1), _TINY)  # none where a graph was left
+        self._by_plans = [i for i, name in enumerate(choosers) if name == PLANS]
 
-    def of(self, step: int | None, nodes: Ids, evidence: Evidence) -> Floats:
+    def of(self, step: int | None, progress: Progress, evidence: Evidence) -> Floats:
         """Return the probabilities of a step, by chooser and goal of ``evidence.goals``.
+
+        Where agents take turns, and where goals have left their graph, all steps are alike.
 
         Args:
             step: The step; None for a wait.
-            nodes: The nodes of these goals before it; where they have left their graph, and where
-                agents take turns, all steps are alike.
+            progress: The progress before it.
             evidence: What the step says.
         """
-        uniform = 1 / evidence.n_next[evidence.goals]
-        rows = np.empty((len(self.choosers), len(uniform)))
-        for row, name in zip(rows, self.choosers, strict=True):
-            row[:] = np.exp(evidence.log_shares) if name == "plans" else uniform
-            if name in self._totals and step is not None and evidence.log_odds is None:
-                total = self._totals[name].take(nodes)
-                weight = self._weights[name][self.graph.label[step]]
-                np.divide(weight, total, out=row, where=total > 0)
-        return rows
+        goals = evidence.goals
+        if step is None or evidence.log_odds is not None:
+            return np.ones((len(self.choosers), 1)) / evidence.n_next[goals]
+        nodes, weights = progress.nodes.take(goals), self._weights[self.graph.label[step]]
+        chances: Floats = weights[:, None] / self._totals.take(nodes, axis=0).T
+        if progress.off:
+            left = nodes == self.graph.off
+            chances[:, left] = 1 / evidence.n_next[goals[left]]
+        chances[self._by_plans] = np.exp(evidence.log_shares)
+        return chances
 
 
 class AdaptiveBelief(PlanFollower):
@@ -139,14 +138,16 @@ class AdaptiveBelief(PlanFollower):
         self.tracker = ProgressTracker(bank)
         kinds = tuple(p * q for p in mistake_rates.values() for q in choosers.values())
         n_goals, n_kinds = len(bank.names), len(kinds)
-        self.acting = ChangeFilter(n_goals, n_kinds, hazard, 0.0, settles, kinds)
-        self.declaring = ChangeFilter(n_goals, n_kinds, declaring_hazard, never, settles, kinds)
+        self.filters = PairedFilters(
+            ChangeFilter(n_goals, n_kinds, hazard, 0.0, settles, kinds),
+            ChangeFilter(n_goals, n_kinds, declaring_hazard, never, settles, kinds),
+        )
         self.rates = np.array(list(mistake_rates))[:, None]
         self.preferences = StepPreferences(self.tracker.combined_graph, list(choosers))
 
     def start(self) -> AdaptiveState:
         """Return the uniform belief in the initial state."""
-        return AdaptiveState(self.tracker.start, self.acting.start(), self.declaring.start())
+        return AdaptiveState(self.tracker.start, self.filters.start())
 
     def observe(self, state: AdaptiveState, step: int, *, robot: bool = False) -> AdaptiveState:
         """Return the belief after one more step; the robot's own steps are no evidence."""
@@ -154,7 +155,7 @@ class AdaptiveBelief(PlanFollower):
         if move is None:
             return replace(state, is_human=False, ignored=IMPOSSIBLE)
         if robot:
-            return AdaptiveState(move[0], state.acting, state.filter_state)
+            return AdaptiveState(move[0], state.filter_state)
         return self._after(state, step, *move)
 
     def observe_wait(self, state: AdaptiveState) -> AdaptiveState:
@@ -163,19 +164,15 @@ class AdaptiveBelief(PlanFollower):
         if move is None:
             return state
         if self.tracker.is_robots_turn(state.progress):
-            return AdaptiveState(move[0], state.acting, state.filter_state)
+            return AdaptiveState(move[0], state.filter_state)
         return self._after(state, None, *move)
 
     def _after(
         self, state: AdaptiveState, step: int | None, progress: Progress, evidence: Evidence
     ) -> AdaptiveState:
         likelihood = self.likelihood(state.progress, step, evidence)
-        return AdaptiveState(
-            progress,
-            self.acting.step(state.acting, likelihood),
-            self.declaring.step(state.filter_state, likelihood),
-            is_human=True,
-        )
+        filter_state = self.filters.step(state.filter_state, likelihood)
+        return AdaptiveState(progress, filter_state, is_human=True)
 
     def likelihood(self, progress: Progress, step: int | None, evidence: Evidence) -> Floats:
         """Return the likelihood of a step by kind of human (rate, then chooser) and goal."""
@@ -185,16 +182,16 @@ class AdaptiveBelief(PlanFollower):
             if evidence.log_odds is None
             else np.maximum(np.exp(evidence.log_odds), _UNLIKELY)
         )
-        likelihood = (self.rates * odd)[:, None, :].repeat(n_choosers, axis=1)
+        likelihood: Floats = (self.rates * odd).repeat(n_choosers, axis=0)
         if len(goals):
-            chances = self.preferences.of(step, progress.nodes.take(goals), evidence)
-            likelihood[:, :, goals] = (1 - self.rates)[:, None] * chances
-        by_kind: Floats = likelihood.reshape(-1, likelihood.shape[2])
-        return by_kind
+            chances = self.preferences.of(step, progress, evidence)
+            by_kind = (1 - self.rates)[:, :, None] * chances
+            likelihood[:, goals] = by_kind.reshape(len(likelihood), -1)
+        return likelihood
 
     def posterior(self, state: AdaptiveState) -> Floats:
         """Return the probability of each goal, in order."""
-        return weights_to_posterior(self.acting.goals(state.acting))
+        return weights_to_posterior(self.filters.goals(state.filter_state))
 
     def changes(self, states: Sequence[AdaptiveState]) -> tuple[GoalChange, ...]:
         """Return the changes that are probable given all observations.

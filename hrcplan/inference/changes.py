@@ -101,6 +101,13 @@ class ChangeFilter:
         return probabilities
 
 
+class _HasLikelihood(Protocol):
+    """The state of a filter that knows the likelihood of the last human step."""
+
+    @property
+    def likelihood(self) -> Floats | None: ...
+
+
 class _HumanStep(Protocol):
     """The state of a belief that filters changes of goal."""
 
@@ -108,7 +115,7 @@ class _HumanStep(Protocol):
     def is_human(self) -> bool: ...
 
     @property
-    def filter_state(self) -> FilterState: ...
+    def filter_state(self) -> _HasLikelihood: ...
 
 
 def change_points(states: Sequence[_HumanStep]) -> tuple[list[int], ChangePoints]:

@@ -19,6 +19,7 @@ from hrcplan.inference.adaptive import CHOOSERS, RATES, AdaptiveBelief, StepPref
 from hrcplan.inference.changes import ChangeFilter
 from hrcplan.inference.classifier.forest import ForestBelief
 from hrcplan.inference.exact import ExactBelief
+from hrcplan.inference.paired_filters import PairedFilters
 from hrcplan.inference.recognition.cost import CostBelief
 from hrcplan.inference.recursive import Attractor, Needed, Next, Rational, RecursiveBelief
 from hrcplan.inference.switching import SwitchingBelief
@@ -310,7 +311,7 @@ def test_each_way_of_choosing_is_a_distribution_over_the_next_steps(listed):
         assert move is not None
         goals = move[1].goals
         if len(goals):
-            totals[:, goals] += preferences.of(step, tracker.start.nodes.take(goals), move[1])
+            totals[:, goals] += preferences.of(step, tracker.start, move[1])
     assert np.allclose(totals, 1)
     with pytest.raises(UsageError, match="no chooser 'random'"):
         StepPreferences(tracker.combined_graph, ["random"])
@@ -326,7 +327,8 @@ def test_a_human_who_keeps_doing_special_steps_first_becomes_known(kitchen):
         step = human.move(turn, world, None).step
         assert step is not None
         state, world = belief.observe(state, step), kitchen.table.successor(world, step)
-    by_chooser = state.acting.weights.sum(axis=(1, 2)).reshape(len(RATES), len(CHOOSERS)).sum(0)
+    by_kind = state.filter_state.layers[:2].sum(axis=(0, 2))
+    by_chooser = by_kind.reshape(len(RATES), len(CHOOSERS)).sum(axis=0)
     shares = dict(zip(CHOOSERS, by_chooser, strict=True))
     assert shares["special"] > CHOOSERS["special"]
     assert shares["general"] < CHOOSERS["general"]
@@ -348,3 +350,20 @@ def test_the_robots_own_steps_are_evidence_if_they_are_to_be(workshop):
     assert plain.posterior(after).tolist() == plain.posterior(plain.start()).tolist()
     by_robot, by_human = (own.observe(own.start(), step, robot=robot) for robot in (True, False))
     assert own.posterior(by_robot).tolist() == plain.posterior(by_human).tolist()
+
+
+def test_paired_filters_are_two_filters():
+    rng, kinds = np.random.default_rng(3), (0.5, 0.2, 0.3)
+    acting = ChangeFilter(4, 3, 0.2, 0.0, 0.9, kinds)
+    declaring = ChangeFilter(4, 3, 0.1, 0.3, 0.7, kinds)
+    pair = PairedFilters(acting, declaring)
+    both, one, other = pair.start(), acting.start(), declaring.start()
+    for turn in range(40):
+        likelihood = rng.random((3, 4)) * 0.1
+        likelihood[:, turn // 5 % 4] += 0.5
+        both = pair.step(both, likelihood)
+        one, other = acting.step(one, likelihood), declaring.step(other, likelihood)
+        assert np.allclose(pair.goals(both), acting.goals(one))
+        assert np.allclose(both.layers[2:4].transpose(1, 0, 2), other.weights)
+        assert both.n_declared == other.n_declared
+    assert both.n_declared > 3
