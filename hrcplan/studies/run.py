@@ -59,7 +59,7 @@ def run_study(
     study = find(name)
     choice = study.with_defaults(options or {})
     all_episodes = list(episodes(study, choice, runs or study.runs(choice), limit))
-    say("goals are read, and their plans counted")
+    say("the study's inputs are read")
     digest = hashlib.sha256(study.inputs(choice).encode()).hexdigest()
     about = {"study": name, "version": __version__, "seed": seed, "options": choice,
              "inputs_sha256": digest}  # fmt: skip

@@ -111,10 +111,10 @@ def test_a_way_is_carried_on_without_a_search(workshop):
         if not distances.ops[done].is_enabled(workshop.initial):
             continue
         after = distances.ops[done].apply(workshop.initial)
-        rest = distances._shortened(0, way, [done], after)
+        rest = distances._rest_of(0, way, [done], after)
         assert rest is not None
         assert rest.cost == way.cost - 1
-    assert distances._shortened(0, way, [10**6], workshop.initial) is None
+    assert distances._rest_of(0, way, [10**6], workshop.initial) is None
 
 
 @pytest.mark.parametrize("folder", [GRID, BLOCKS, LOGISTICS])

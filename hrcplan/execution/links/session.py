@@ -67,14 +67,16 @@ class LinkSession:
     def restart(self) -> str | None:
         """Start a link again that has ended; return why that cannot be done, or None."""
         self._n_restarts += 1
-        try:
-            if self._n_restarts > MAX_RESTARTS:
-                raise PlannerError(f"it ended {self._n_restarts} times")
-            self.start()
-        except (PlannerError, UsageError) as error:
-            self.is_lost = True
-            return error.message
-        return None
+        fault = f"it ended {self._n_restarts} times"
+        if self._n_restarts <= MAX_RESTARTS:
+            try:
+                self.start()
+            except (PlannerError, UsageError) as error:
+                fault = error.message
+            else:
+                return None
+        self.is_lost = True
+        return fault
 
     def send(self, message: Mapping[str, JsonValue]) -> bool:
         """Send a message; return whether it could be sent."""
