@@ -67,6 +67,11 @@ def test_execute_loads_nothing_heavy(tmp_path: Path) -> None:
     assert not loaded_by(tmp_path, "execute", "transport/two-boxes") & (HEAVY | GPL)
 
 
+def test_collaborate_loads_nothing_heavy(tmp_path: Path) -> None:
+    words = ("collaborate", "kitchen", "--human", "simulated", "--seed", "1")
+    assert not loaded_by(tmp_path, *words) & (HEAVY | GPL)
+
+
 @pytest.mark.parametrize("module", ["hrcplan", "hrcplan.pytest_plugin"])
 def test_import_is_light(module: str) -> None:
     """The plugin loads in every pytest run of whoever has hrcplan installed."""

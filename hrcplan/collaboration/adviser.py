@@ -111,13 +111,11 @@ class Adviser:
         state = self.fold.state(history)
         goals = self.likeliest(state)
         chosen = shared.Chosen(ask.t, goals=goals, n_declared=n_declared(state))
-        turns = ask.agents if self.fold.has_turns and self.setup.pace != TURNS else ask.agents[:1]
-        for agent in turns:
-            is_own = len(turns) > 1 or self.fold.has_turns
-            agents = frozenset((agent,) if is_own else ask.agents)
+        # Where plans say who acts, each robot is asked in its own turn.
+        for agents in [(agent,) for agent in ask.agents] if self.fold.has_turns else [ask.agents]:
             if self.setup.pace != TURNS:
-                state = self.fold.in_turn_of(state, agent)
-            action = self._action(state, agents)
+                state = self.fold.in_turn_of(state, agents[0])
+            action = self._action(state, frozenset(agents))
             if action is not None:
                 return self._explained(chosen, state, action)
         return chosen
