@@ -53,7 +53,9 @@ def _one_multiset(graph: PlanGraph) -> frozenset[Multiset] | None:
         return None
     column = np.full(max(used, default=0) + 1, 0, dtype=np.int64)
     column[used] = np.arange(len(used))
-    times = np.zeros((graph.n_nodes, len(used)), dtype=np.uint8)
+    # No path is longer than there are layers.
+    dtype = np.uint8 if len(graph.layers) <= np.iinfo(np.uint8).max else np.int32
+    times = np.zeros((graph.n_nodes, len(used)), dtype=dtype)
     for edges, sources in graph.edges_by_layer():
         after = times[sources]
         after[np.arange(len(sources)), column[graph.steps[edges]]] += 1
@@ -61,7 +63,7 @@ def _one_multiset(graph: PlanGraph) -> frozenset[Multiset] | None:
         if (times[graph.targets[edges]] != after).any():
             return None
     sources = np.repeat(np.arange(graph.n_nodes), np.diff(graph.first))
-    difference = times[graph.targets].astype(np.int16) - times[sources]
+    difference = times[graph.targets].astype(np.int32) - times[sources]
     difference[np.arange(len(sources)), column[graph.steps]] -= 1
     if difference.any():  # ways from different layers meet in one node
         return None

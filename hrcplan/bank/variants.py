@@ -40,7 +40,7 @@ def vary(goals: Goals, n: int, seed: int, *, n_objects: int = 0) -> Goals:
         n_objects: Objects to add first: copies of objects that goals mention.
 
     Raises:
-        UsageError: if no more variants are found.
+        UsageError: if no more variants are found, or there is no object to copy.
 
     >>> from hrcplan.bank import read_goals
     >>> vary(read_goals("kitchen"), 2, seed=1).names
@@ -53,12 +53,12 @@ def vary(goals: Goals, n: int, seed: int, *, n_objects: int = 0) -> Goals:
     if not old:
         raise UsageError("none of the goals can be reached", code="no-variants")
     low, high = min(s.n_steps for s in old), max(s.n_steps for s in old)
-    lengths, variants = [shape.steps for shape in old], list[Formula]()
+    step_sets, variants = [shape.steps for shape in old], list[Formula]()
     tries = 0
     for goal in _candidates(goals, world, rng):
         shape = _shape(table, goal)
-        if shape and low <= shape.n_steps <= high and _is_new(shape.steps, lengths):
-            lengths.append(shape.steps)
+        if shape and low <= shape.n_steps <= high and _is_new(shape.steps, step_sets):
+            step_sets.append(shape.steps)
             variants.append(goal)
             tries = 0
         tries += 1
@@ -75,6 +75,8 @@ def _with_copies(goals: Goals, rng: random.Random, n_objects: int) -> Problem:
     world = goals.problem
     terms = sorted({term for goal in goals.formulas for term in objects_in(goal)})
     names = [name for name in terms if name in world.objects]
+    if n_objects and not names:
+        raise UsageError("no goal mentions an object that can be copied", code="no-variants")
     for number in range(1, n_objects + 1):
         old = rng.choice(names)
         new = next(
@@ -115,5 +117,5 @@ def _shape(table: StepTable, goal: Formula) -> _Shape | None:
     return _Shape(sum(mark.cost for mark in marks), steps)
 
 
-def _is_new(steps: int, lengths: list[int]) -> bool:
-    return all(steps & other not in (steps, other) for other in lengths)
+def _is_new(steps: int, step_sets: list[int]) -> bool:
+    return all(steps & other not in (steps, other) for other in step_sets)
