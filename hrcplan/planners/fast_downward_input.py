@@ -26,6 +26,7 @@ from hrcplan.pddl.model import (
     Not,
     Problem,
 )
+from hrcplan.pddl.semantics import LiftedState, holds
 from hrcplan.pddl.walks import compares
 from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.planners.contract import Request
@@ -136,7 +137,15 @@ def _lifted_input(handover: Handover) -> DownwardInput | None:
         problem = without_numbers(problem)
     small = max((price for price in prices if price is not None), default=0) <= _MAX_PRICE
     texts = domain_text(problem.domain), problem_text(problem)
-    return DownwardInput(*texts, None, exact and small, _proof(problem), handover=handover)
+    return DownwardInput(
+        *texts, None, exact and small, _proof(problem), _is_solved(problem), handover
+    )  # fmt: skip
+
+
+def _is_solved(problem: Problem) -> bool:
+    """Whether the goal holds at once: one without any fact becomes an axiom in there."""
+    initial = LiftedState(frozenset(problem.facts), {})
+    return not problem.domain.axioms and holds(problem.goal, initial, {}, problem)
 
 
 def _formulas(problem: Problem) -> Iterator[Formula]:
