@@ -145,7 +145,7 @@ class _Session:
             parts = collaborate.parts_with(setup, self.bank, adviser, terminal)
         _begin(setup)
         if self.past is not None and not output.JSON:
-            output.result(f"· going on with {self.past}")
+            output.result(output.fold(f"· going on with {self.past}"))
         return parts
 
     def watch(
@@ -167,7 +167,8 @@ def _begin(setup: CollaborationSetup) -> None:
         return
     people, machines = ", ".join(setup.people), ", ".join(sorted(setup.robots))
     goals = plural(len(setup.goals), "goal")
-    output.result(f"{setup.problem.domain.name}: {goals}, people {people}, robots {machines}")
+    line = f"{setup.problem.domain.name}: {goals}, people {people}, robots {machines}"
+    output.result(output.fold(line))
 
 
 def _finish(done: Collaboration) -> None:
@@ -178,7 +179,8 @@ def _finish(done: Collaboration) -> None:
         return
     why = f" ({outcome.why})" if outcome.why else ""
     unit = " s" if done.setup.pace != TURNS or done.setup.has_one_goal else " turns"
-    output.result(
-        f"\n{outcome.ending}{why}: {outcome.done_human} human and {outcome.done_robot} robot "
+    line = (
+        f"{outcome.ending}{why}: {outcome.done_human} human and {outcome.done_robot} robot "
         f"actions, {outcome.failed} failed, {outcome.duration_s:g}{unit}"
     )
+    output.result(f"\n{output.fold(line)}")

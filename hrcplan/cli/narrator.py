@@ -28,6 +28,10 @@ def goals_text(goals: Sequence[tuple[str, float]], n: int = N_GOALS) -> str:
     return ", ".join(f"{name} {100 * p:.0f} %" for name, p in goals[:n])
 
 
+def _print(line: str) -> None:
+    output.result(output.fold(line))
+
+
 class Narrator:
     """Prints what happens; as JSON one line for each event."""
 
@@ -67,17 +71,17 @@ class Narrator:
             case ev.Ended(t, number, outcome) if number in self._words:
                 who, words = self._words[number]
                 if outcome == ev.FAILED:
-                    output.result(f"✗ {who}: {words} failed")
+                    _print(f"✗ {who}: {words} failed")
                 elif outcome == ev.DONE and not self._is_in_turns():
-                    output.result(f"✓ {who}: {words} ({t:g} s)")
+                    _print(f"✓ {who}: {words} ({t:g} s)")
             case shared.Undone(_, number, attempted):
                 _, words = self._words.get(number, ("", "your last step"))
-                output.result(f"· {words} {'failed' if attempted else 'is taken back'}")
+                _print(f"· {words} {'failed' if attempted else 'is taken back'}")
             case shared.Paused():
-                output.result("· the robot waits until you say go")
+                _print("· the robot waits until you say go")
             case ev.Sensed(_, values) | shared.StateTold(_, values):
                 shown = ", ".join(f"{' '.join(key)} is {float(v):g}" for key, v in values.items())
-                output.result(f"· {shown}")
+                _print(f"· {shown}")
 
     def _is_in_turns(self) -> bool:
         return self.setup.pace == TURNS and not self.setup.has_one_goal
@@ -87,23 +91,23 @@ class Narrator:
             case ev.Dispatch():
                 self._dispatched(command, event)
             case ev.Tell(_, _, message):
-                output.result(f"· {message}")
+                _print(f"· {message}")
             case ev.Adopt(_, plan, why):
                 lanes = [lane(action.args, self.setup.problem) for action in plan.actions]
                 shares = ", ".join(
                     f"{a} {lanes.count(a)}" for a in (*self.setup.people, *self.setup.robots)
                 )
                 reason = f", because {why}" if why else ""
-                output.result(f"· plan: {plural(len(lanes), 'action')} ({shares}){reason}")
+                _print(f"· plan: {plural(len(lanes), 'action')} ({shares}){reason}")
             case shared.Ask(_, shared.DONE, options):
-                output.result(f"· done: {', '.join(options)}. Was that all? (yes, no, or go on)")
+                _print(f"· done: {', '.join(options)}. Was that all? (yes, no, or go on)")
             case shared.Ask(_, _, (option,)):
                 words = self.words(tuple(option.strip("()").split()))
-                output.result(f"· do you mean: {words}? (yes, or say it in other words)")
+                _print(f"· do you mean: {words}? (yes, or say it in other words)")
             case shared.Ask(_, _, options):
-                output.result("· which of these?")
+                _print("· which of these?")
                 for n, option in enumerate(options, start=1):
-                    output.result(f"  {n}  {self.words(tuple(option.strip('()').split()))}")
+                    _print(f"  {n}  {self.words(tuple(option.strip('()').split()))}")
 
     def _dispatched(self, command: ev.Dispatch, event: SharedEvent) -> None:
         words = self.words((command.action, *command.args))
@@ -114,7 +118,7 @@ class Narrator:
         if isinstance(event, shared.Chosen):
             return
         who = self._who(command.agent)
-        output.result(f"→ {who}, please: {words}" if is_asked else f"{who}: {words}")
+        _print(f"→ {who}, please: {words}" if is_asked else f"{who}: {words}")
 
     def _chosen(
         self, run: CompanionRun, event: shared.Chosen, commands: tuple[SharedCommand, ...]
@@ -123,8 +127,8 @@ class Narrator:
         goals = goals_text(event.goals)
         if dispatch is None:
             if self._is_in_turns():
-                output.result(f"robot waits · {goals}")
+                _print(f"robot waits · {goals}")
             return
         words = self.words((dispatch.action, *dispatch.args))
         helps = f", for {', '.join(event.helps)}" if event.helps else ""
-        output.result(f"{self._who(dispatch.agent)}: {words}{helps} · {goals}")
+        _print(f"{self._who(dispatch.agent)}: {words}{helps} · {goals}")

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import shutil
 import sys
+import textwrap
 from collections.abc import Callable, Container, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -18,6 +20,7 @@ from hrcplan.errors import PddlError
 if TYPE_CHECKING:
     from rich.console import RenderableType
 
+NO_BREAK = "\u00a0"
 FILE_WIDTH = 160  # characters of a table that goes to a file or a program
 
 DEBUG = False
@@ -111,6 +114,20 @@ def table(grid: RenderableType) -> None:
     with console.capture() as text:
         console.print(Segments(pieces))
     _echo("\n".join(line.rstrip() for line in text.get().splitlines()))
+
+
+def fold(line: str) -> str:
+    """Return a line folded between its words at a terminal; for files and programs as it is.
+
+    A no-break space joins words that belong together; it is printed as a space.
+    """
+    if sys.stdout.isatty():
+        width = shutil.get_terminal_size().columns
+        line = "\n".join(
+            textwrap.wrap(line, width, subsequent_indent="  ", break_long_words=False,
+                          break_on_hyphens=False)
+        )  # fmt: skip
+    return line.replace(NO_BREAK, " ")
 
 
 def columns(rows: Sequence[Sequence[str]], right: Container[int] = ()) -> list[str]:

@@ -21,13 +21,18 @@ N_GOALS_LISTED = 12
 N_ALONE = 2  # words of an agent state that depends on its agent alone
 YES = ("yes", "y", "ja", "j")
 NO = ("no", "n", "nein")
-HELP = """Say what you do, in the words of the PDDL ("get yogurt"), or give its number.
-Enter     do nothing now        undo    my last step was not done
-steps     what I can do now     failed  my last step was done, but failed
-why       what the robot weighs goals   what it believes
-state     what holds now        state motivation human 8   how an agent is
-pause     the robot waits       go      it goes on
-quit      end                   NAME: STEP   if several people are at this terminal"""
+HELP = """Say what you do in your own words{step}, or give its number.
+Enter   do nothing now
+NAME:   whose step it is, if several people are here
+steps   what can be done now
+undo    my last step was not done
+failed  my last step was done, but failed
+goals   what the robot believes
+why     what the robot weighs
+state   what holds now{state}
+pause   the robot waits
+go      it goes on
+quit    end"""
 
 
 class Terminal:
@@ -126,17 +131,17 @@ class Terminal:
         self._listed = [*requests, *others]
         if output.JSON:
             return
-        shown = self._listed[:N_SHOWN]
-        steps = "  ".join(f"{n} {self.narrator.words(w)}" for n, w in enumerate(shown, start=1))
-        more = len(self._listed) - len(shown)
-        output.result(f"{steps}{f'  ({more} more: steps)' if more > 0 else ''}")
+        shown = [f"{n} {self.narrator.words(w)}" for n, w in enumerate(self._listed[:N_SHOWN], 1)]
+        if len(self._listed) > N_SHOWN:
+            shown.append(f"({len(self._listed) - N_SHOWN} more: steps)")
+        output.result(output.fold("  ".join(item.replace(" ", output.NO_BREAK) for item in shown)))
 
     def _say(self, text: str) -> PersonEvent | None:
         """Print an answer; there is no event."""
         if output.JSON:
             output.document({"message": text.removeprefix("· ")})
         else:
-            output.result(text)
+            output.result("\n".join(map(output.fold, text.split("\n"))))
         return None
 
     # Commands.
@@ -154,7 +159,17 @@ class Terminal:
         return shared.Undone(run.t, last.number, attempted=True)
 
     def _help(self, run: CompanionRun, words: list[str]) -> PersonEvent | None:
-        return self._say(HELP)
+        step = f' ("{self.narrator.words(self._listed[0])}")' if self._listed else ""
+        state = f"; state {self._example()}: how an agent is" if self._example() else ""
+        return self._say(HELP.format(step=step, state=state))
+
+    def _example(self) -> str:
+        """Return how a person says how an agent of this domain is; "" if agents have no state."""
+        agents = self.setup.model.agents
+        if not agents.low:
+            return ""
+        key = min(agents.low, key=len)
+        return f"{' '.join(key)} {number_text(agents.value_range(key)[1])}"
 
     def _steps(self, run: CompanionRun, words: list[str]) -> None:
         if output.JSON:
@@ -197,7 +212,8 @@ class Terminal:
             numbers = {key: float(value) for key, value in values.items()}
             output.document({"facts": facts, "agent_state": numbers})
             return None
-        output.result(" ".join(facts) or "· no changing fact holds")
+        shown = (fact.replace(" ", output.NO_BREAK) for fact in facts)
+        output.result(output.fold(" ".join(shown)) or "· no changing fact holds")
         told = [
             f"{' '.join(key)} {number_text(run.run.sensed_values.get(key, low))}"
             for key, low in agents.low.items()
@@ -206,13 +222,13 @@ class Terminal:
         return self._say("· " + ", ".join(told)) if told else None
 
     def _state_told(self, run: CompanionRun, words: list[str]) -> PersonEvent | None:
-        """Return what a person says about an agent, as in ``state motivation human 8``."""
+        """Return what a person says about an agent, as in ``state FUNCTION AGENT NUMBER``."""
         agents = self.setup.model.agents
         try:
             key = _element(tuple(words[:-1]), agents.functions)
             agents.check(key, float(words[-1]))
         except ValueError:
-            return self._say("· say it as in: state motivation human 8")
+            return self._say(f"· say it as in: state {self._example() or 'FUNCTION AGENT NUMBER'}")
         except UsageError as error:
             known = ", ".join(" ".join(one) for one in list(agents.low)[:N_SHOWN])
             hint = f" (there are: {known})" if known else " (this domain has no agent states)"

@@ -150,11 +150,12 @@ def test_wrong_use_is_explained(folder: Path, words: list[str], code: int, text:
 class Session:
     """A session at a pseudo-terminal."""
 
-    def __init__(self, folder: Path, *words: str) -> None:
+    def __init__(self, folder: Path, *words: str, columns: int = 80) -> None:
         self.pid, self.handle = pty.fork()
         if self.pid == 0:
             signal.signal(signal.SIGHUP, signal.SIG_DFL)  # also where the tests run under nohup
             os.chdir(folder)
+            os.environ["COLUMNS"] = str(columns)
             os.execv(sys.executable, [*COMMAND, "domain.pddl", "goals", *words])
         self.text = ""
 
@@ -192,6 +193,18 @@ def test_a_session_at_a_terminal(folder: Path) -> None:
     session.type("quit\n")
     assert session.wait() == 1
     assert "stopped (quit)" in session.text
+
+
+@pytest.mark.parametrize("columns", [60, 80])
+def test_lines_fit_the_terminal_and_speak_of_the_domain(folder: Path, columns: int) -> None:
+    session = Session(folder, columns=columns)
+    for line in ("help", "state", "why", "goals", "quit"):
+        session.expect("> $")
+        session.type(f"{line}\n")
+    session.wait()
+    lines = session.text.replace("\r", "").split("\n")
+    assert max(map(len, lines)) <= columns
+    assert 'in your own words ("cut ' in session.text  # a step of this domain
 
 
 @pytest.mark.parametrize(
