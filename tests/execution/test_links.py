@@ -216,7 +216,7 @@ def test_nothing_is_left_of_a_robot_when_we_are_killed(tmp_path: Path) -> None:
     mark = tmp_path / "a-mark-of-its-own"
     code = (
         "from hrcplan.execution.execute import execute\n"
-        f"execute('transport/two-boxes', robot={odd('plain', mark)!r}, speed=1)\n"
+        f"execute('transport/two-boxes', robot={odd('endless', mark)!r}, speed=1)\n"
     )
     child = subprocess.Popen([sys.executable, "-c", code], cwd=Path(__file__).parents[2])
 

@@ -33,6 +33,8 @@ def first(n: int) -> None:
     match MODE:
         case "reject":
             say("rejected", n=n, why="the path is blocked")
+        case "endless":
+            say("accepted", n=n)
         case "fail":
             say("accepted", n=n)
             end(n, "failed", why="slipped")
