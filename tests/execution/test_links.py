@@ -164,16 +164,22 @@ def test_what_is_sensed_makes_the_monitor_replan() -> None:
     assert "(nonsense x)" in messages(done) or "nonsense" in messages(done)
 
 
-def test_what_is_observed_and_not_believed_is_a_deviation() -> None:
-    done = run("teleport", human="steady")
+def test_what_is_observed_and_not_believed_is_planned_from() -> None:
+    done = run("teleport")
     assert done.outcome.ending == ev.GOAL
+    moves = [bar.args for bar in done.timeline.bars.values() if bar.args[0] == "robot"]
+    assert moves == [("robot", "wp0", "wp3")]  # from where it is, the human had better do it all
+    assert ("at", "robot", "wp5") in done.run.state.facts
     assert "no fact" in messages(done)
 
 
-def test_a_result_after_the_cancelling_of_a_late_action(tmp_path: Path) -> None:
+def test_a_result_after_the_cancelling_of_a_late_action() -> None:
     """The driver gives an action up after three times its duration; then the robot says done."""
-    done = run("late", tmp_path / "mark")
+    done = run("late")
     assert done.outcome.ending == ev.GOAL
+    assert outcomes(done)[0] == ev.FAILED
+    moves = [bar.args for bar in done.timeline.bars.values() if bar.args[:2] == ("robot", "wp0")]
+    assert moves == [("robot", "wp0", "wp3")]  # it is there, so it does not move again
 
 
 def test_a_run_with_a_robot_can_be_replayed(tmp_path: Path) -> None:

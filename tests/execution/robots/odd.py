@@ -33,7 +33,7 @@ def first(n: int) -> None:
     match MODE:
         case "reject":
             say("rejected", n=n, why="the path is blocked")
-        case "endless":
+        case "endless" | "late":
             say("accepted", n=n)
         case "fail":
             say("accepted", n=n)
@@ -80,9 +80,9 @@ def first(n: int) -> None:
             say("sensed", values={"motivation human": 9, "nonsense x": 1})
             end(n)
         case "teleport":
-            say("accepted", n=n)
-            say("observed", facts=["at robot wp5"], absent=["(at robot wp0)", "no fact"])
             end(n, "failed")
+            say("observed", facts=["at robot wp5"], absent=["(at robot wp0)"])
+            say("observed", facts=["no fact"])
         case _:
             say("accepted", n=n)
             end(n)
