@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 import pytest
+from joblib.externals.loky import get_reusable_executor
 
 from hrcplan.errors import LimitError, PlannerError, UnsupportedError
 from hrcplan.pddl.inputs import read
@@ -55,6 +56,12 @@ def walk(metric: str = "") -> Problem:
 def says(status: Status, plan: str | None = None, **more: Any) -> Callable[[Request], Answer]:
     found = None if plan is None else parse_plan(plan)
     return lambda request: Answer(status, found, **more)
+
+
+@pytest.fixture(autouse=True)
+def one_thread() -> None:
+    """Planners run side by side where there is one thread; workers of earlier studies have some."""
+    get_reusable_executor().shutdown(wait=True)
 
 
 @pytest.fixture
