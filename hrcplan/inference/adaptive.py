@@ -8,7 +8,6 @@ and one for declaring changes, which should seldom be wrong.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -17,17 +16,9 @@ from hrcplan.bank.combined_graph import CombinedGraph
 from hrcplan.bank.progress import Evidence, Progress, ProgressTracker
 from hrcplan.core.arrays import Floats
 from hrcplan.errors import UsageError
-from hrcplan.inference.belief import IMPOSSIBLE, GoalChange, PlanFollower
-from hrcplan.inference.changes import (
-    HAZARD,
-    NEVER,
-    SETTLES,
-    ChangeFilter,
-    change_points,
-    changes_before,
-)
+from hrcplan.inference.changes import HAZARD, NEVER, SETTLES, ChangeFilter
+from hrcplan.inference.filter_belief import FilterBelief
 from hrcplan.inference.paired_filters import PairedFilters, PairedState
-from hrcplan.inference.probabilities import weights_to_posterior
 
 # Tuned on randomly generated goals of two domains (docs/papers/changed-mind-targets.md).
 RATES: Mapping[float, float] = {0.002: 0.6, 0.1: 0.3, 0.3: 0.1}
@@ -37,29 +28,6 @@ PLANS = "plans"
 _POWERS = {"uniform": 0.0, "general": 1.0, "special": -1.0}  # of the number of goals
 _TINY = 1e-300
 _UNLIKELY = 1e-12  # the least share of a step among the mistakes
-
-
-@dataclass(frozen=True, slots=True)
-class AdaptiveState:
-    """The state of `AdaptiveBelief`: the goals' progress, and a filter for each prior of changes.
-
-    ``is_human`` says whether the last observation was an applicable step of the human.
-    """
-
-    progress: Progress
-    filter_state: PairedState
-    is_human: bool = False
-    ignored: str | None = None
-
-    @property
-    def world(self) -> int:
-        """The state of the task, as bits."""
-        return self.progress.world
-
-    @property
-    def n_declared(self) -> int:
-        """How many changes of goal were declared so far."""
-        return self.filter_state.n_declared
 
 
 class StepPreferences:
@@ -111,7 +79,7 @@ class StepPreferences:
         return chances
 
 
-class AdaptiveBelief(PlanFollower):
+class AdaptiveBelief(FilterBelief[PairedState]):
     """The posterior of the present goal, and of what kind of human has it.
 
     A useful step has likelihood (1 - p) times its probability under the way of choosing, any other
@@ -135,44 +103,15 @@ class AdaptiveBelief(PlanFollower):
         mistake_rates: Mapping[float, float] = RATES, choosers: Mapping[str, float] = CHOOSERS,
         settles: float = SETTLES, declaring_hazard: float = HAZARD, never: float = NEVER,
     ) -> None:  # fmt: skip
-        self.tracker = ProgressTracker(bank)
         kinds = tuple(p * q for p in mistake_rates.values() for q in choosers.values())
         n_goals, n_kinds = len(bank.names), len(kinds)
-        self.filters = PairedFilters(
+        filters = PairedFilters(
             ChangeFilter(n_goals, n_kinds, hazard, 0.0, settles, kinds),
             ChangeFilter(n_goals, n_kinds, declaring_hazard, never, settles, kinds),
         )
+        super().__init__(ProgressTracker(bank), filters)
         self.rates = np.array(list(mistake_rates))[:, None]
         self.preferences = StepPreferences(self.tracker.combined_graph, list(choosers))
-
-    def start(self) -> AdaptiveState:
-        """Return the uniform belief in the initial state."""
-        return AdaptiveState(self.tracker.start, self.filters.start())
-
-    def observe(self, state: AdaptiveState, step: int, *, robot: bool = False) -> AdaptiveState:
-        """Return the belief after one more step; the robot's own steps are no evidence."""
-        move = self.tracker.follow(state.progress, step)
-        if move is None:
-            return replace(state, is_human=False, ignored=IMPOSSIBLE)
-        if robot:
-            return AdaptiveState(move[0], state.filter_state)
-        return self._after(state, step, *move)
-
-    def observe_wait(self, state: AdaptiveState) -> AdaptiveState:
-        """Return the belief after a wait of the agent whose turn it is, where agents take turns."""
-        move = self.tracker.wait(state.progress)
-        if move is None:
-            return state
-        if self.tracker.is_robots_turn(state.progress):
-            return AdaptiveState(move[0], state.filter_state)
-        return self._after(state, None, *move)
-
-    def _after(
-        self, state: AdaptiveState, step: int | None, progress: Progress, evidence: Evidence
-    ) -> AdaptiveState:
-        likelihood = self.likelihood(state.progress, step, evidence)
-        filter_state = self.filters.step(state.filter_state, likelihood)
-        return AdaptiveState(progress, filter_state, is_human=True)
 
     def likelihood(self, progress: Progress, step: int | None, evidence: Evidence) -> Floats:
         """Return the likelihood of a step by kind of human (rate, then chooser) and goal."""
@@ -188,19 +127,3 @@ class AdaptiveBelief(PlanFollower):
             by_kind = (1 - self.rates)[:, :, None] * chances
             likelihood[:, goals] = by_kind.reshape(len(likelihood), -1)
         return likelihood
-
-    def posterior(self, state: AdaptiveState) -> Floats:
-        """Return the probability of each goal, in order."""
-        return weights_to_posterior(self.filters.goals(state.filter_state))
-
-    def changes(self, states: Sequence[AdaptiveState]) -> tuple[GoalChange, ...]:
-        """Return the changes that are probable given all observations.
-
-        Args:
-            states: The belief after each observation, in order.
-        """
-        return changes_before(states)
-
-    def changed(self, states: Sequence[AdaptiveState]) -> float:
-        """Return the probability, given all observations, that the goal has changed at all."""
-        return change_points(states)[1].changed
