@@ -11,7 +11,8 @@ import numpy as np
 
 from hrcplan.bank import Bank, BuildLimits, PlanGraph
 from hrcplan.bank.combined_graph import ApplicableSteps, combined_graph_of
-from hrcplan.bank.team_moves import Moment, TeamMoves, team_moves
+from hrcplan.bank.team_moves import Moment, TeamMoves
+from hrcplan.bank.turn_moves import team_moves
 from hrcplan.core.arrays import Floats, Ids
 from hrcplan.errors import LimitError
 from hrcplan.search.relevance import relevant

@@ -193,19 +193,6 @@ class TeamMoves:
         return TeamChoices(steps, is_next, waits, log_odds, shares, costs)
 
 
-def team_moves(bank: Bank) -> TeamMoves | None:
-    """Return what the agents of a team do; None where agents do not take turns.
-
-    Raises:
-        LimitError: if the team can get to too many states, and plans are no solo plans.
-    """
-    if bank.is_solo:
-        from hrcplan.bank.solo_moves import SoloMoves
-
-        return SoloMoves(bank)
-    return TeamMoves(bank) if bank.team else None
-
-
 def _weights(costs: Costs, now: Costs) -> Floats:
     """Return how likely mistakes are, from what they cost; the scale does not matter."""
     loss = costs // TIMESTEP - now // TIMESTEP

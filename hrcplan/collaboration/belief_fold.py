@@ -6,7 +6,7 @@ from typing import Any
 
 from hrcplan.assistance.assistant import Assistant, inform
 from hrcplan.bank import Bank
-from hrcplan.bank.team_moves import team_moves
+from hrcplan.bank.turn_moves import team_moves
 from hrcplan.collaboration.history import (
     History,
     PassedTurn,

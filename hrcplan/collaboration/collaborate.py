@@ -14,7 +14,7 @@ from hrcplan.assistance.assistant import Assistant, KnowsGoal
 from hrcplan.assistance.registry import ASSISTANTS
 from hrcplan.bank import Bank, Goals, StepTable, read_goals
 from hrcplan.bank.cache import cached_bank
-from hrcplan.bank.team_moves import team_moves
+from hrcplan.bank.turn_moves import team_moves
 from hrcplan.collaboration.adviser import Adviser
 from hrcplan.collaboration.companion import Companion
 from hrcplan.collaboration.events import KINDS, SHARED_QUESTIONS, SharedCommand, SharedEvent

@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Protocol
 
 from hrcplan.bank import Bank
-from hrcplan.bank.team_moves import Moment, TeamMoves, team_moves
+from hrcplan.bank.team_moves import Moment, TeamMoves
+from hrcplan.bank.turn_moves import team_moves
 from hrcplan.collaboration import events as shared
 from hrcplan.collaboration.events import PersonEvent
 from hrcplan.collaboration.history import (

@@ -14,7 +14,8 @@ import numpy as np
 
 from hrcplan.assistance.assistant import Assistant, inform
 from hrcplan.bank import Bank, StepTable
-from hrcplan.bank.team_moves import Moment, TeamMoves, team_moves
+from hrcplan.bank.team_moves import Moment, TeamMoves
+from hrcplan.bank.turn_moves import team_moves
 from hrcplan.core.arrays import Floats
 from hrcplan.episodes.humans import Course, EpisodeHuman, HumanMove, TakesTurns
 from hrcplan.errors import UsageError

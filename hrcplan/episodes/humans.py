@@ -14,7 +14,8 @@ from typing import Protocol, runtime_checkable
 
 from hrcplan.bank import Bank, PlanGraph
 from hrcplan.bank.htn import Htn, decompose
-from hrcplan.bank.team_moves import Moment, team_moves
+from hrcplan.bank.team_moves import Moment
+from hrcplan.bank.turn_moves import team_moves
 from hrcplan.bank.walk import shortest
 from hrcplan.core.registry import Registry
 from hrcplan.pddl.conventions import people

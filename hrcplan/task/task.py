@@ -9,6 +9,7 @@ from math import inf
 from typing import Final
 
 from hrcplan.core.bits import positions
+from hrcplan.core.deprecation import Renamed
 from hrcplan.core.numbers import Number, exact
 from hrcplan.core.text import cut
 from hrcplan.pddl.inlining import plain
@@ -49,6 +50,8 @@ class Task:
     >>> [str(task.actions[i]) for i in task.applicable(task.initial)][:2]
     ['(move robot wp0 wp1)', '(move robot wp0 wp2)']
     """
+
+    reached = Renamed("value_sets")
 
     def __init__(
         self,
