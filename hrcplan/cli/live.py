@@ -111,7 +111,7 @@ class Live:
 
     def _print_cells(self, when: str, progress: str = "") -> None:
         width = self._width()
-        cells = "".join(f"{self._cells.get(agent, ''):<{width}}" for agent in self._agents)
+        cells = "".join(f"{self._cells.get(agent, ''):<{width - 1}} " for agent in self._agents)
         self._line(when, f"{cells}{progress}")
         self._cells = {}
 
