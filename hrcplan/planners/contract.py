@@ -115,6 +115,10 @@ class Replays:
         return self._reports[plan]
 
 
+def ignore_plan(plan: Plan) -> None:
+    """Do nothing with a plan."""
+
+
 @dataclass(frozen=True)
 class Request:
     """One problem for one planner: until when, and whether the first plan is enough.
@@ -131,7 +135,7 @@ class Request:
     lazy_task: LazyTask = field(default_factory=LazyTask, repr=False, compare=False)
     improves: bool = False
     replays: Replays = field(default_factory=Replays, repr=False, compare=False)
-    on_plan: Callable[[Plan], None] = field(default=lambda plan: None, repr=False, compare=False)
+    on_plan: Callable[[Plan], None] = field(default=ignore_plan, repr=False, compare=False)
 
     @property
     def time_left_s(self) -> float:

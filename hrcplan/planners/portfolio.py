@@ -7,7 +7,8 @@ from fractions import Fraction
 
 from hrcplan.core.numbers import Number
 from hrcplan.errors import HrcplanError, LimitError, PlannerError, UnsupportedError
-from hrcplan.planners.contract import Request, Status
+from hrcplan.pddl.model import Problem
+from hrcplan.planners.contract import Status
 from hrcplan.planners.result import Attempt, Result, is_better
 
 AUTO = "auto"
@@ -20,8 +21,9 @@ class Portfolio:
     it; a better plan refutes a proof of optimality.
     """
 
-    def __init__(self, request: Request) -> None:
-        self.request = request
+    def __init__(self, problem: Problem, any_plan: bool) -> None:
+        self.problem = problem
+        self.any_plan = any_plan
         self.best: Result | None = None
         self.bound: Number | None = None
         self._is_proven = False
@@ -36,7 +38,7 @@ class Portfolio:
         """Whether nothing that another planner says could change the result."""
         if self.best is None:
             return self._unsolvable is not None
-        return self._is_proven or self.request.any_plan
+        return self._is_proven or self.any_plan
 
     @property
     def confirms_unsolvable(self) -> bool:
@@ -45,7 +47,7 @@ class Portfolio:
 
     def take_plan(self, result: Result) -> None:
         """Take a checked plan of a planner that may still go on."""
-        problem = self.request.problem
+        problem = self.problem
         if result.plan is None:
             return
         mine = self.best.objective if self.best else None
@@ -91,7 +93,7 @@ class Portfolio:
 
     def _take_bound(self, bound: Number | None) -> None:
         """Keep the bound that says more: of two bounds, the one that fewer plans could reach."""
-        if self.bound is None or is_better(self.request.problem, self.bound, bound):
+        if self.bound is None or is_better(self.problem, self.bound, bound):
             self.bound = self.bound if bound is None else bound
 
     def _within_gaps(self, result: Result) -> bool:
@@ -105,7 +107,7 @@ class Portfolio:
     def _is_beaten(self, result: Result) -> bool:
         """Return whether a plan is known that a claimed optimum should not allow."""
         assert self.best is not None
-        better = is_better(self.request.problem, self.best.objective, result.objective)
+        better = is_better(self.problem, self.best.objective, result.objective)
         return better and not self._within_gaps(result)
 
     def only(self, planner: str) -> Result:
@@ -153,7 +155,7 @@ class Portfolio:
         bound, value = self.bound, best.objective
         if bound is not None and value is not None:
             apart = abs(Fraction(value - bound))
-            if is_better(self.request.problem, value, bound) and apart > best.gaps:
+            if is_better(self.problem, value, bound) and apart > best.gaps:
                 bound = None  # a plan refutes a bound
             elif apart <= best.gaps:
                 return replace(best, bound=bound, status=Status.OPTIMAL)

@@ -16,7 +16,7 @@ from hrcplan.planners.choice import Job
 from hrcplan.planners.contract import Answer, Request, Status
 from hrcplan.planners.portfolio import Portfolio
 from hrcplan.planners.result import Result, ask, check_answer
-from hrcplan.planners.workers import Work, Worker, end
+from hrcplan.planners.workers import Watch, Work, Worker, end
 from hrcplan.plans import Plan
 
 OnBetter = Callable[[Result], None]
@@ -75,7 +75,7 @@ class _Race:
         self, request: Request, waiting: Sequence[Job], lanes: bool, on_better: OnBetter
     ) -> None:
         self.request = request
-        self.portfolio = Portfolio(request)
+        self.portfolio = Portfolio(request.problem, request.any_plan)
         self._waiting = list(waiting)
         self._slots = max(2, cores())
         self._lanes: list[_Lane] = []
@@ -89,6 +89,7 @@ class _Race:
     def run(self) -> Portfolio:
         """Return the portfolio once it is settled, all jobs have ended, or time is up."""
         stop_at = self.request.deadline + OVERTIME_S
+        self._watch = Watch()
         try:
             while (self._lanes or self._waiting) and not self.portfolio.is_settled:
                 self._start()
@@ -97,6 +98,7 @@ class _Race:
                 self._step(min(_TICK_S, max(0.0, stop_at - time.monotonic())))
         finally:
             end([lane.worker for lane in self._lanes])
+            self._watch.close()
             self._ready.close()
         return self.portfolio
 
@@ -113,7 +115,7 @@ class _Race:
                 any_plan=job.any_plan or self.request.any_plan,
                 improves=not self.request.any_plan,
             )
-            lane = _Lane(job, Worker(_work(job, request, self._in_lanes)))
+            lane = _Lane(job, Worker(_work(job, request, self._in_lanes), self._watch.group))
             self._lanes.append(lane)
             self._ready.register(lane.worker.fd, selectors.EVENT_READ, lane)
         if self.request.time_left_s <= 0:

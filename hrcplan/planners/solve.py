@@ -6,13 +6,13 @@ import time
 from collections.abc import Sequence
 from dataclasses import replace
 
-from hrcplan.errors import HrcplanError
 from hrcplan.pddl.model import Problem
 from hrcplan.planners import registry
 from hrcplan.planners.choice import Job, jobs
 from hrcplan.planners.contract import MEMORY_BYTES, LazyTask, Planner, Request, Status
 from hrcplan.planners.portfolio import AUTO, Portfolio
 from hrcplan.planners.race import OnBetter, can_race, race
+from hrcplan.planners.race_process import race_in_process
 from hrcplan.planners.result import Attempt, Result, ask, compare
 from hrcplan.task import Task
 
@@ -69,35 +69,7 @@ def solve(
 def _run(request: Request, waiting: Sequence[Job], lanes: bool, on_better: OnBetter) -> Portfolio:
     if can_race():
         return race(request, waiting, lanes, on_better)
-    return in_turn(request, waiting, lanes)
-
-
-def in_turn(request: Request, waiting: Sequence[Job], lanes: bool) -> Portfolio:
-    """Return what jobs say one after the other, until the result is settled.
-
-    Each may use at most half of the time left, the last one all of it.
-    """
-    portfolio = Portfolio(request)
-    for position, job in enumerate(waiting):
-        start_s = time.monotonic()
-        left_s = request.time_left_s
-        share_s = left_s if position == len(waiting) - 1 else left_s / 2
-        turn = replace(
-            request, deadline=start_s + share_s, any_plan=job.any_plan or request.any_plan
-        )
-        try:
-            result = ask(job.planner, turn, lanes, job.why)
-        except HrcplanError as error:
-            if job.finds_plans:
-                portfolio.take_failure(job.name, error, time.monotonic() - start_s)
-            continue
-        if job.finds_plans:
-            portfolio.take(result)
-        else:
-            portfolio.take_bound(result)
-        if portfolio.is_settled or request.time_left_s <= 0:
-            break
-    return portfolio
+    return race_in_process(request, waiting, lanes, on_better)
 
 
 def _ask_one(

@@ -11,7 +11,6 @@ import ctypes
 import faulthandler
 import gc
 import os
-import pickle
 import signal
 import time
 from collections.abc import Callable, Sequence
@@ -19,6 +18,7 @@ from types import FrameType
 from typing import Any, Generic, NoReturn, TypeVar
 
 from hrcplan.planners.guard import PR_SET_PDEATHSIG, proportional, resident
+from hrcplan.planners.messages import Inbox, send
 
 M = TypeVar("M")
 Work = Callable[[Callable[[M], None]], None]
@@ -26,7 +26,7 @@ Work = Callable[[Callable[[M], None]], None]
 
 GRACE_S = 0.5
 """Between the request to end, in which a planner's processes are cleared up, and a kill."""
-_LENGTH = 8
+_DEATH = signal.SIGUSR1
 _BLOCKED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
@@ -36,34 +36,29 @@ class Worker(Generic[M]):
     Use it from a process with one thread: locks that other threads hold stay locked in the copy.
     """
 
-    def __init__(self, work: Work[M]) -> None:
+    def __init__(self, work: Work[M], group: int = 0) -> None:
+        """Start the work in a process group, by default in one of its own."""
         self.fd, write = os.pipe()
+        self._inbox = Inbox(self.fd)
         parent = os.getpid()
         # In the copy, a handler of the caller would leave through the code of the caller.
         mask = signal.pthread_sigmask(signal.SIG_BLOCK, _BLOCKED)
         try:
             self.pid = os.fork()
             if self.pid == 0:
-                _become(work, write, parent, mask)
+                _become(work, write, parent, group, mask)
         finally:
             signal.pthread_sigmask(signal.SIG_SETMASK, mask)
         os.close(write)
-        self._pending = bytearray()
-        self.is_over = False
 
     def receive(self) -> list[object]:
         """Return what has arrived; at the end of the work ``is_over`` is set."""
-        piece = os.read(self.fd, 1 << 20)
-        self._pending += piece
-        self.is_over = not piece
-        messages: list[object] = []
-        while len(self._pending) >= _LENGTH:
-            end = _LENGTH + int.from_bytes(self._pending[:_LENGTH], "little")
-            if len(self._pending) < end:
-                break
-            messages.append(pickle.loads(bytes(self._pending[_LENGTH:end])))
-            del self._pending[:end]
-        return messages
+        return self._inbox.receive()
+
+    @property
+    def is_over(self) -> bool:
+        """Whether the work has ended and all its messages are read."""
+        return self._inbox.is_over
 
     def exceeds(self, memory_bytes: int) -> bool:
         """Return whether it uses more memory than this; what it shares counts in part."""
@@ -90,6 +85,47 @@ class Worker(Generic[M]):
             os.waitpid(self.pid, 0)
 
 
+class Watch:
+    """A copy of this process that ends a process group if this process dies, also by SIGKILL.
+
+    Workers get SIGTERM then anyway; this is for those that ignore it. ``group`` is the group.
+    """
+
+    def __init__(self) -> None:
+        parent = os.getpid()
+        mask = signal.pthread_sigmask(signal.SIG_BLOCK, (*_BLOCKED, _DEATH))
+        try:
+            self.group = os.fork()
+            if self.group == 0:
+                _stand_by(parent)
+        finally:
+            signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+        with contextlib.suppress(OSError):  # it may have done so already
+            os.setpgid(self.group, self.group)
+
+    def close(self) -> None:
+        """End the watch, after the workers."""
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(self.group, signal.SIGKILL)
+        with contextlib.suppress(ChildProcessError):
+            os.waitpid(self.group, 0)
+
+
+def _stand_by(parent: int) -> NoReturn:
+    """Wait for the death of the parent; then end the process group, this process included."""
+    try:
+        os.setpgid(0, 0)
+        _close_streams()
+        ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, _DEATH, 0, 0, 0)
+        if os.getppid() == parent:
+            signal.sigwait([_DEATH])
+        os.killpg(0, signal.SIGTERM)  # blocked here
+        time.sleep(GRACE_S)
+        os.killpg(0, signal.SIGKILL)
+    finally:
+        os._exit(0)
+
+
 def end(workers: Sequence[Worker[Any]]) -> None:
     """End workers and all that they have started: asked first, killed after ``GRACE_S``."""
     for worker in workers:
@@ -109,33 +145,31 @@ class _EndRequest(BaseException):
     """The worker was asked to end; not an Exception, so that nothing on the way handles it."""
 
 
-def _become(work: Work[M], write: int, parent: int, mask: set[int]) -> NoReturn:
+def _become(work: Work[M], write: int, parent: int, group: int, mask: set[int]) -> NoReturn:
     """Do the work in this forked copy, and end; ``mask`` are the signals that it blocks."""
     try:
         gc.freeze()  # what is shared stays shared
         faulthandler.disable()  # a request to end may abort an extension that is being imported
-        os.setpgid(0, 0)  # Ctrl-C in a terminal is for the parent alone
-        quiet = os.open(os.devnull, os.O_RDWR)
-        for stream in (0, 1, 2):  # what libraries print while they are ended is of no use
-            os.dup2(quiet, stream)
+        os.setpgid(0, group)  # Ctrl-C in a terminal is for the parent alone
+        _close_streams()
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         signal.signal(signal.SIGTERM, _raise)
         signal.pthread_sigmask(signal.SIG_SETMASK, mask)
         ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM, 0, 0, 0)
         if os.getppid() == parent:
-            work(lambda message: _send(write, message))
+            work(lambda message: send(write, message))
     except BaseException:  # noqa: BLE001  the parent sees that the work has ended
         pass
     finally:
         os._exit(0)
 
 
+def _close_streams() -> None:
+    """Let nothing be read or printed: what libraries print while they are ended is of no use."""
+    quiet = os.open(os.devnull, os.O_RDWR)
+    for stream in (0, 1, 2):
+        os.dup2(quiet, stream)
+
+
 def _raise(number: int, frame: FrameType | None) -> NoReturn:
     raise _EndRequest
-
-
-def _send(write: int, message: M) -> None:
-    payload = pickle.dumps(message)
-    rest = memoryview(len(payload).to_bytes(_LENGTH, "little") + payload)
-    while rest:
-        rest = rest[os.write(write, rest) :]

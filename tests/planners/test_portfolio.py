@@ -6,7 +6,7 @@ import os
 import signal
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -14,43 +14,12 @@ from joblib.externals.loky import get_reusable_executor
 
 from hrcplan.errors import LimitError, PlannerError, UnsupportedError
 from hrcplan.pddl.inputs import read
-from hrcplan.pddl.model import Problem
 from hrcplan.planners import registry
 from hrcplan.planners.choice import fixed_order
-from hrcplan.planners.contract import Answer, Capabilities, Request, Status
+from hrcplan.planners.contract import Answer, Request, Status
 from hrcplan.planners.solve import Result, solve
 from hrcplan.plans import Plan, parse_plan
-from tests.worlds import problem_from
-
-WALK = """(define (domain walk) (:requirements :strips :numeric-fluents)
-  (:predicates (at ?p) (link ?p ?q)) (:functions (views))
-  (:action go :parameters (?p ?q) :precondition (and (at ?p) (link ?p ?q))
-    :effect (and (at ?q) (not (at ?p)) (increase (views) 1))))"""
-ABC = """(define (problem p) (:domain walk) (:objects a b c)
-  (:init (at a) (link a b) (link b c) (link a c) (= (views) 0)) (:goal (at c)) METRIC)"""
-SHORT, LONG = "(go a c)", "(go a b) (go b c)"
-
-
-@dataclass
-class Actor:
-    """A planner that does what it was told to."""
-
-    name: str
-    act: Callable[[Request], Answer]
-    card: Capabilities = field(init=False)
-
-    def __post_init__(self) -> None:
-        self.card = Capabilities(self.name, "acts", numeric=True, proves=True)
-
-    def missing(self) -> str | None:
-        return None
-
-    def solve(self, request: Request) -> Answer:
-        return self.act(request)
-
-
-def walk(metric: str = "") -> Problem:
-    return problem_from(WALK, ABC.replace("METRIC", metric))
+from tests.planners.actors import LONG, SHORT, Actor, walk
 
 
 def says(status: Status, plan: str | None = None, **more: Any) -> Callable[[Request], Answer]:
