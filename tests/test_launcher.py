@@ -34,9 +34,10 @@ import pathlib, time, zipfile
 METADATA = """Metadata-Version: 2.1
 Name: hrcplan
 Version: 1
-Provides-Extra: java
+Provides-Extra: planners
+Provides-Extra: studies
 Provides-Extra: test
-Requires-Dist: part-java ; extra == "java"
+Requires-Dist: part-java ; extra == "planners"
 Requires-Dist: part-java ; extra == "test"
 Requires-Dist: part-test ; extra == "test"
 """
@@ -146,6 +147,9 @@ def installed(tmp_path_factory: pytest.TempPathFactory) -> Path:
     assert code == 7, stderr
     assert stdout == f"{elsewhere} ['plan', 'a b'] part_java=1\n"
     assert "installing into .venv" in stderr
+    assert "installing 1 packages" in stderr
+    assert len(stderr.splitlines()) <= 10
+    assert "Looking in links" not in stderr
     assert builds(root) == 1
     return root
 
@@ -176,7 +180,7 @@ def test_changed_pins_update_and_the_test_extra_stays(installed: Path) -> None:
     (installed / "constraints.txt").write_text("part_java==2\n")
     _, stdout, stderr = outcome(start(installed))
     assert stdout.endswith("part_java=2 part_test=1\n")
-    assert "with the extra 'test'" in stderr
+    assert "with the extras 'test'" in stderr
     assert builds(installed) == before + 2
 
 
@@ -246,8 +250,17 @@ def test_failed_installation_says_so_and_is_no_answer(tmp_path: Path) -> None:
     (root / "constraints.txt").write_text("part_java==3\n")
     code, stdout, stderr = outcome(start(root))
     assert (code, stdout) == (126, "")
+    assert "ERROR: " in stderr
+    assert "part-java" in stderr
+    assert len(stderr.splitlines()) <= 10
     assert "the next call tries again" in stderr
     assert not (root / ".venv" / "hrcplan-stamp").exists()
+
+
+def test_verbose_shows_the_words_of_pip(tmp_path: Path) -> None:
+    code, _, stderr = outcome(start(make_project(tmp_path / "checkout"), "plan", "--verbose"))
+    assert code == 7
+    assert "Looking in links" in stderr
 
 
 def test_missing_venv_module_names_the_package(tmp_path: Path) -> None:

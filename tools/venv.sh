@@ -1,9 +1,9 @@
-# Sourced by the launchers: `need_venv EXTRA` returns once $root/.venv holds the project with
-# that extra. Everything said here goes to stderr, and nothing here touches the caller's folder.
+# Sourced by the launchers: `need_venv EXTRAS` returns once $root/.venv holds the project with
+# these extras (with commas between). Everything said here goes to stderr, and nothing here touches the caller's folder.
 # Before sourcing, the launcher sets $root to the checkout, symbolic links resolved.
 
 venv=$root/.venv
-stamp=$venv/hrcplan-stamp    # written last: the extra, then the hashes and places of the inputs
+stamp=$venv/hrcplan-stamp    # written last: the extras, then the hashes and places of the inputs
 owner=$venv/hrcplan-checkout # written first: whose environment this is
 
 # Another environment's settings must neither steer pip nor leak modules into ours.
@@ -14,8 +14,8 @@ say() { printf 'hrcplan: %s\n' "$*" >&2; }
 # The places are part of what is compared: a moved checkout has stale paths in its .venv.
 inputs() { sha256sum "$root/pyproject.toml" "$root/constraints.txt"; }
 
-# True when the last finished installation is of the present inputs and holds extra $1.
-# `test` contains `java`, so either serves a call that wants `java`.
+# True when the last finished installation is of the present inputs and holds the extras $1.
+# `test` contains all extras that hrcplan runs with.
 stamp_fits() {
     installed='' first='' second=''
     [ -x "$venv/bin/python" ] && [ -r "$stamp" ] || return 1
@@ -69,17 +69,43 @@ make_venv() {
         "$python" -m venv "$venv"
 }
 
+# Run pip ("$@"): all of its words with $verbose, else a line after 5, 10, 20, … packages, and its
+# errors if it fails.
+show_pip() {
+    [ -z "${verbose-}" ] || { "$@"; return; }
+    log=$venv/hrcplan-pip.log
+    { "$@" 2>&1 || echo 'hrcplan: pip failed'; } | tee "$log" | count_packages
+    tail -n 1 "$log" | grep -qx 'hrcplan: pip failed' || return 0
+    say 'pip failed (--verbose shows all that it says):'
+    grep -E '^ERROR|^    ' "$log" | tail -n 4 >&2
+    return 1
+}
+
+count_packages() {
+    count=0 next=5
+    while IFS= read -r line; do
+        case $line in
+            Collecting* | Processing*.whl*)
+                count=$((count + 1))
+                [ "$count" -lt "$next" ] || { say "$count packages collected"; next=$((2 * next)); }
+                ;;
+            'Installing collected packages'*) say "installing $count packages" ;;
+        esac
+    done
+}
+
 install_project() {
     extra=$1
     # An outdated stamp still tells that the test extra is in; an update keeps it.
     [ "$installed" = test ] && extra=test
-    say "installing into .venv with the extra '$extra'; this takes a moment"
+    say "installing into .venv with the extras '$extra', in about a minute"
     make_venv || return 1
     before=$(inputs) && rm -f "$stamp" || return 1
-    env -u PIP_TARGET -u PIP_PREFIX PIP_USER=0 "$venv/bin/python" -m pip install \
+    show_pip env -u PIP_TARGET -u PIP_PREFIX PIP_USER=0 "$venv/bin/python" -m pip install \
         --no-input --disable-pip-version-check \
         -c "$root/constraints.txt" -e "$root[$extra]" || return 1
-    printf '%s\n' "$extra" "$before" >"$stamp.new" && mv "$stamp.new" "$stamp"
+    printf '%s\n' "$extra" "$before" >"$stamp.new" && mv "$stamp.new" "$stamp" &&
+        say 'installed; later calls start at once'
 }
 
 # The lock is the kernel's: it goes with its last holder, be that holder killed or finished,

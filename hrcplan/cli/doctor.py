@@ -59,6 +59,8 @@ def _print(health: dict[str, Any]) -> None:
         output.result(f"\n{title}")
         for name, state in health[key].items():
             output.result(f"  {name:18} {'ready' if state['present'] else state['missing']}")
+    if not health["planners"]["fast-downward"]["present"]:
+        output.result("\nwithout Fast Downward, large classical plans come from kairos, unproven")
 
 
 def _state(missing: str | None) -> dict[str, Any]:

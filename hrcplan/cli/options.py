@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 
 import rich_click as click
 
+from hrcplan.core.extras import require
 from hrcplan.core.files import check_target
 from hrcplan.errors import UsageError
 
@@ -167,4 +168,6 @@ def check_picture(path: Path | None, option: str, *inputs: str) -> None:
     """
     if path is not None and picture_form(path) not in ("png", "svg"):
         raise UsageError(f"{option} writes .png or .svg, not '{path.suffix}'", path=str(path))
+    if path is not None:
+        require("matplotlib", option)
     check_target(path, *inputs)

@@ -87,7 +87,20 @@ def command(
 
         output.write_atomically(gantt, draw(problem, result.plan, options.picture_form(gantt)))
     _print(problem, result)
+    if planner == "auto" and result.status.value in ("solved", "unsolved"):
+        _name_missing()
     return STATUS_EXIT[result.status.value]
+
+
+def _name_missing() -> None:
+    """Say which built-in planners cannot run here: one of them might have proven the plan."""
+    from hrcplan.core.extras import install_command
+    from hrcplan.planners import registry
+
+    names = [name for name in registry.BUILT_IN if registry.make(name).missing() is not None]
+    if names:
+        cure = install_command("up_fast_downward")
+        output.note(f"unproven; {' and '.join(names)} might prove more, but cannot run: {cure}")
 
 
 class _Progress:

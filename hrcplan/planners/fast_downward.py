@@ -11,6 +11,8 @@ from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from hrcplan.core.extras import install_command
+from hrcplan.core.extras import missing as missing_package
 from hrcplan.errors import MissingPlannerError, PlannerError
 from hrcplan.pddl.constructs import AXIOMS
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
@@ -60,17 +62,15 @@ class FastDownward:
             metric="cost",
             constructs=frozenset([AXIOMS]),
             proves=True,
-            needs="pip install up-fast-downward",
+            needs="pip install 'hrcplan[planners]'",
             licence="GPL-3.0 (run as a child process)",
         )
 
     def missing(self) -> str | None:
         """Return what is not installed; None if all is."""
         if find_binary() is None:
-            return "the program 'downward' is not installed; pip install up-fast-downward"
-        if find_spec("fast_downward") is None:
-            return "its translator is not installed; pip install fast-downward.translate"
-        return None
+            return f"the program 'downward' is not installed; {install_command('up_fast_downward')}"
+        return missing_package("fast_downward")
 
     def solve(self, request: Request) -> Answer:
         """Return a cheapest plan with its proof, or any plan if that is asked for.

@@ -13,6 +13,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from hrcplan.core.extras import missing as missing_package
 from hrcplan.errors import LimitError, MissingPlannerError, PlannerError, UnsupportedError
 from hrcplan.planners.lowering import Lowering
 from hrcplan.planners.process import FinishedProcess, ProcessEnd, ProcessLimits, run
@@ -40,9 +41,7 @@ class Listed:
 
 def missing() -> str | None:
     """Return what is not installed; None if all is."""
-    if find_spec("kstar_planner") is None:
-        return "kstar-planner is not installed; pip install 'hrcplan[topk]'"
-    return None
+    return missing_package("kstar_planner")
 
 
 def list_plans(

@@ -11,11 +11,11 @@ import os
 import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
+from hrcplan.core.extras import missing as missing_package
 from hrcplan.errors import (
     LimitError,
     MissingPlannerError,
@@ -54,15 +54,13 @@ class UnifiedPlanning:
             temporal=True,
             numeric=True,
             metric="none",
-            needs="pip install unified-planning and the engine's package",
+            needs="pip install 'hrcplan[planners]' and the engine's package",
             licence="the engine's own",
         )
 
     def missing(self) -> str | None:
         """Return that unified-planning is not installed; only ``solve`` looks for the engine."""
-        if find_spec("unified_planning") is None:
-            return "unified-planning is not installed; pip install unified-planning"
-        return None
+        return missing_package("unified_planning")
 
     def solve(self, request: Request) -> Answer:
         """Return the engine's plan, in the names of the task.
@@ -177,8 +175,12 @@ def engines(timeout_s: float = 30) -> Mapping[str, str | None]:
     unified-planning itself drops engines silently whose packages fail to import.
 
     Raises:
-        PlannerError: if unified-planning cannot be imported in time.
+        MissingPlannerError: if unified-planning is not installed.
+        PlannerError: if it cannot be imported in time.
     """
+    missing = missing_package("unified_planning")
+    if missing is not None:
+        raise MissingPlannerError(missing)
     process, reply = _call({"list": True}, ProcessLimits(timeout_s))
     if reply is None:
         raise PlannerError(f"unified-planning does not start: {process.stderr[-300:]}")

@@ -12,6 +12,8 @@ import re
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Literal, ParamSpec, TypeVar
 
+from hrcplan.core.extras import require
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
@@ -58,6 +60,7 @@ def styled(draw: Callable[P, T]) -> Callable[P, T]:
 
     @functools.wraps(draw)
     def styled_draw(*args: P.args, **options: P.kwargs) -> T:
+        require("matplotlib", "a picture")
         import matplotlib as mpl
 
         with mpl.rc_context(_STYLE):  # type: ignore[arg-type]

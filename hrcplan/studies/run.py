@@ -11,6 +11,7 @@ from itertools import groupby
 from pathlib import Path
 
 from hrcplan import __version__
+from hrcplan.core.extras import require
 from hrcplan.core.safe_path import safe_path
 from hrcplan.errors import UsageError
 from hrcplan.studies.store import Store
@@ -51,11 +52,14 @@ def run_study(
         say: Called with what is going on, where that takes long.
 
     Raises:
-        UsageError: if the study or an option is unknown, or the folder holds other rows.
+        UsageError: if the study or an option is unknown, the folder holds other rows, or the extra
+            ``studies`` is not installed.
         InputError: if a file that the study needs is missing or has faults.
     """
     if any(n is not None and n < 1 for n in (runs, jobs, limit)):
         raise UsageError("runs, jobs and limit are at least 1")
+    for module in ("joblib", "matplotlib", "sklearn"):
+        require(module, "a study")
     study = find(name)
     choice = study.with_defaults(options or {})
     all_episodes = list(episodes(study, choice, runs or study.runs(choice), limit))

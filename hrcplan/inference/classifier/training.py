@@ -16,6 +16,7 @@ import numpy as np
 
 from hrcplan.bank import Bank
 from hrcplan.core.arrays import Floats, Ids, Rows
+from hrcplan.core.extras import require
 from hrcplan.errors import UsageError
 from hrcplan.inference.classifier.flat_forest import FlatForest, SklearnForest
 
@@ -102,6 +103,7 @@ def prefixes(bank: Bank, n: int, rng: np.random.Generator) -> tuple[Rows, Ids]:
 
 def forest(seed: int, n_trees: int, n_jobs: int) -> Classifier:
     """Return the classifier of the changed-mind paper, untrained."""
+    require("sklearn", "the classifier of the changed-mind paper")
     from sklearn.ensemble import RandomForestClassifier
 
     classifier: Classifier = RandomForestClassifier(
