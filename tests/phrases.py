@@ -9,7 +9,7 @@ from pathlib import Path
 from hrcplan import ground
 from hrcplan.pddl.conventions import people
 from hrcplan.pddl.inputs import read
-from hrcplan.pddl.library import problem_names
+from hrcplan.pddl.library import find_goals, problem_names
 from hrcplan.pddl.model import Problem
 from hrcplan.reading import Lexicon, Reading, ReadingOutcome, make_lexicon
 from hrcplan.task import Task
@@ -17,7 +17,7 @@ from hrcplan.task import Task
 FOLDER = Path(__file__).parent / "data" / "phrases"
 TUNE, TEST = "tune", "test"
 KITCHEN = ("kitchen", "kitchen-recipes", "kitchen-alfred")
-OTHERS = ("transport", "blocks", "household", "werkstatt")
+OTHERS = ("transport", "blocks", "household", "werkstatt", "flat", "yard")
 _LENGTH = 60
 _STRAY = 0.25  # of the steps of a walk are any steps
 _N_STATES = 4  # in which a phrase is read
@@ -111,9 +111,18 @@ def problems_of(name: str) -> list[Problem]:
         case "werkstatt":
             folder = FOLDER / name
             return [read(str(folder / "domain.pddl"), str(folder / "hocker.pddl"))]
+        case "flat":
+            return [read("household", problem) for problem in problem_names("household")]
+        case "yard":
+            return [read("transport", str(path)) for path in problem_files("transport-goals")]
         case "transport":
             return [read(name, problem) for problem in ("two-boxes", "handover", "boxes-3")]
     return [read("kitchen", problem) for problem in problem_names("kitchen")]
+
+
+def problem_files(folder: str) -> list[Path]:
+    """Return the problem files of a shipped folder of goals, in order."""
+    return sorted(find_goals(folder).glob("*.pddl"))
 
 
 def names_only(problem: Problem) -> Problem:
