@@ -4,9 +4,9 @@
 ;; abstraction: a hand holds one item; rooms hold any number of agents and items; nothing becomes dirty or
 ;;              cold again; agent state (knowledge, motivation, capacity) is a cost per action, low =
 ;;              contributing, and capacity is how hard it is for the agent to go to a room and to work there
-;; hrcplan: say go walk, come, move, head, enter, drive
+;; hrcplan: say go going, walk, come, move, head, enter, drive, off to, leave for
 ;; hrcplan: say pick-up take, grab, get, fetch, lift, collect, take out
-;; hrcplan: say put-down put, place, set down, set, leave, drop, lay down, put back
+;; hrcplan: say put-down put, place, set down, set, drop, lay down, put back
 ;; hrcplan: say cook make, prepare, boil, heat, heat up, warm, warm up, simmer
 ;; hrcplan: say wash do, clean, launder, run, wash up
 ;; hrcplan: say water sprinkle, spray, give water, give water to, give a drink

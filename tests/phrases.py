@@ -20,6 +20,7 @@ KITCHEN = ("kitchen", "kitchen-recipes", "kitchen-alfred")
 OTHERS = ("transport", "blocks", "household", "werkstatt", "flat", "yard")
 _LENGTH = 60
 _STRAY = 0.25  # of the steps of a walk are any steps
+N_WALKS = {"flat": 40, "yard": 20}  # by domain; else 6 of each problem
 _N_STATES = 4  # in which a phrase is read
 
 Words = tuple[str, ...]
@@ -112,17 +113,12 @@ def problems_of(name: str) -> list[Problem]:
             folder = FOLDER / name
             return [read(str(folder / "domain.pddl"), str(folder / "hocker.pddl"))]
         case "flat":
-            return [read("household", problem) for problem in problem_names("household")]
+            return [read("household", "party")]
         case "yard":
-            return [read("transport", str(path)) for path in problem_files("transport-goals")]
+            return [read("transport", str(find_goals("transport-goals") / "together.pddl"))]
         case "transport":
             return [read(name, problem) for problem in ("two-boxes", "handover", "boxes-3")]
     return [read("kitchen", problem) for problem in problem_names("kitchen")]
-
-
-def problem_files(folder: str) -> list[Path]:
-    """Return the problem files of a shipped folder of goals, in order."""
-    return sorted(find_goals(folder).glob("*.pddl"))
 
 
 def names_only(problem: Problem) -> Problem:

@@ -30,6 +30,7 @@ COMMANDS = [
     ["plan", "transport/two-boxes", "--set", "motivation human=10",
      "--gantt", "images/two-boxes-distracted.svg"],
     ["plan", "transport/handover", "--gantt", "images/handover.svg"],
+    ["plan", "household/sick-day", "--gantt", "images/sick-day.svg"],
     ["plan", "kitchen/parfait-fruit", "--planner", "fast-downward",
      "--gantt", "images/parfait.svg"],
     ["bank", "build", "kitchen", "-o", "kitchen.bank"],

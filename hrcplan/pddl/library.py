@@ -21,6 +21,11 @@ _PACKAGE = Path(__file__).resolve().parent.parent
 _HEADING = 100_000  # characters: comments may come first
 _SPACE = r"(?:\s|;[^\r\n]*(?:[\r\n]|$))*+"
 _DOMAIN = re.compile(rf"{_SPACE}\({_SPACE}define{_SPACE}\({_SPACE}domain{_SPACE}([^\s();]+)")
+_OF_DOMAIN = (
+    rf"{_SPACE}\({_SPACE}define{_SPACE}\({_SPACE}problem{_SPACE}[^\s();]++{_SPACE}\)"
+    rf"{_SPACE}\({_SPACE}:domain{_SPACE}"
+)
+_PROBLEM = re.compile(rf"{_OF_DOMAIN}([^\s();]+)")
 
 
 class OwnFileWarning(UserWarning):
@@ -49,7 +54,7 @@ def find_domain(name: str) -> Path:
     """Return the file of a domain given by path or name; a path that exists wins.
 
     A name is looked up in the current folder (``NAME.pddl``, ``domains/NAME.pddl``) and then among
-    the shipped domains.
+    the shipped domains; a folder of problems of that name stands for the domain of its problems.
 
     Raises:
         InputError: if there is neither; the message lists what there is.
@@ -62,6 +67,8 @@ def find_domain(name: str) -> Path:
         return own
     if os.path.isfile(path):
         return path
+    if (path_of_goals := _domain_of_goals(name)) is not None:
+        return path_of_goals
     hint = nearest(name, domain_names()) or f"shipped: {', '.join(domain_names())}"
     raise InputError(f"there is no domain '{name}'", code="no-file", path=name, hint=hint)
 
@@ -101,6 +108,14 @@ def find_goals(name: str) -> Path:
         return Path(name)
     package_path = root() / "problems" / name
     return own_goals(name) or (package_path if os.path.isdir(package_path) else Path(name))
+
+
+def _domain_of_goals(name: str) -> Path | None:
+    """Return the file of the domain that the first problem of a folder of goals names."""
+    folder = own_goals(name) or root() / "problems" / name
+    first = min(folder.glob("*.pddl"), default=None)
+    match = None if first is None else _PROBLEM.match(_heading(first))
+    return None if match is None else domain_file_for(match[1], first)
 
 
 def own_goals(name: str) -> Path | None:
@@ -150,8 +165,7 @@ def _problem_of(domain: str) -> re.Pattern[str]:
     """Return what the beginning of a problem of a domain reads like."""
     match = _DOMAIN.match(_heading(Path(domain) if os.path.isfile(domain) else find_domain(domain)))
     name = re.escape(match[1] if match else Path(domain).stem.lower())
-    group = rf"{_SPACE}\({_SPACE}define{_SPACE}\({_SPACE}problem{_SPACE}[^\s();]++{_SPACE}\)"
-    return re.compile(rf"{group}{_SPACE}\({_SPACE}:domain{_SPACE}{name}{_SPACE}\)")
+    return re.compile(rf"{_OF_DOMAIN}{name}{_SPACE}\)")
 
 
 def _heading(path: Path) -> str:

@@ -22,8 +22,9 @@ class Lexicon:
 
     ``slots`` are the objects that each parameter of an action can be, agents left out. ``telling``
     are parts of objects' names that no other object has: one of them is enough; ``hinting`` are
-    words that one action alone has. The words are those of the phrases by their first letter; words
-    for types name no object.
+    words that one action alone has; ``names`` are the names of one word that actions have in the
+    PDDL. The words are those of the phrases by their first letter; words for types name no object,
+    unless it is the only one of the type.
     """
 
     actions: Phrases
@@ -32,10 +33,15 @@ class Lexicon:
     slots: Mapping[str, tuple[frozenset[str], ...]]
     telling: frozenset[str]
     hinting: frozenset[str]
+    names: frozenset[str]
     action_words: WordsByInitial
     object_words: WordsByInitial
     type_words: WordsByInitial
     words: frozenset[str]
+
+    def weight(self, word: str) -> float:
+        """Return how much a word tells, 0 to 1: the name of an action tells, however short."""
+        return 1.0 if word in self.names else weight(word)
 
 
 def make_lexicon(problem: Problem) -> Lexicon:
@@ -54,6 +60,10 @@ def make_lexicon(problem: Problem) -> Lexicon:
         for group in groups:
             if note.name in group:
                 group[note.name].update(map(split, note.phrases))
+    for name, phrases in types.items():
+        only = problem.objects_of((name,))
+        if len(only) == 1:
+            objects[only[0]].update(phrases)
     words = _words([*actions.values(), *objects.values(), *types.values()])
     return Lexicon(
         _sorted(actions),
@@ -62,6 +72,7 @@ def make_lexicon(problem: Problem) -> Lexicon:
         {action.name: _slots(problem, action) for action in domain.actions},
         telling,
         _telling(actions),
+        frozenset(name for name in domain.schemas if split(name) == (name,)),
         _by_initial(_words(actions.values())),
         _by_initial(_words(objects.values())),
         _by_initial(_words(types.values())),

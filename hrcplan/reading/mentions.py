@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from hrcplan.reading.lexicon import Lexicon, Phrase, Phrases, WordsByInitial
@@ -52,9 +52,9 @@ def find_mentions(lexicon: Lexicon, tokens: Sequence[str]) -> Mentions:
     """Return the actions and objects that the words of a text name, in whole or in part."""
     types = _places(lexicon.type_words, tokens)
     places = _places(lexicon.action_words, tokens, every=True)
-    actions = _named(lexicon.actions, places, lexicon.hinting, in_order=True)
+    actions = _named(lexicon.actions, places, lexicon.hinting, lexicon.weight)
     places = _places(lexicon.object_words, tokens)
-    objects = _named(lexicon.objects, places, lexicon.telling, in_order=False)
+    objects = _named(lexicon.objects, places, lexicon.telling)
     return Mentions(
         len(tokens),
         _without(actions, objects),
@@ -93,11 +93,14 @@ def _places(words: WordsByInitial, tokens: Sequence[str], every: bool = False) -
 
 
 def _named(
-    phrases_of: Phrases, places: WordPlaces, telling: frozenset[str], in_order: bool
+    phrases_of: Phrases,
+    places: WordPlaces,
+    telling: frozenset[str],
+    weigh_action: Callable[[str], float] | None = None,
 ) -> NamesMentions:
     """Return what is named: actions in order, objects in any order or by a telling part."""
     matches = {
-        name: [m for phrase in phrases for m in _matches(phrase, places, telling, in_order)]
+        name: [m for phrase in phrases for m in _matches(phrase, places, telling, weigh_action)]
         for name, phrases in phrases_of.items()
         if any(word in places for phrase in phrases for word in phrase)
     }
@@ -118,9 +121,13 @@ def _rank(mention: Mention) -> tuple[bool, float, float, int]:
 
 
 def _matches(
-    phrase: Phrase, places: WordPlaces, telling: frozenset[str], in_order: bool
+    phrase: Phrase,
+    places: WordPlaces,
+    telling: frozenset[str],
+    weigh_action: Callable[[str], float] | None,
 ) -> Iterator[Mention]:
     """Yield the ways in which a text holds a phrase, one for each place where it can begin."""
+    in_order = weigh_action is not None
     starts = places.get(phrase[0], ()) if in_order else ()
     starts = starts or [place for word in phrase for place in places.get(word, ())]
     size = sum(map(len, phrase))
@@ -133,7 +140,7 @@ def _matches(
             whole = all(similarities)
             if part and not (whole or in_order):
                 share, whole = max(share, _PART_TELLS * part), True
-            weighs = max(map(weight, there))
+            weighs = max(map(weigh_action or weight, there))
             yield Mention(share, whole, part > 0, weighs, tuple(at), frozenset(at))
 
 

@@ -10,7 +10,7 @@ from enum import StrEnum
 from hrcplan.reading.lexicon import Lexicon
 from hrcplan.reading.mentions import Mention, Mentions, find_mentions
 from hrcplan.reading.negations import denies
-from hrcplan.reading.tokens import split, weight
+from hrcplan.reading.tokens import split
 
 MAX_OPTIONS = 4
 MAX_WORDS = 40
@@ -224,7 +224,7 @@ class _Scorer:
             return 0.0
         if not mention.whole:
             return _PART * mention.share * mention.weight
-        more = _MORE_WORDS * sum(map(weight, (self.tokens[i] for i in mention.at[1:])))
+        more = _MORE_WORDS * sum(map(self.lexicon.weight, (self.tokens[i] for i in mention.at[1:])))
         return (_ACTION * mention.weight + more) * mention.share
 
     def _objects(self, step: Sequence[str]) -> float:

@@ -7,6 +7,7 @@ import pytest
 from hrcplan.reading import read_words
 from tests.phrases import (
     KITCHEN,
+    N_WALKS,
     OTHERS,
     TEST,
     Trial,
@@ -53,7 +54,8 @@ def test_most_phrases_that_mean_nothing_are_not_even_asked_about(kitchen: list[T
 @pytest.mark.parametrize("name", OTHERS)
 def test_domains_without_notes_are_read_right_or_asked_about(name: str) -> None:
     problems = map(names_only, problems_of(name))
-    scenes = [moment for problem in problems for moment in moments(problem, 6)]
+    n_walks = N_WALKS.get(name, 6)
+    scenes = [moment for problem in problems for moment in moments(problem, n_walks)]
     said = list(trials(sayings(name, TEST), scenes, read_words))
     sensible = [trial for trial in said if trial.can_be_meant]
     good = [t.is_offered or (t.is_right and not t.is_wrong) for t in sensible]

@@ -45,8 +45,9 @@ def rows() -> Iterator[Row]:
         said = list(phrases.trials(phrases.sayings(name, phrases.TEST), plain, timed))
         yield _row(f"{name}, names only", said)
     for name in phrases.OTHERS:
+        n_walks = phrases.N_WALKS.get(name, 6)
         own = [phrases.names_only(problem) for problem in phrases.problems_of(name)]
-        places = [moment for problem in own for moment in phrases.moments(problem, 6)]
+        places = [moment for problem in own for moment in phrases.moments(problem, n_walks)]
         said = list(phrases.trials(phrases.sayings(name, phrases.TEST), places, timed))
         yield _row(f"{name}, names only", said, OTHERS_RIGHT)
     times.sort()
