@@ -113,7 +113,7 @@ def find_goals(name: str) -> Path:
 def _domain_of_goals(name: str) -> Path | None:
     """Return the file of the domain that the first problem of a folder of goals names."""
     folder = own_goals(name) or root() / "problems" / name
-    first = min(folder.glob("*.pddl"), default=None)
+    first = min(folder.glob("*.pddl"), default=None) if os.path.isdir(folder) else None
     match = None if first is None else _PROBLEM.match(_heading(first))
     return None if match is None else domain_file_for(match[1], first)
 
