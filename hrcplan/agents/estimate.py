@@ -93,6 +93,15 @@ class AgentStateEstimate:
         """Return what is believed after an action that ``touched`` touch has succeeded."""
         return self._after_outcome(frozenset(touched), False)
 
+    def hesitated(self, touched: Iterable[FluentKey], usual: float) -> AgentStateEstimate:
+        """Return what is believed after an agent has paused instead of acting.
+
+        Args:
+            touched: The elements that its next actions touch.
+            usual: The probability of such a pause where nothing keeps the agent from acting.
+        """
+        return self._after_outcome(frozenset(touched), True, usual)
+
     def sensed(self, key: FluentKey) -> AgentStateEstimate:
         """Return what is believed once an element's value is known: it needs no estimate."""
         rest = {cause: p for cause, p in self.weights.items() if cause[0] != key}
@@ -123,7 +132,9 @@ class AgentStateEstimate:
                 probabilities[cause[1]] += p
         return probabilities
 
-    def _after_outcome(self, touched: frozenset[FluentKey], failure: bool) -> AgentStateEstimate:
+    def _after_outcome(
+        self, touched: frozenset[FluentKey], failure: bool, slip: float | None = None
+    ) -> AgentStateEstimate:
         if not touched & self.prior.lows.keys():
             return self
         nothing = 1 - sum(self.weights.values())
@@ -133,7 +144,7 @@ class AgentStateEstimate:
             for cause, p in self.prior.causes.items()
             if cause[0] not in self.known
         }
-        slip = self.prior.slip
+        slip = self.prior.slip if slip is None else slip
         after: dict[Cause, float] = {}
         for cause, p in before.items():
             well = (1 - slip) * (1 - _strikes(cause) * (cause[0] in touched))

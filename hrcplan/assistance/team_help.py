@@ -25,10 +25,12 @@ class TeamHelp:
 
     Args:
         moves: What the agents do for each goal.
+        extra: For each step, how many timesteps it costs besides its own; none by default.
     """
 
-    def __init__(self, moves: TeamMoves) -> None:
+    def __init__(self, moves: TeamMoves, extra: Floats | None = None) -> None:
         self.moves = moves
+        self.extra = np.zeros(len(moves.bank.table)) if extra is None else extra
 
     def options(self, world: int, moment: Moment, weights: Floats) -> StepChoice:
         """Return how many timesteps each step of a robot is expected to save.
@@ -76,7 +78,8 @@ class TeamHelp:
     ) -> float:
         """Return the expected cost of a step or wait; ``seen`` says whether a human has acted."""
         world, moment = self.moves.state_after(world, step), self.moves.after(moment, step)
-        price = float(weights.sum()) * (1 + ACTION * (step is not None))
+        own = 0.0 if step is None else ACTION + float(self.extra[step])
+        price = float(weights.sum()) * (1 + own)
         return price + self._from(world, moment, weights, seen)
 
     def _from(self, world: int, moment: Moment, weights: Floats, seen: bool) -> float:

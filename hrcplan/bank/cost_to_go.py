@@ -135,16 +135,29 @@ class CostToGo:
         """
         n_turns = len(self.bank.team)
         costs = np.where(self._is_goal[goal], 0.0, np.inf) * np.ones((n_turns, 1))
+        ways = [prices[self._ops[mine]] + timestep for mine in self._by_turn]
         while True:
             before = costs.copy()
             for turn in reversed(range(n_turns)):
-                following = costs[(turn + 1) % n_turns]
+                following, mine = costs[(turn + 1) % n_turns], self._by_turn[turn]
                 np.minimum(costs[turn], following + timestep, out=costs[turn])
-                mine = self._mine(turn)
-                after = prices[self._ops[mine]] + timestep + following[self._targets[mine]]
-                np.minimum.at(costs[turn], self._sources[mine], after)
+                if not len(mine):
+                    continue
+                sources, starts = self._groups[turn]
+                after = np.minimum.reduceat(ways[turn] + following[self._targets[mine]], starts)
+                costs[turn][sources] = np.minimum(costs[turn][sources], after)
             if np.array_equal(before, costs):
                 return costs
+
+    @cached_property
+    def _by_turn(self) -> list[Ids]:
+        """For each turn which actions its agent can do, in order of their sources."""
+        return [self._mine(turn) for turn in range(len(self.bank.team))]
+
+    @cached_property
+    def _groups(self) -> list[tuple[Ids, Ids]]:
+        """For each turn the sources of actions, and where those of each source begin."""
+        return [np.unique(self._sources[mine], return_index=True) for mine in self._by_turn]
 
     def _mine(self, turn: int) -> Ids:
         """Return which actions an agent can do in its turn."""

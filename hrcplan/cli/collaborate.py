@@ -34,6 +34,7 @@ EXIT_NO = 1
         "PACE: turns (first you, then the robot; a step lasts 1), or free (every agent begins at "
         "any time, and actions take their durations). With one goal the plan says who begins when.",
         options.ROBOTS,
+        options.JOINT_ROBOTS,
         "At the prompt: what you do in the words of the PDDL, or its number; Enter to wait; help.",
         "With --json every event is one line, and so is the outcome at the end.",
     ),
@@ -108,13 +109,16 @@ def _check_method(setup: CollaborationSetup, n_goals: int) -> None:
     """
     from hrcplan.assistance.assistant import KnowsGoal, needs_training
     from hrcplan.assistance.registry import ASSISTANTS
+    from hrcplan.collaboration.robots import JOINT_ROBOTS
 
-    kind: Hashable = ASSISTANTS.find(setup.method)
-    if setup.human["name"] == ME and n_goals > 1 and isinstance(kind, KnowsGoal):
+    robot = JOINT_ROBOTS.get(setup.method)
+    kind: Hashable = ASSISTANTS.find(setup.method) if robot is None else None
+    knows_goal = robot.knows_goal if robot is not None else isinstance(kind, KnowsGoal)
+    if setup.human["name"] == ME and n_goals > 1 and knows_goal:
         message = f"the robot '{setup.method}' has to know your goal"
         hint = "it works with --human simulated"
         raise UsageError(message, code="goal-unknown", hint=hint)
-    if n_goals > 1 and needs_training(kind):
+    if n_goals > 1 and robot is None and needs_training(kind):
         output.note("the robot may first train a classifier, which takes a minute")
 
 

@@ -101,6 +101,10 @@ class Narrator:
                 _print(f"· plan: {plural(len(lanes), 'action')} ({shares}){reason}")
             case shared.Ask(_, shared.DONE, options):
                 _print(f"· done: {', '.join(options)}. Was that all? (yes, no, or go on)")
+            case shared.Ask(_, shared.GOAL, options):
+                _print("· what do you want to do?")
+                for n, option in enumerate((*options, shared.OTHER), start=1):
+                    _print(f"  {n}  {option}")
             case shared.Ask(_, _, (option,)):
                 words = self.words(tuple(option.strip("()").split()))
                 _print(f"· do you mean: {words}? (yes, or say it in other words)")
@@ -126,9 +130,12 @@ class Narrator:
         dispatch = next((c for c in commands if isinstance(c, ev.Dispatch)), None)
         goals = goals_text(event.goals)
         if dispatch is None:
+            if self._is_in_turns() and event.asks:
+                return
             if self._is_in_turns():
                 _print(f"robot waits · {goals}")
             return
         words = self.words((dispatch.action, *dispatch.args))
         helps = f", for {', '.join(event.helps)}" if event.helps else ""
-        _print(f"{self._who(dispatch.agent)}: {words}{helps} · {goals}")
+        because = f", because {event.takes_over}" if event.takes_over else ""
+        _print(f"{self._who(dispatch.agent)}: {words}{helps}{because} · {goals}")

@@ -36,6 +36,10 @@ ROBOTS = (
     "METHOD: rhp (of the changed-mind paper), recursive, recursive-best, cdp, infogain, hrcplan, "
     "oracle, or module:Class of your own robot."
 )
+JOINT_ROBOTS = (
+    "Robots that weigh goal and agent state: joint (it may ask you what you want), "
+    "joint-without-asking, goal-only, state-only, joint-oracle."
+)
 
 
 def notes(*texts: str) -> str:

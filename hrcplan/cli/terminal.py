@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 from hrcplan.cli import output
 from hrcplan.cli.lines import MAX_LINE, InputLines
@@ -94,10 +94,15 @@ class Terminal:
             return shared.Answered(run.t, choice)
         if question.question == shared.WHICH and len(question.options) == 1 and words[0] in YES:
             return shared.Answered(run.t, question.options[0])
-        if question.question == shared.WHICH and words[0].isdecimal():
-            place = int(words[0][:4]) - 1
-            if 0 <= place < len(question.options):
-                return shared.Answered(run.t, question.options[place])
+        if question.question == shared.DONE:
+            return None
+        options = question.options
+        if question.question == shared.GOAL:
+            options = (*options, shared.OTHER)
+            if (goal := _named(" ".join(words), options)) is not None:
+                return shared.Answered(run.t, goal)
+        if words[0].isdecimal() and 0 <= (place := int(words[0][:4]) - 1) < len(options):
+            return shared.Answered(run.t, options[place])
         return None
 
     def _step(self, run: CompanionRun, text: str) -> PersonEvent | None:
@@ -234,6 +239,18 @@ class Terminal:
             hint = f" (there are: {known})" if known else " (this domain has no agent states)"
             return self._say(f"· {error.message}{hint}")
         return shared.StateTold(run.t, {key: float(words[-1])})
+
+
+def _named(text: str, options: Sequence[str]) -> str | None:
+    """Return the option that a text names, or the only one that has all its words.
+
+    >>> _named("bean pasta", ("pasta-bean", "pasta-tomato"))
+    'pasta-bean'
+    """
+    words = set(text.replace("-", " ").split())
+    fitting = [o for o in options if words <= set(o.lower().replace("-", " ").split())]
+    exact = [option for option in fitting if option.lower() == text]
+    return (exact or fitting)[0] if exact or len(fitting) == 1 else None
 
 
 def _element(words: FluentKey, functions: frozenset[str]) -> FluentKey:

@@ -11,12 +11,14 @@ import numpy as np
 
 from hrcplan.assistance.assistant import Assistant, BankAssistant, Explains
 from hrcplan.assistance.explanation import Explanation
+from hrcplan.assistance.joint_help import JointHelp
 from hrcplan.assistance.step_values import NextSteps
 from hrcplan.bank import Bank
 from hrcplan.collaboration import events as shared
 from hrcplan.collaboration.belief_fold import BeliefFold
 from hrcplan.collaboration.events import SharedCommand, SharedEvent
 from hrcplan.collaboration.history import History
+from hrcplan.collaboration.joint_adviser import JointAdviser
 from hrcplan.collaboration.reading import ActionWords, Reader, read_exactly, reader_of
 from hrcplan.collaboration.run import CompanionRun
 from hrcplan.collaboration.setup import TURNS, CollaborationSetup
@@ -97,6 +99,12 @@ class Adviser:
             case shared.AskReading():
                 return self.read(ask)
 
+    @cached_property
+    def joint(self) -> JointAdviser:
+        """What answers for a robot that weighs goal and agent state."""
+        assert isinstance(self.assistant, JointHelp)
+        return JointAdviser(self.setup, self.fold, self.assistant, self._explained)
+
     @property
     def history(self) -> History:
         """What was seen so far."""
@@ -111,6 +119,8 @@ class Adviser:
         state = self.fold.state(history)
         goals = self.likeliest(state)
         chosen = shared.Chosen(ask.t, goals=goals, n_declared=n_declared(state))
+        if isinstance(self.assistant, JointHelp):
+            return self.joint.choose(ask, history, chosen)
         # Where plans say who acts, each robot is asked in its own turn.
         for agents in [(agent,) for agent in ask.agents] if self.fold.has_turns else [ask.agents]:
             if self.setup.pace != TURNS:

@@ -5,9 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 from hrcplan.assistance.assistant import Assistant, inform
+from hrcplan.assistance.joint_help import JointHelp, JointState
 from hrcplan.bank import Bank
 from hrcplan.bank.turn_moves import team_moves
 from hrcplan.collaboration.history import (
+    AskedGoal,
     History,
     PassedTurn,
     SeenAction,
@@ -24,6 +26,7 @@ from hrcplan.inference.belief import (
     after_wait,
     at_turn,
 )
+from hrcplan.pddl.conventions import robots
 
 _Folded = tuple[Any, frozenset[int]]
 """A state, and the numbers of actions that were impossible in it when they began."""
@@ -40,6 +43,7 @@ class BeliefFold:
     def __init__(self, bank: Bank, assistant: Assistant[Any]) -> None:
         self.bank, self.assistant = bank, assistant
         self.has_turns = team_moves(bank) is not None
+        self._robots = robots(bank.goals.problem)
         self._seen: tuple[SeenMark, ...] = ()
         self._states: list[_Folded] = [(assistant.start(), frozenset())]
 
@@ -49,11 +53,12 @@ class BeliefFold:
         n = 0
         while n < min(len(seen), len(self._seen)) and seen[n] == self._seen[n]:
             n += 1
-        del self._states[n + 1 :]
-        self._seen = seen
+        if n < len(seen):  # of a history that is only shorter nothing is forgotten
+            del self._states[n + 1 :]
+            self._seen = seen
         for mark in seen[n:]:
             self._states.append(self._after(*self._states[-1], mark))
-        return self._states[-1][0]
+        return self._states[len(seen)][0]
 
     def in_turn_of(self, state: BeliefState, agent: str) -> Any:
         """Return a state in which it is an agent's turn, where plans are team plans."""
@@ -67,6 +72,8 @@ class BeliefFold:
                 return self._after_end(state, impossible, number)
             case PassedTurn(agent):
                 return self._after_pass(state, agent), impossible
+            case AskedGoal(options, choice):
+                return self._after_answer(state, options, choice), impossible
             case WantedGoal(goal):
                 return inform(self.assistant, state, self.bank.goal_index(goal)), impossible
 
@@ -93,8 +100,20 @@ class BeliefFold:
         after = self.assistant.observe(state, step, robot=action.is_robot)
         return after, impossible - {number}
 
+    def _after_answer(self, state: BeliefState, options: tuple[str, ...], choice: str) -> Any:
+        if not choice or not isinstance(self.assistant, JointHelp):
+            return state
+        assert isinstance(state, JointState)
+        goals = tuple(map(self.bank.goal_index, options))
+        answer = self.bank.goal_index(choice) if choice in options else None
+        return self.assistant.observe_answer(state, goals, answer)
+
     def _after_pass(self, state: BeliefState, agent: str) -> Any:
         if not self.has_turns:
+            is_person = agent not in self._robots
+            if is_person and isinstance(self.assistant, JointHelp):
+                assert isinstance(state, JointState)
+                return self.assistant.observe_idling(state)
             return state  # a wait says nothing where it is not known whose turn it is
         if not isinstance(self.assistant, ObservesWaits):
             return state

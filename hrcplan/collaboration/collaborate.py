@@ -11,7 +11,6 @@ from typing import Any
 
 from hrcplan.agents import load_profile
 from hrcplan.assistance.assistant import Assistant, KnowsGoal
-from hrcplan.assistance.registry import ASSISTANTS
 from hrcplan.bank import Bank, Goals, StepTable, read_goals
 from hrcplan.bank.cache import cached_bank
 from hrcplan.bank.turn_moves import team_moves
@@ -21,6 +20,7 @@ from hrcplan.collaboration.events import KINDS, SHARED_QUESTIONS, SharedCommand,
 from hrcplan.collaboration.journal import FORMAT, RecordedPerson, check_same_goals, setup_of
 from hrcplan.collaboration.outcome import CollaborationOutcome, collaboration_outcome
 from hrcplan.collaboration.persons import CooperativePerson, Person, SimulatedPerson
+from hrcplan.collaboration.robots import ESTIMATED, JOINT_ROBOTS, assistant_maker, check_robot
 from hrcplan.collaboration.run import CompanionRun
 from hrcplan.collaboration.setup import (
     PACES,
@@ -42,16 +42,17 @@ ROBOT = "hrcplan"
 
 
 def make_setup(
-    bank: Bank, *, pace: str = TURNS, method: str = ROBOT, profile: str = "hrcplan", seed: int = 0,
-    human: dict[str, Any] | None = None,
+    bank: Bank, *, pace: str = TURNS, method: str = ROBOT, profile: str | None = None,
+    seed: int = 0, human: dict[str, Any] | None = None,
 ) -> CollaborationSetup:  # fmt: skip
     """Return what a collaboration depends on.
 
     Args:
         bank: The plans of its goals.
         pace: ``turns`` or ``free``.
-        method: The name of the assistant, or ``module:Class``.
-        profile: Which values planners get, and when to replan, if there is one goal only.
+        method: The robot: a name in `JOINT_ROBOTS` or ``ASSISTANTS``, or ``module:Class``.
+        profile: What is learnt about agent states, and which values planners get; ``hrcplan`` by
+            default, ``estimated`` for robots that weigh agent states of several goals.
         seed: All random draws of a simulated human follow from it.
         human: Who the people are, as JSON.
 
@@ -62,7 +63,9 @@ def make_setup(
     if pace not in PACES:
         hint = nearest(pace, PACES) or " or ".join(PACES)
         raise UsageError(f"there is no pace '{pace}'", code="unknown-pace", hint=hint)
-    ASSISTANTS.find(method)
+    check_robot(method)
+    if profile is None:
+        profile = ESTIMATED if method in JOINT_ROBOTS and len(bank.names) > 1 else "hrcplan"
     problem, goals = plain_goals(bank.goals)
     team = bank.team if team_moves(bank) is not None else ()
     return CollaborationSetup(
@@ -108,7 +111,7 @@ class CollaborationParts:
 
 def assistant_of(setup: CollaborationSetup) -> Callable[[Bank], Assistant[Any]]:
     """Return what makes the assistant of a collaboration from its bank."""
-    return lambda bank: ASSISTANTS.make(setup.method, bank)
+    return assistant_maker(setup.method)
 
 
 def simulated(
@@ -247,7 +250,7 @@ def _with_setup_of(past: Journal, setup: CollaborationSetup) -> CollaborationSet
     check_same_goals(past, setup)
     theirs = setup_of(past)
     if theirs.method != setup.method:
-        ASSISTANTS.find_listed(theirs.method)  # a journal must not choose which code runs
+        check_robot(theirs.method, is_typed=False)  # a journal must not choose which code runs
     return replace(theirs, problem=setup.problem, goals=setup.goals)
 
 

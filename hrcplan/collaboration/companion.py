@@ -14,7 +14,13 @@ from dataclasses import replace
 
 from hrcplan.collaboration import events as shared
 from hrcplan.collaboration.events import SharedEvent
-from hrcplan.collaboration.history import EndedAction, PassedTurn, SeenState, WantedGoal
+from hrcplan.collaboration.history import (
+    EndedAction,
+    PassedTurn,
+    SeenState,
+    SensedValues,
+    WantedGoal,
+)
 from hrcplan.collaboration.reports import Reports
 from hrcplan.collaboration.run import CompanionPhase, CompanionRun, CompanionStep
 from hrcplan.collaboration.setup import TURNS, CollaborationSetup
@@ -65,7 +71,9 @@ class Companion:
             case shared.Undone():
                 return self.reports.undone(run, event)
             case shared.StateTold(t, values):
-                return self._observed(run, ev.Sensed(t, values))
+                return self._sensed(run, ev.Sensed(t, values))
+            case ev.Sensed():
+                return self._sensed(run, event)
             case shared.Wanted():
                 return run.plus(WantedGoal(event.goal)), ()
             case shared.Paused() | shared.Continued():
@@ -84,11 +92,26 @@ class Companion:
         outcome = event.outcome if isinstance(event, ev.Ended) else ev.FAILED
         if not is_running and outcome == ev.CANCELLED:
             return run, ()  # it was taken back
+        n_late = self._n_late(run, event)
         inner, commands = self.monitor.step(run.run, event)
         run = replace(run, run=inner)
         if is_running and inner.running_action(event.number) is None:
-            run = run.plus(EndedAction(event.number, outcome))
+            run = run.plus(EndedAction(event.number, outcome, n_late))
         return run, commands
+
+    def _n_late(self, run: CompanionRun, event: ev.Ended | ev.Overdue) -> int:
+        """Return how often an action could have been done once more in the time that it took."""
+        action = run.run.running_action(event.number)
+        if action is None or self.setup.pace == TURNS or action.duration_s <= 0:
+            return 0
+        return max(0, round((event.t - action.begun_s) / action.duration_s) - 1)
+
+    def _sensed(self, run: CompanionRun, event: ev.Sensed) -> CompanionStep:
+        before = run.run.sensed_values
+        run, commands = self._observed(run, event)
+        now = run.run.sensed_values
+        news = {key: now[key] for key in event.values if key in now and now[key] != before.get(key)}
+        return (run.plus(SensedValues(news)) if news else run), commands
 
     def _observed(self, run: CompanionRun, event: SharedEvent) -> CompanionStep:
         """Return the run after an event that the monitor of execution understands."""
@@ -166,6 +189,10 @@ class Companion:
             return self._ask_step(replace(run, n_asked_again=run.n_asked_again + 1), agents)
         notes = self._change_notes(run, event)
         run = replace(run, phase=CompanionPhase.LISTENING, belief=event, n_asked_again=0)
+        if event.asks:
+            question = shared.Ask(run.t, shared.GOAL, event.asks)
+            run = replace(run, phase=CompanionPhase.ASKING, question=question)
+            return run, (*notes, question)
         step = self.reports.actions.step(PlannedAction(event.action, event.args))
         if event.action and (step is None or (step.agent and step.agent not in agents)):
             text = f"{PlannedAction(event.action, event.args)} is no step of {', '.join(agents)}"

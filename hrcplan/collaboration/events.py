@@ -14,7 +14,8 @@ from hrcplan.pddl.model import Fact, FluentKey
 
 ACT, ASK, NONE = "act", "ask", "none"
 READINGS = (ACT, ASK, NONE)
-DONE, WHICH = "done", "which"
+DONE, WHICH, GOAL = "done", "which", "goal"
+OTHER = "something else"
 YES, NO = "yes", "no"
 
 
@@ -116,6 +117,9 @@ class Chosen:
         goals: Every goal's name and probability, the likeliest first.
         n_declared: How many changes of goal were declared so far.
         helps: The likeliest goals that the action helps.
+        asks: Goals of which people are asked which one they have; none to ask nothing.
+        takes_over: Why the robot does a step that people could do, such as "may fail".
+        none_of_these: The probability that no listed goal is wanted; 0 if that is not weighed.
     """
 
     t: float
@@ -124,6 +128,9 @@ class Chosen:
     goals: tuple[tuple[str, float], ...] = ()
     n_declared: int = 0
     helps: tuple[str, ...] = ()
+    asks: tuple[str, ...] = ()
+    takes_over: str = ""
+    none_of_these: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,7 +152,11 @@ class AskReading:
 
 @dataclass(frozen=True, slots=True)
 class Ask:
-    """A question to a person: ``done`` (do these goals end it?) or ``which`` (of these actions)."""
+    """A question to a person.
+
+    ``done``: do these goals end it? ``which``: which of these actions? ``goal``: which of these
+    goals, or something else?
+    """
 
     t: float
     question: str

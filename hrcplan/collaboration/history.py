@@ -45,6 +45,23 @@ class EndedAction:
 
     number: int
     outcome: str
+    n_late: int = 0
+    """How often its duration could have passed once more: attempts that failed unseen."""
+
+
+@dataclass(frozen=True, slots=True)
+class SensedValues:
+    """Agent state as it was sensed, or said by a person."""
+
+    values: Mapping[FluentKey, Number]
+
+
+@dataclass(frozen=True, slots=True)
+class AskedGoal:
+    """People were asked which goal they have, and answered ``choice``; "" is no answer."""
+
+    options: tuple[str, ...]
+    choice: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +86,7 @@ class SeenState:
     numbers: Mapping[FluentKey, Number]
 
 
-Mark = BegunAction | EndedAction | PassedTurn | WantedGoal | SeenState
+Mark = BegunAction | EndedAction | PassedTurn | WantedGoal | SeenState | SensedValues | AskedGoal
 History = tuple[Mark, ...]
 
 
@@ -118,7 +135,7 @@ def state_after(
                 lasts = exact_number(mark.lasts_s)
                 state, effects = model.begin(state, step, lasts)  # type: ignore[arg-type]
                 running[mark.number] = step, effects, mark.lasts_s
-            case EndedAction(number, outcome):
+            case EndedAction(number=number, outcome=outcome):
                 step, effects, lasts_s = running.pop(number)
                 if outcome == ev.DONE:
                     state = model.finish(state, step, exact_number(lasts_s))  # type: ignore[arg-type]
@@ -150,7 +167,7 @@ class SeenEnd:
     number: int
 
 
-SeenMark = SeenAction | SeenEnd | PassedTurn | WantedGoal
+SeenMark = SeenAction | SeenEnd | PassedTurn | WantedGoal | AskedGoal
 
 
 def evidence_in(history: History) -> tuple[SeenMark, ...]:
@@ -175,9 +192,9 @@ def evidence_in(history: History) -> tuple[SeenMark, ...]:
                 if not happens:
                     attempts[mark.agent] = len(seen)
                 seen.append(SeenAction(mark.number, mark.agent, mark.words, mark.is_robot, happens))
-            case EndedAction(number, ev.DONE):
+            case EndedAction(number=number, outcome=ev.DONE):
                 seen.append(SeenEnd(number))
-            case PassedTurn() | WantedGoal():
+            case PassedTurn() | WantedGoal() | AskedGoal():
                 seen.append(mark)
     return tuple(one for one in seen if one is not None)
 

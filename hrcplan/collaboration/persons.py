@@ -71,7 +71,7 @@ class SimulatedPerson:
         """Return the answer to an open question, or the next move."""
         turn = self._turn(run)
         if run.question is not None:
-            return (shared.Answered(run.t, shared.YES if self._is_done(run, turn) else shared.NO),)
+            return (shared.Answered(run.t, self._answer(run, run.question, turn)),)
         why = self._why_stop(run)
         if why is not None:
             return (ev.StopAsked(run.t, why),)
@@ -93,10 +93,14 @@ class SimulatedPerson:
         )  # fmt: skip
         return sum(1 for _ in own)
 
-    def _is_done(self, run: CompanionRun, turn: int) -> bool:
-        assert run.question is not None
+    def _answer(self, run: CompanionRun, question: shared.Ask, turn: int) -> str:
+        """Return the true answer: whether that was all, or which goal is wanted now."""
+        goal = self.bank.names[self.course.goal(turn)]
+        is_option = goal in question.options
+        if question.question == shared.GOAL:
+            return goal if is_option else shared.OTHER
         is_last = turn >= max(self.course.turns, default=0)
-        return is_last and self.bank.names[self.course.goal(turn)] in run.question.options
+        return shared.YES if is_last and is_option else shared.NO
 
     def _why_stop(self, run: CompanionRun) -> str | None:
         """Return why the episode ends: all agents wait, or it takes too long."""

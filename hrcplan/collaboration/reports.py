@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from hrcplan.collaboration import events as shared
 from hrcplan.collaboration.history import (
+    AskedGoal,
     EndedAction,
     History,
     PassedTurn,
@@ -84,7 +85,10 @@ class Reports:
 
     def _after_question(self, companion: CompanionRun, agent: str) -> CompanionRun:
         """Return the run in a person's turn if they go on instead of saying that it was all."""
-        if companion.question is None or not companion.has_acted or companion.running:
+        question = companion.question
+        if question is None or companion.running or self.setup.pace != TURNS:
+            return companion
+        if not companion.has_acted and question.question != shared.GOAL:
             return companion
         following = companion.in_next_turn(len(self.setup.slots))
         return following if agent in self.setup.slots[following.slot] else companion
@@ -156,6 +160,10 @@ class Reports:
             if event.choice not in question.options:
                 return _told(companion, "unknown-answer", f"'{event.choice}' was no option")
             return self._begun_text(_closed(companion), event.choice)
+        if question.question == shared.GOAL:
+            if event.choice not in (*question.options, shared.OTHER):
+                return _told(companion, "unknown-answer", f"'{event.choice}' was no option")
+            return _closed(companion, event.choice), ()
         if event.choice != shared.YES:
             return _closed(companion), ()
         run, commands = self.decider.finish(companion.run, ev.GOAL, ", ".join(question.options))
@@ -208,11 +216,18 @@ def _begun_now(companion: CompanionRun, step: BoundAction) -> CompanionRun:
     return replace(companion, run=replace(run, running=running))
 
 
-def _closed(companion: CompanionRun) -> CompanionRun:
-    """Return the run without an open question; goals that people go on from are not all."""
+def _closed(companion: CompanionRun, answer: str = "") -> CompanionRun:
+    """Return the run without an open question; goals that people go on from are not all.
+
+    Args:
+        companion: The run.
+        answer: What people have said to a question about their goal; "" if nothing.
+    """
     question = companion.question
     if question is None:
         return companion
+    if question.question == shared.GOAL:
+        companion = companion.plus(AskedGoal(question.options, answer))
     denied = companion.denied
     if question.question == shared.DONE:
         denied = denied | frozenset(question.options)

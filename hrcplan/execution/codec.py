@@ -38,7 +38,9 @@ class Item(Protocol):
         """Seconds on the world's clock."""
 
 
-ABSENT = "absent"  # is left out where it is empty, as in journals of earlier versions
+ABSENT = "absent"
+LEFT_OUT = frozenset({ABSENT, "asks", "takes_over", "none_of_these"})
+"""What is left out where it is empty, as in journals of earlier versions."""
 
 KINDS: Mapping[str, type] = {
     kind.__name__.lower(): kind
@@ -58,7 +60,7 @@ def to_json(item: Event | Command | Item) -> dict[str, Any]:
     document: dict[str, Any] = {"kind": type(item).__name__.lower()}
     for field in fields(item):
         value = getattr(item, field.name)
-        if value or field.name != ABSENT:
+        if value or field.name not in LEFT_OUT:
             document[field.name] = _encode(value)
     return document
 
@@ -143,6 +145,6 @@ def _same(value: JsonValue) -> JsonValue:
 _DECODERS: Mapping[str, Callable[[Any], Any]] = {
     "facts": _facts, ABSENT: _facts, "numbers": _numbers, "values": _numbers, "plan": _plan,
     "args": tuple, "reasons": tuple, "metric": _metric, "agents": tuple, "options": tuple,
-    "helps": tuple, "goals": _pairs,
+    "helps": tuple, "asks": tuple, "goals": _pairs,
 }  # fmt: skip
 """How the fields that JSON has no type for are read; all others stay as they are."""

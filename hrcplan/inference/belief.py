@@ -90,6 +90,15 @@ class ObservesAttempts(Protocol[S]):
 
 
 @runtime_checkable
+class ObservesEvidence(Protocol[S]):
+    """A belief to which more than steps can say something about the goal."""
+
+    def observe_evidence(self, state: S, likelihood: Floats) -> S:
+        """Return the belief after evidence with this likelihood for each goal."""
+        ...
+
+
+@runtime_checkable
 class ActsInAnyTurn(Protocol[S]):
     """A belief that passes turns on in its own way; see `at_turn`."""
 
@@ -158,6 +167,16 @@ class DeclaresChanges(Protocol):
 
 
 @runtime_checkable
+class PredictsSteps(Protocol):
+    """The state of a belief that says how probable the last human step was before it was seen."""
+
+    @property
+    def marginal(self) -> float:
+        """That probability; 1 before any step."""
+        ...
+
+
+@runtime_checkable
 class Remarks(Protocol):
     """A belief, or its state, with a remark for the user: what had to be done more cheaply."""
 
@@ -218,6 +237,14 @@ def after_attempt(belief: Belief[S], state: S, step: int) -> S:
     if after.ignored is not None:
         return after
     return _with_progress(after, progress[0].attempt(progress[1], step))
+
+
+def after_evidence(belief: Belief[S], state: S, likelihood: Floats) -> S:
+    """Return a belief after evidence that is no step; as it was if it only knows of steps."""
+    if isinstance(belief, ObservesEvidence):
+        weighed: S = belief.observe_evidence(state, likelihood)
+        return weighed
+    return state
 
 
 def at_turn(belief: Belief[S], state: S, agent: str) -> S:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
@@ -28,13 +28,14 @@ class FilterState:
     ``weights[m, k, g]`` is the probability of a human of kind m with goal g, which may still change
     (k = 0) or will not any more (k = 1). ``no_change`` is the part of it in which nothing has
     changed since the last declared change. ``likelihood[m, g]`` is that of the last human step;
-    None before any.
+    None before any; ``marginal`` is its probability, as it was predicted.
     """
 
     weights: Floats
     no_change: Floats
     likelihood: Floats | None = None
     n_declared: int = 0
+    marginal: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -78,7 +79,14 @@ class ChangeFilter:
             weights if is_declared else no_change,
             likelihood,
             before.n_declared + is_declared,
+            total,
         )
+
+    def weigh(self, before: FilterState, goals: Floats) -> FilterState:
+        """Return the filter after evidence that is no step, by its likelihood for each goal."""
+        weights, no_change = before.weights * goals, before.no_change * goals
+        total = max(float(weights.sum()), _TINY)
+        return replace(before, weights=weights / total, no_change=no_change / total)
 
     def _without_change(self, weights: Floats) -> Floats:
         weights_after = weights.copy()

@@ -25,6 +25,10 @@ class GoalFilterState(Protocol):
     def n_declared(self) -> int:
         """How many changes of goal were declared so far."""
 
+    @property
+    def marginal(self) -> float:
+        """The probability of the last human step, as it was predicted; 1 before any."""
+
 
 F = TypeVar("F", bound=GoalFilterState)
 
@@ -37,6 +41,9 @@ class GoalFilter(Protocol[F]):
 
     def step(self, before: F, likelihood: Floats) -> F:
         """Return the filter after a human step with this likelihood, by kind of human and goal."""
+
+    def weigh(self, before: F, goals: Floats) -> F:
+        """Return the filter after evidence that is no step, by its likelihood for each goal."""
 
     def goals(self, state: F) -> Floats:
         """Return the probability of each goal."""
@@ -63,6 +70,11 @@ class FilterBeliefState(Generic[F]):
     def n_declared(self) -> int:
         """How many changes of goal were declared so far."""
         return self.filter_state.n_declared
+
+    @property
+    def marginal(self) -> float:
+        """How probable the last human step was before it was seen; 1 before any."""
+        return self.filter_state.marginal
 
 
 class FilterBelief(PlanFollower, ABC, Generic[F]):
@@ -116,6 +128,17 @@ class FilterBelief(PlanFollower, ABC, Generic[F]):
         likelihood = self.likelihood(state.progress, step, evidence)
         filter_state = self.filter.step(state.filter_state, likelihood)
         return FilterBeliefState(progress, filter_state, is_human=True)
+
+    def observe_evidence(
+        self, state: FilterBeliefState[F], likelihood: Floats
+    ) -> FilterBeliefState[F]:
+        """Return the belief after evidence that is no step, such as an answer to a question.
+
+        Args:
+            state: The belief before.
+            likelihood: That of the evidence for each goal.
+        """
+        return replace(state, filter_state=self.filter.weigh(state.filter_state, likelihood))
 
     def posterior(self, state: FilterBeliefState[F]) -> Floats:
         """Return the probability of each goal, in order."""

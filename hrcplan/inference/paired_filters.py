@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -21,12 +21,13 @@ class PairedState:
     ``layers[i, m, g]`` belongs to a human of kind m with goal g. The layers are for acting: the
     goal may still change, or will not; then the same for declaring; then the part of these two in
     which nothing has changed since the last declared change. ``likelihood[m, g]`` is that of the
-    last human step; None before any.
+    last human step; None before any. ``marginal`` is its probability, as predicted for acting.
     """
 
     layers: Floats
     likelihood: Floats | None = None
     n_declared: int = 0
+    marginal: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -61,7 +62,15 @@ class PairedFilters:
         is_declared = 1 - (sums[4] + sums[5]) / declaring > DECLARED
         if is_declared:
             layers[_NO_CHANGE] = layers[_DECLARING]
-        return PairedState(layers, likelihood, before.n_declared + is_declared)
+        return PairedState(layers, likelihood, before.n_declared + is_declared, acting)
+
+    def weigh(self, before: PairedState, goals: Floats) -> PairedState:
+        """Return both filters after evidence that is no step, by its likelihood for each goal."""
+        layers = before.layers * goals
+        sums = layers.sum(axis=(1, 2)).tolist()
+        acting, declaring = max(sums[0] + sums[1], _TINY), max(sums[2] + sums[3], _TINY)
+        layers *= np.array([1 / acting] * 2 + [1 / declaring] * 4)[:, None, None]
+        return replace(before, layers=layers)
 
     @cached_property
     def _ones(self) -> Floats:

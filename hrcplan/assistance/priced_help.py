@@ -1,0 +1,225 @@
+"""What a robot's steps are worth at the present prices, and what is still to be paid.
+
+One class for plans in which any agent can do a step, one for teams that take turns. With all prices
+1 they are the values of `ExpectedHelp`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Protocol
+
+import numpy as np
+
+from hrcplan.assistance.explanation import StepChoice
+from hrcplan.assistance.step_prices import StepPrices
+from hrcplan.assistance.step_values import NextSteps, StepValues
+from hrcplan.assistance.team_help import ACTION, TeamHelp
+from hrcplan.assistance.turn_costs import human_turn_costs
+from hrcplan.bank import PlanGraph
+from hrcplan.bank.progress import OffGraph, Progress
+from hrcplan.bank.solo_moves import SoloMoves
+from hrcplan.bank.team_moves import OUT_OF_REACH, Moment, TeamChoices, TeamMoves
+from hrcplan.core.arrays import Floats
+
+NEGLIGIBLE = 1e-3  # the probability of a goal whose costs are not priced
+
+
+class PricedHelp(Protocol):
+    """Values steps by what they save the team, for weights of the goals that sum to 1."""
+
+    def options(self, progress: Progress, weights: Floats) -> StepChoice:
+        """Return the steps that a robot could do now, and what each is expected to save."""
+
+    def least_cost(self, progress: Progress, weights: Floats) -> float:
+        """Return what the best step or wait is expected to cost, up to a constant of ``progress``.
+
+        The constant is the same for all weights, in the mean over them.
+        """
+
+    def to_go(self, progress: Progress, weights: Floats) -> float:
+        """Return what is expected to be paid until the goal is reached, from here on."""
+
+    def n_helped(self, progress: Progress, step: int, weights: Floats) -> int:
+        """Return how many goals that are not out of the question have a step next."""
+
+
+class PricedSteps:
+    """The help of steps that any agent can do.
+
+    Args:
+        values: What steps are worth in steps.
+        prices: The prices.
+        waste_price: What a step that is not needed costs.
+    """
+
+    def __init__(self, values: StepValues, prices: StepPrices, waste_price: float) -> None:
+        self.values, self.prices, self.waste_price = values, prices, waste_price
+        self.graph = values.tracker.combined_graph
+        self._costs = np.zeros(self.graph.off + 1)
+        self._priced: set[int] = set()
+        self._off_costs: dict[int, tuple[PlanGraph, Floats]] = {}
+
+    def options(self, progress: Progress, weights: Floats) -> StepChoice:
+        """Return the steps that some goal has next, and what each is expected to save."""
+        next_steps = self.values.next_steps(progress)
+        steps = self.values.candidates(progress, next_steps)
+        savings, needs = self.values.expected_saving(progress, next_steps, steps, weights)
+        if self.prices.changes and steps:
+            savings = savings + self._more(progress, next_steps, weights).take(steps)
+        worth = savings - self.waste_price * (1 - needs)
+        return StepChoice(tuple(steps), tuple(worth.tolist()))
+
+    def _more(self, progress: Progress, next_steps: NextSteps, weights: Floats) -> Floats:
+        """Return how much more than one step each step is expected to save."""
+        goals, steps = next_steps.goals, next_steps.steps
+        self._price_goals(np.flatnonzero(weights > NEGLIGIBLE).tolist())
+        nodes = progress.nodes.take(goals)
+        hit, places = self.graph.edges(nodes, steps)  # type: ignore[arg-type]  # one step for each
+        targets = np.where(hit, self.graph.targets.take(places, mode="clip"), self.graph.off)
+        more = self._costs[nodes] - self._costs[targets] - self.prices.robot[steps]
+        more = np.where(hit & np.isin(goals, list(self._priced)), more, 0.0)
+        for goal, place in progress.off.items():
+            if weights[goal] > NEGLIGIBLE:
+                graph, node = self.values.tracker.graph_of(goal, place)
+                following = graph.next(node) if graph.n_nodes else {}
+                costs = self._costs_off(graph)
+                for i in np.flatnonzero(goals == goal).tolist():
+                    after = costs[following[int(steps[i])]]
+                    more[i] = costs[node] - after - self.prices.robot[steps[i]]
+        sums = np.bincount(steps, more * weights.take(goals), len(self.prices.robot))
+        return sums.astype(np.float64)
+
+    def _price_goals(self, goals: Sequence[int]) -> None:
+        for goal in goals:
+            if goal not in self._priced:
+                first, graph = int(self.graph.offsets[goal]), self.values.bank.graphs[goal]
+                costs = human_turn_costs(graph, self.prices)
+                self._costs[first : first + graph.n_nodes] = costs
+                self._priced.add(goal)
+
+    def _costs_off(self, graph: PlanGraph) -> Floats:
+        costs = self._off_costs.get(id(graph))
+        if costs is None:  # the graph is held, so that no other one gets its id
+            costs = self._off_costs[id(graph)] = graph, human_turn_costs(graph, self.prices)
+        return costs[1]
+
+    def least_cost(self, progress: Progress, weights: Floats) -> float:
+        """Return what the best step costs compared with waiting."""
+        return -max(0.0, *self.options(progress, weights).values, 0.0)
+
+    def to_go(self, progress: Progress, weights: Floats) -> float:
+        """Return what is expected to be paid until the goal is reached, after a wait."""
+        total = 0.0
+        goals = np.flatnonzero(weights > NEGLIGIBLE).tolist()
+        self._price_goals(goals)
+        for goal in goals:
+            if int(progress.nodes[goal]) != self.graph.off:
+                total += weights[goal] * self._costs[progress.nodes[goal]]
+                continue
+            place = progress.off.get(goal) or OffGraph(progress.world)
+            graph, node = self.values.tracker.graph_of(goal, place)
+            cost = self._costs_off(graph)[node] if graph.n_nodes else OUT_OF_REACH
+            total += weights[goal] * float(cost)
+        return float(total)
+
+    def n_helped(self, progress: Progress, step: int, weights: Floats) -> int:
+        """Return how many goals that are not out of the question have a step next."""
+        next_steps = self.values.next_steps(progress)
+        goals = np.unique(next_steps.goals[next_steps.steps == step])
+        return int((weights[goals] > NEGLIGIBLE).sum())
+
+
+class PricedTeam:
+    """The help of a robot in a team that takes turns.
+
+    Args:
+        values: Knows whose turn it is.
+        moves: What the agents do for each goal.
+        prices: The prices.
+    """
+
+    def __init__(self, values: StepValues, moves: TeamMoves, prices: StepPrices) -> None:
+        self.values, self.prices = values, prices
+        self._priced = PricedMoves(moves, prices) if prices.changes else None
+        self.moves = moves if self._priced is None else self._priced
+        self.help = TeamHelp(self.moves, prices.extra)
+
+    def options(self, progress: Progress, weights: Floats) -> StepChoice:
+        """Return how much time each step of the next robot is expected to save."""
+        return self.help.options(progress.world, self._moment(progress, weights), weights)
+
+    def _moment(self, progress: Progress, weights: Floats) -> Moment:
+        if self._priced is not None:
+            self._priced.price_goals(np.flatnonzero(weights > NEGLIGIBLE).tolist())
+        return self.values.next_robot(progress)
+
+    def least_cost(self, progress: Progress, weights: Floats) -> float:
+        """Return what the best step or wait is expected to cost."""
+        costs = self.help.costs(progress.world, self._moment(progress, weights), weights)
+        return float(costs.min())
+
+    def to_go(self, progress: Progress, weights: Floats) -> float:
+        """Return what is expected to be paid until the goal is reached, after a wait."""
+        moment = self.moves.after(self._moment(progress, weights), None)
+        costs = self.moves.choices(progress.world, moment).costs.min(axis=1)
+        return float(weights @ costs)
+
+    def n_helped(self, progress: Progress, step: int, weights: Floats) -> int:
+        """Return how many goals that are not out of the question have a step next."""
+        choices = self.moves.choices(progress.world, self.values.next_robot(progress))
+        is_next = choices.is_next[:, choices.place(step)]
+        return int((is_next & (weights > NEGLIGIBLE)).sum())
+
+
+class PricedMoves(TeamMoves):
+    """What agents do as without prices; what it costs with them.
+
+    Where plans are solo plans, only a step's own price counts, not what is still to be paid.
+
+    Args:
+        moves: What the agents do.
+        prices: The prices.
+    """
+
+    def __init__(self, moves: TeamMoves, prices: StepPrices) -> None:
+        self.inner, self.extra = moves, prices.extra
+        self.take_turns(moves.bank)
+        self._tables: dict[int, Floats] = {}
+        self._by_moment: dict[tuple[int, Moment], TeamChoices] = {}
+
+    def price_goals(self, goals: Sequence[int]) -> None:
+        """Look up what several goals cost, unless that is known."""
+        if isinstance(self.inner, SoloMoves):
+            return
+        for goal in goals:
+            if goal not in self._tables:
+                extra = self.extra[[op.step for op in self.bank.table.ops]]
+                self._tables[goal] = self.inner.costs.priced(goal, extra + ACTION, 1.0)
+                self._by_moment = {}
+
+    def choices(self, world: int, moment: Moment) -> TeamChoices:
+        """Return what the agent whose turn it is can do, with its costs at the present prices."""
+        key = world, moment
+        choices = self._by_moment.get(key)
+        if choices is None:
+            self._by_moment = self.not_too_many(self._by_moment)
+            choices = self._by_moment[key] = self._with_prices(world, moment)
+        return choices
+
+    def _with_prices(self, world: int, moment: Moment) -> TeamChoices:
+        choices = self.inner.choices(world, moment)
+        extra = np.append(self.extra[choices.steps], 0.0)
+        costs = np.where(choices.costs >= OUT_OF_REACH, OUT_OF_REACH, choices.costs + extra)
+        costs = np.where(choices.costs == 0, 0.0, costs)
+        if self._tables:
+            place = self.inner.costs.place(world)
+            _, targets = self.inner.costs.actions(place, moment.turn)
+            following, places = (moment.turn + 1) % self.n_turns, np.append(targets, place)
+            own = np.append(np.full(len(targets), ACTION), 0.0) + 1 + extra
+            for goal, table in self._tables.items():
+                after = table[following, places] + own
+                reached = table[moment.turn, place] == 0
+                costs[goal] = 0.0 if reached else np.minimum(after, OUT_OF_REACH)
+        return replace(choices, costs=costs)

@@ -1,0 +1,96 @@
+"""Asking people what they want: what the answer is worth, and what the question costs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from hrcplan.assistance.priced_help import PricedHelp
+from hrcplan.bank.progress import Progress
+from hrcplan.core.arrays import Floats
+
+MAX_ANSWERS = 4  # besides "something else"
+LEAST = 0.02  # the probability of a goal that is asked about
+ASK_PRICE = 0.5  # steps that a first question costs
+IDLE_SHARE = 0.5  # of the price, where people stand still anyway
+WRONG = 0.02  # the probability of an answer that is not true
+
+
+@dataclass(frozen=True, slots=True)
+class GoalQuestion:
+    """A question which of several goals people have; ``worth`` is its value minus its price."""
+
+    goals: tuple[int, ...]
+    worth: float
+
+
+def question_price(n_asked: int, people_wait: bool) -> float:
+    """Return what a question costs: each one more than the one before, less where people wait.
+
+    So their number is limited by what an answer can be worth.
+
+    >>> question_price(0, False), question_price(1, True)
+    (0.5, 0.5)
+    """
+    return ASK_PRICE * (1 + n_asked) * (IDLE_SHARE if people_wait else 1.0)
+
+
+def best_question(
+    helper: PricedHelp, progress: Progress, weights: Floats, price: float
+) -> GoalQuestion | None:
+    """Return the question that is worth its price; None if there is none.
+
+    It names the likeliest goals. Its value is what the best step costs now, minus what it costs
+    on average once the answer is known.
+
+    Args:
+        helper: Knows what steps cost.
+        progress: Where the goals are.
+        weights: The probability of each goal.
+        price: What the question costs.
+    """
+    order = np.argsort(-weights, kind="stable")[:MAX_ANSWERS]
+    goals = [int(goal) for goal in order if weights[goal] >= LEAST]
+    if len(goals) <= 1 and weights[goals].sum() > 1 - LEAST:
+        return None
+    cost = 0.0
+    for goal in goals:
+        cost += weights[goal] * helper.least_cost(progress, one_goal(len(weights), goal))
+    rest = weights.copy()
+    rest[goals] = 0.0
+    share = float(rest.sum())
+    if share > LEAST:
+        cost += share * helper.least_cost(progress, rest / share)
+    else:
+        cost /= 1 - share
+    worth = helper.least_cost(progress, weights) - float(cost) - price
+    return GoalQuestion(tuple(goals), worth) if worth > 0 else None
+
+
+def one_goal(n_goals: int, goal: int) -> Floats:
+    """Return the weights of goals if one of them is certain."""
+    weights = np.zeros(n_goals)
+    weights[goal] = 1.0
+    return weights
+
+
+def answer_likelihood(n_goals: int, options: tuple[int, ...], answer: int | None) -> Floats:
+    """Return how likely an answer is for each goal.
+
+    Args:
+        n_goals: The number of goals.
+        options: The goals that were asked about.
+        answer: One of them; None for something else.
+
+    >>> answer_likelihood(3, (0, 1), 1).round(2).tolist()
+    [0.01, 0.98, 0.01]
+    """
+    wrong = WRONG / max(1, len(options))
+    likelihood = np.full(n_goals, wrong)
+    if answer is None:
+        likelihood[:] = 1 - WRONG
+        likelihood[list(options)] = wrong
+    else:
+        likelihood[answer] = 1 - WRONG
+    return likelihood

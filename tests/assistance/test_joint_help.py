@@ -1,0 +1,147 @@
+"""The robot that weighs goal and agent state: prices, take-overs, questions, unknown goals."""
+
+from functools import lru_cache
+
+import numpy as np
+import pytest
+
+from hrcplan.assistance.expected_help import ExpectedHelp
+from hrcplan.assistance.joint_help import JointHelp, Situation
+from hrcplan.assistance.priced_help import PricedMoves
+from hrcplan.assistance.questions import ASK_PRICE, answer_likelihood, question_price
+from hrcplan.assistance.step_prices import PriceModel
+from hrcplan.assistance.team_help import ACTION
+from hrcplan.assistance.turn_costs import human_turn_costs
+from hrcplan.bank import Bank, build, build_bank
+from hrcplan.bank.cost_to_go import NEVER, TIMESTEP, cost_to_go_of
+from hrcplan.bank.team_moves import Moment
+from tests.worlds import ERRAND, ERRANDS, HALL, PACKED, PARCELS, WORKSHOP, random_walk, world
+
+TIRED = {("motivation", "human"): 7}
+STOVE = {("capacity", "human", "stove"): 24}
+
+
+@lru_cache
+def bank_of(name: str) -> Bank:
+    match name:
+        case "hall":
+            return build(world(HALL, ERRAND, ERRANDS))
+        case "kitchen":
+            return build_bank("kitchen", only=["pasta-bean", "pasta-tomato", "salad-bean"])
+    return build(world(WORKSHOP, PACKED, PARCELS))
+
+
+@lru_cache
+def joint(name: str) -> JointHelp:
+    return JointHelp(bank_of(name))
+
+
+@pytest.mark.parametrize("name", ["workshop", "kitchen", "hall"])
+def test_with_low_agent_states_it_is_the_robot_of_expected_help(name: str) -> None:
+    bank = bank_of(name)
+    plain, robot = ExpectedHelp(bank), joint(name)
+    for seed in range(4):
+        state, other = robot.start(), plain.start()
+        for n, step in enumerate(random_walk(bank, seed, 8)):
+            assert robot.helper({}).options(state.progress, robot.posterior(state)) == (
+                plain.options(other)
+            )
+            advice = JointHelp(bank, asks=False).advise(state, Situation())
+            assert advice.step == plain.choose(other)
+            state = robot.observe(state, step, robot=bool(n % 2))
+            other = plain.observe(other, step, robot=bool(n % 2))
+
+
+@pytest.mark.parametrize("name", ["workshop", "kitchen"])
+def test_costs_of_turns_are_the_steps_that_are_left(name: str) -> None:
+    prices = PriceModel(bank_of(name)).prices({})
+    for graph in bank_of(name).graphs:
+        assert np.array_equal(human_turn_costs(graph, prices), graph.steps_left)
+
+
+def test_costs_of_a_team_are_its_timesteps() -> None:
+    bank = bank_of("hall")
+    costs = cost_to_go_of(bank)
+    prices = PriceModel(bank).prices({})
+    for goal in range(len(bank.names)):
+        priced = costs.priced(goal, prices.extra[[op.step for op in bank.table.ops]] + ACTION, 1.0)
+        plain = np.stack([costs.of(np.arange(priced.shape[1]), turn)[goal] for turn in (0, 1)])
+        assert np.array_equal(np.where(plain < NEVER, plain / TIMESTEP, np.inf), priced)
+
+
+def test_priced_moves_at_low_prices_are_the_moves() -> None:
+    robot, bank = joint("hall"), bank_of("hall")
+    moves = robot.tracker.moves
+    assert moves is not None
+    priced = PricedMoves(moves, PriceModel(bank).prices({}))
+    priced.price_goals(range(len(bank.names)))
+    for turn in (0, 1):
+        ours = priced.choices(bank.initial, Moment(turn))
+        assert np.array_equal(ours.costs, moves.choices(bank.initial, Moment(turn)).costs)
+
+
+def test_a_step_that_is_hard_for_people_is_taken_over() -> None:
+    """Both steps are next; the robot leaves the one that people can do, and does the other."""
+    bank, robot = bank_of("kitchen"), joint("kitchen")
+    state = robot.start()
+    names = [("get", "pan"), ("get", "pasta"), ("pour", "pasta", "pan"), ("collect_water", "pan")]
+    for words in names:
+        step = bank.table.find(words)
+        assert step is not None
+        state = robot.observe(state, step)
+    choice = robot.helper(STOVE).options(state.progress, robot.posterior(state))
+    assert choice.best is not None
+    assert "stove" in str(bank.table[choice.best])
+    prices = robot.price_model.prices(STOVE)
+    assert prices.human[choice.best] > 5 > 1 == prices.robot[choice.best]
+
+
+def test_costs_of_tired_people_are_higher() -> None:
+    graph = bank_of("kitchen").graphs[0]
+    prices = joint("kitchen").price_model.prices(TIRED)
+    costs = human_turn_costs(graph, prices)
+    assert (costs >= graph.steps_left - 1e-9).all()
+    assert costs[0] > graph.steps_left[0]
+
+
+def test_each_question_costs_more_than_the_one_before() -> None:
+    prices = [question_price(n, False) for n in range(4)]
+    assert prices == sorted(set(prices))
+    assert prices[0] == ASK_PRICE > question_price(0, True)
+
+
+def test_an_answer_settles_the_goal_and_something_else_rules_the_options_out() -> None:
+    robot = joint("workshop")
+    state = robot.observe_answer(robot.start(), (0, 1), 1)
+    assert robot.posterior(state).argmax() == 1
+    assert robot.posterior(state).max() > 0.9
+    other = robot.observe_answer(robot.start(), (0, 1), None)
+    assert robot.posterior(other)[:2].sum() < 0.05
+    assert other.none > robot.start().none > state.none
+    assert answer_likelihood(3, (0, 1), None).tolist() == [0.01, 0.01, 0.98]
+
+
+def test_standing_still_speaks_against_goals_of_which_there_is_a_step() -> None:
+    robot, bank = joint("workshop"), bank_of("workshop")
+    step = bank.table.find(("cut", "pipe"))
+    assert step is not None
+    state = robot.observe(robot.start(), step)
+    idle = robot.observe_idling(state)
+    assert robot.posterior(idle).tolist() == pytest.approx(robot.posterior(state).tolist())
+    assert robot.chance_of_pause(state, "ann") < 0.5
+
+
+def test_steps_that_no_goal_explains_point_to_a_goal_that_is_not_listed() -> None:
+    robot, bank = joint("kitchen"), bank_of("kitchen")
+    state = robot.start()
+    for thing in ("honey", "raisins", "milk", "chocolate"):
+        step = bank.table.find(("get", thing))
+        assert step is not None
+        before, state = state.none, robot.observe(state, step)
+        assert state.none > before
+    assert state.none > 0.5
+    advice = robot.advise(state, Situation())
+    assert advice.question is None
+    assert advice.step is None or (
+        robot.helper({}).n_helped(state.progress, advice.step, robot.posterior(state)) > 1
+    )
