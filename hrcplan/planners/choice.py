@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from hrcplan.errors import LimitError, MissingPlannerError, UnsupportedError, UsageError
+from hrcplan.errors import MissingPlannerError, UnsupportedError, UsageError
 from hrcplan.pddl.constructs import PREFERENCES
 from hrcplan.pddl.inlining import remaining
 from hrcplan.pddl.model import TOTAL_COST, Problem
 from hrcplan.planners import registry
 from hrcplan.planners.contract import Capabilities, Planner, Request
+from hrcplan.planners.kairos import LAST_PRESET, QUICK_PRESETS, Kairos
 from hrcplan.planners.relaxed_bound import RelaxedBound
 from hrcplan.planners.soft_goals import without_preferences
 
@@ -19,7 +20,13 @@ _SEQUENCES = ("fast-downward", "enhsp")
 proof, and for plans without one."""
 
 # Built-in jobs, the most promising first; True stands for the search without a proof.
-_ANY = (("kairos", True), ("fast-downward", True), ("enhsp", True), ("exact", True))
+_ANY = (
+    ("kairos", True),
+    ("fast-downward", True),
+    ("enhsp", True),
+    ("exact", True),
+    ("uniform-cost", True),
+)
 _BEST = (
     ("exact", False),
     ("fast-downward", False),
@@ -59,6 +66,7 @@ def jobs(request: Request) -> list[Job]:
     able = [p for p in planners if unable(p.card, request) is None and p.missing() is None]
     if not able:
         raise UnsupportedError("no planner here can hold this task")
+    able = [variant for planner in able for variant in _variants(planner, request)]
     candidates = [Job(p, any_plan, _merit(p.card, request, any_plan))
              for p in able for any_plan in _modes(p.card, request)]  # fmt: skip
     candidates.sort(key=lambda job: _rank(job, request))
@@ -81,6 +89,13 @@ def fixed_order(problem: Problem) -> tuple[str, ...]:
     names = dict.fromkeys(name for name, _ in _BEST)
     temporal = problem.domain.is_temporal
     return tuple(sorted(names, key=lambda name: temporal and name in _SEQUENCES))
+
+
+def _variants(planner: Planner, request: Request) -> Sequence[Planner]:
+    """Return a planner, or the forms of it that are good at different tasks."""
+    if isinstance(planner, Kairos) and request.any_plan and request.problem.domain.is_temporal:
+        return Kairos((LAST_PRESET,)), Kairos(QUICK_PRESETS)
+    return (planner,)
 
 
 def _modes(card: Capabilities, request: Request) -> tuple[bool, ...]:
@@ -114,12 +129,10 @@ def unable(card: Capabilities, request: Request) -> str | None:
 
 
 def _is_numeric(request: Request) -> bool:
+    """Return whether actions change numbers that bits do not hold, or not without a long wait."""
     if request.problem.domain.changed_functions <= {TOTAL_COST}:
         return False
-    try:
-        return request.task is None
-    except (UnsupportedError, LimitError):
-        return True
+    return not request.ground_quickly()
 
 
 def _rank(job: Job, request: Request) -> tuple[bool, float]:

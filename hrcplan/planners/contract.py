@@ -19,6 +19,8 @@ from hrcplan.validation import Report, validate
 
 MEMORY_BYTES = 4 << 30
 MOST_REPLAYS = 8
+GROUNDING_S = 1.0
+"""What grounding once for all planners may take, but never more than a tenth of the time."""
 
 
 class Status(enum.Enum):
@@ -65,17 +67,23 @@ class LazyTask:
 
     def __init__(self, task: Task | None = None) -> None:
         self._task = task
+        self._has_begun = False
         self._failure: UnsupportedError | LimitError | None = None
 
-    def begin(self, problem: Problem, deadline: float) -> None:
-        """Ground a problem if that can be done in time; else who needs it does it later."""
-        if self._task is None:
+    def begin(self, problem: Problem, deadline: float) -> bool:
+        """Ground a problem if that can be done in time; else who needs it does it later.
+
+        Return whether it is grounded. It is tried once.
+        """
+        if self._task is None and not self._has_begun:
+            self._has_begun = True
             try:
                 self._task = Task(problem, deadline)
             except UnsupportedError as error:
                 self._failure = error
             except LimitError:
-                return
+                return False
+        return self._task is not None
 
     @property
     def is_ready(self) -> bool:
@@ -151,6 +159,11 @@ class Request:
             LimitError: if there are too many ground actions, or too little time.
         """
         return self.lazy_task.ground(self.problem, time.monotonic() + self.time_left_s / 2)
+
+    def ground_quickly(self) -> bool:
+        """Ground the task unless that takes long; return whether it is grounded."""
+        time_s = min(GROUNDING_S, self.time_left_s / 10)
+        return self.lazy_task.begin(self.problem, time.monotonic() + time_s)
 
     def until(self, deadline: float) -> Request:
         """Return the same request until another time; both share the grounded task."""

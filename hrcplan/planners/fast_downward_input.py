@@ -5,7 +5,6 @@ It finds invariants in the files that a ground task no longer shows, and searche
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
@@ -90,10 +89,9 @@ def downward_input(request: Request) -> DownwardInput:
         return lifted_input
     if lifted_input is not None and lifted_input.exact:
         return lifted_input
-    if lifted_input is not None and request.any_plan:
-        request.lazy_task.begin(problem, time.monotonic() + request.time_left_s / 10)
-        if not request.lazy_task.is_ready:
-            return lifted_input  # without costs, but without the wait
+    needs_costs = not request.any_plan or (request.improves and request.ground_quickly())
+    if lifted_input is not None and not needs_costs:
+        return lifted_input  # without costs, but without the wait
     return grounded_input(request)
 
 

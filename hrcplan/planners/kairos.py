@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import contextlib
 import time
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from importlib.util import find_spec
@@ -40,10 +41,14 @@ if TYPE_CHECKING:
 
 # The ones that were best somewhere on the shipped problems; auto, lama and lama-novelty never were.
 TIMED_PRESETS = ("ehc", "novelty", "ff", "eager-lama", "goals")
+QUICK_PRESETS = ("goals", "ehc", "ff", "novelty", "eager-lama")  # for any plan
 CLASSICAL_PRESETS = ("auto",)
 LAST_PRESET = "auto"  # it has engines that choose durations, where the searches above give up
 PATIENCE = 0.1
 """A search that finds nothing better for this part of its time is over."""
+
+QUICK = 1 / 30
+"""The part of the time left that each search for any plan has at first."""
 
 STEP = 0.3
 """The part of the time left in which a plan with a higher metric must be found."""
@@ -102,6 +107,7 @@ class _Portfolio:
         self.is_proven = False
         self.failures: list[UnsupportedError | PlannerError] = []
         self.notes: list[str] = []
+        self.ended: set[str] = set()
         self.last = ""
 
     def solve(self, presets: tuple[str, ...] | None) -> Answer:
@@ -110,14 +116,13 @@ class _Portfolio:
         last = LAST_PRESET if temporal and presets is None else None
         if presets is None:
             presets = TIMED_PRESETS if temporal else CLASSICAL_PRESETS
-        for position, preset in enumerate(presets):
-            slice_s = self.request.time_left_s / (len(presets) - position)
-            if slice_s <= 0:
-                break
+        for preset, slice_s in self._turns(presets):
             result = self._search(problem, preset, slice_s)
             if result.status.name == "UNSOLVABLE":
                 return self._unsolvable()
             self._check(result)
+            if result.status.name != "TIMEOUT":
+                self.ended.add(preset)
             if self.is_proven or (self.best and self.request.any_plan):
                 break
         else:
@@ -125,6 +130,21 @@ class _Portfolio:
                 self._check(self._search(problem, last, self.request.time_left_s))
         self._raise_metric()
         return self._answer()
+
+    def _turns(self, presets: Sequence[str]) -> Iterator[tuple[str, float]]:
+        """Yield which search is to run next, and how long, as long as there is time.
+
+        Searches for any plan have a short turn first: each is the quickest one somewhere.
+        """
+        if self.request.any_plan and len(presets) > 1:
+            for preset in presets:
+                yield preset, QUICK * self.request.time_left_s
+        presets = [preset for preset in presets if preset not in self.ended]
+        for position, preset in enumerate(presets):
+            slice_s = self.request.time_left_s / (len(presets) - position)
+            if slice_s <= 0:
+                return
+            yield preset, slice_s
 
     def _raise_metric(self) -> None:
         """Look for plans with a higher metric, as long as some are found.

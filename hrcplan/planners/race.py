@@ -26,6 +26,10 @@ OVERTIME_S = 0.4
 """What a planner that ends at the deadline may take to report."""
 LATER = (1 / 30, 1 / 6, 1 / 3)
 """When one more job than there are cores may start, as parts of the whole time."""
+STAGGER_S = 0.1
+"""How long the first job runs alone: many tasks need no more."""
+LATE_NICENESS = 5
+"""How much jobs that start later give way to those that stand first."""
 _TICK_S = 0.1
 
 
@@ -104,9 +108,7 @@ class _Race:
 
     def _start(self) -> None:
         """Begin jobs as long as there is room and time for them."""
-        elapsed_s = time.monotonic() - self._start_s
-        whole = self.request.deadline - self._start_s
-        room = self._slots + sum(elapsed_s > part * whole for part in LATER)
+        room = self._room()
         while self._waiting and len(self._lanes) < room and self.request.time_left_s > 0:
             job = self._waiting.pop(0)
             request = replace(
@@ -115,11 +117,21 @@ class _Race:
                 any_plan=job.any_plan or self.request.any_plan,
                 improves=not self.request.any_plan,
             )
-            lane = _Lane(job, Worker(_work(job, request, self._in_lanes), self._watch.group))
+            niceness = LATE_NICENESS if len(self._lanes) >= self._slots else 0
+            work = _work(job, request, self._in_lanes, niceness)
+            lane = _Lane(job, Worker(work, self._watch.group))
             self._lanes.append(lane)
             self._ready.register(lane.worker.fd, selectors.EVENT_READ, lane)
         if self.request.time_left_s <= 0:
             self._waiting.clear()
+
+    def _room(self) -> int:
+        """Return how many jobs may be at work now."""
+        elapsed_s = time.monotonic() - self._start_s
+        whole = self.request.deadline - self._start_s
+        if elapsed_s < min(STAGGER_S, LATER[0] * whole):
+            return 1
+        return self._slots + sum(elapsed_s > part * whole for part in LATER)
 
     def _step(self, wait_s: float) -> None:
         """Wait for what the jobs say, and take it."""
@@ -160,7 +172,7 @@ class _Race:
         lane.worker.close()
 
 
-def _work(job: Job, request: Request, lanes: bool) -> Work[_Message]:
+def _work(job: Job, request: Request, lanes: bool, niceness: int) -> Work[_Message]:
     """Return what a worker does: ask a planner, and send its plans and its answer, checked."""
 
     def work(send: Callable[[_Message], None]) -> None:
@@ -174,6 +186,7 @@ def _work(job: Job, request: Request, lanes: bool) -> Work[_Message]:
                     )
                 )
 
+        os.nice(niceness)
         try:
             send(ask(job.planner, replace(request, on_plan=on_plan), lanes, job.why))
         except HrcplanError as error:

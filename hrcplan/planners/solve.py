@@ -19,8 +19,6 @@ from hrcplan.task import Task
 __all__ = ["AUTO", "DEFAULT_TIMEOUT_S", "Attempt", "Result", "compare", "solve"]
 
 DEFAULT_TIMEOUT_S = 60.0
-GROUNDING_S = 1.0
-"""What grounding once for all planners may take, but never more than a tenth of the time."""
 
 
 def solve(
@@ -56,8 +54,8 @@ def solve(
     start_s = time.monotonic()
     request = Request(problem, start_s + timeout_s, any_plan, memory_bytes, LazyTask(task))
     if planner == AUTO:
-        grounding_s = min(GROUNDING_S, timeout_s / 10)
-        request.lazy_task.begin(problem, time.monotonic() + grounding_s)
+        if not any_plan:  # planners that look for any plan can do without, or ground it themselves
+            request.ground_quickly()
         answer = _run(request, jobs(request), lanes, on_better).result()
     else:
         one = registry.make(planner) if isinstance(planner, str) else planner

@@ -1,0 +1,44 @@
+"""Which planners are asked, in which order, and what is grounded for that."""
+
+from __future__ import annotations
+
+import pytest
+
+from hrcplan.pddl.inputs import read
+from hrcplan.planners.choice import jobs
+from hrcplan.planners.contract import LazyTask, Request
+from hrcplan.planners.fast_downward_input import downward_input
+from tests.planners.actors import walk
+
+
+def names(request: Request) -> list[str]:
+    return [job.name for job in jobs(request)]
+
+
+def test_quick_planners_stand_first_for_any_plan() -> None:
+    order = names(Request(read("kitchen", "pasta-bean"), any_plan=True))
+    assert order[:2] == ["kairos", "fast-downward"]
+    assert order.index("uniform-cost") > order.index("enhsp")
+
+
+def test_kairos_searches_in_two_ways_for_any_plan_with_times() -> None:
+    problem = read("transport", "two-boxes")
+    assert names(Request(problem, any_plan=True))[:2] == ["kairos", "kairos"]
+    assert names(Request(problem)).count("kairos") == 1
+
+
+def test_nothing_is_grounded_for_any_plan(monkeypatch: pytest.MonkeyPatch) -> None:
+    def begin(*_: object) -> bool:
+        raise AssertionError("it grounds")
+
+    monkeypatch.setattr(LazyTask, "begin", begin)
+    request = Request(read("kitchen", "pasta-bean"), any_plan=True)
+    assert jobs(request)
+    assert downward_input(request).lowering is None
+
+
+def test_grounding_is_tried_once_to_tell_what_is_numeric() -> None:
+    request = Request(walk("(:metric maximize (views))"))
+    assert request.ground_quickly() is False
+    assert "enhsp" in names(request)
+    assert "fast-downward" not in names(request)
