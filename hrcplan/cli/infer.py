@@ -22,7 +22,7 @@ MAX_NAME = 28
         "SOURCE: a bank (see 'hrcplan bank build'), or a folder with domain.pddl, template.pddl "
         "and hyps.dat.",
         'ACTIONS: a file with one ground action per line, as in "(get human pan)"; by default '
-        "obs.dat in the folder SOURCE.",
+        'obs.dat in the folder SOURCE. Method cost also takes facts, as in "(not (at ann hall))".',
         "METHOD: exact, switching, forest or recursive (for a bank), cost (for a folder), or "
         "module:Class.",
     ),
@@ -31,12 +31,13 @@ MAX_NAME = 28
 @click.argument("actions", required=False, metavar="[ACTIONS]")
 @click.option("--method", metavar="METHOD",
               help="How to infer; by default switching for a bank, cost for a folder.")  # fmt: skip
-@options.timeout("Method cost: seconds for exact distances; after that they are estimated.", 25.0)
+@options.timeout("Without effect: what is done is counted, so results are the same anywhere.",
+                 None)  # fmt: skip
 @options.seed("Method forest: random seed of its training.")
 @options.picture("--plot", "Draw the posterior of the goals.")
 @output.common_options
 def command(
-    source: str, actions: str | None, method: str | None, timeout: float, seed: int,
+    source: str, actions: str | None, method: str | None, timeout: float | None, seed: int,
     plot: Path | None,
 ) -> int:  # fmt: skip
     """Infer the human's goal from the observed ACTIONS, step by step, and where it changed."""
@@ -44,7 +45,7 @@ def command(
 
     options.check_picture(plot, "--plot", source, *([] if actions is None else [actions]))
     method_options: dict[str, Any] = {
-        "cost": {"timeout_s": timeout},
+        "cost": {} if timeout is None else {"timeout_s": timeout},
         "forest": {"seed": seed, "n_jobs": -1},
     }
     name = method or _default(source)

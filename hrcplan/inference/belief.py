@@ -14,9 +14,11 @@ from typing import Any, Protocol, TypeVar, cast, runtime_checkable
 from hrcplan.bank import StepTable
 from hrcplan.bank.progress import Progress, ProgressTracker
 from hrcplan.core.arrays import Floats, Rows
+from hrcplan.task.conditions import Test
 
 IMPOSSIBLE = "no agent can do this step here"
 UNEXPLAINED = "no goal explains this step"
+UNCHANGED = "this was so before"
 
 
 class BeliefState(Protocol):
@@ -95,6 +97,15 @@ class ObservesEvidence(Protocol[S]):
 
     def observe_evidence(self, state: S, likelihood: Floats) -> S:
         """Return the belief after evidence with this likelihood for each goal."""
+        ...
+
+
+@runtime_checkable
+class ObservesFacts(Protocol[S]):
+    """A belief that also takes observations of facts, where it is not seen what was done."""
+
+    def observe_fact(self, state: S, test: Test) -> S:
+        """Return the belief after a fact was seen to be true, or false."""
         ...
 
 

@@ -15,6 +15,7 @@ from hrcplan.pddl.conventions import robots
 from hrcplan.pddl.model import Problem
 from hrcplan.pddl.source import read_text
 from hrcplan.plans import Plan, PlannedAction
+from hrcplan.task.conditions import Test
 
 ObservedWords = tuple[str, ...]
 """An action's name and its objects, in lower case."""
@@ -78,20 +79,27 @@ def _no_action(value: Hashable, what: str) -> UsageError:
 
 
 def check_observations(
-    observations: Sequence[ObservedWords], goals: Goals, path: str | None = None
-) -> None:
-    """Check that observations speak of actions at all.
+    observations: Sequence[ObservedWords], goals: Goals, path: str | None = None, *,
+    facts: bool = False,
+) -> None:  # fmt: skip
+    """Check that observations speak of the goals' domain at all.
+
+    Args:
+        observations: The observations.
+        goals: The goals.
+        path: The file they are from.
+        facts: Whether facts are taken as observations, too.
 
     Raises:
         InputError: if none of them has the name of an action.
     """
     names = _action_names(goals)
     lines = [words for words in observations if words]
-    if not lines or any(words[0] in names for words in lines):
+    if not lines or any(words[0] in names or (facts and _is_fact(words, goals)) for words in lines):
         return
     if _is_fact(lines[0], goals):
         what = cut(" ".join(lines[0]), 80)
-        message = f"the observations are facts such as ({what}), not actions"
+        message = f"the observations are facts such as ({what}), which only method cost takes"
     else:
         message = f"no observation is an action of domain {quote(goals.problem.domain.name)}"
     hint = f"actions: {cut(', '.join(sorted(names)), 120)}"
@@ -157,6 +165,20 @@ class Resolver:
             return self._why_not(words)
         can = (step for step in steps if self.table.successor(world, step) is not None)
         return ObservedStep(next(can, steps[0]), by_robot)
+
+    def find_fact(self, words: ObservedWords) -> Test | str | None:
+        """Return the test of an observed fact, such as ``("not", "at", "ann", "hall")``.
+
+        It is None if the words name no fact, and a reason if no action changes it.
+        """
+        if not words or not _is_fact(words, self.goals):
+            return None
+        is_true = words[0] in self.problem.domain.predicates
+        fact = words if is_true else words[1:]
+        place = self.goals.task.bits.get(fact)
+        if place is None:
+            return "no action changes this fact"
+        return 1 << place, int(is_true) << place
 
     def _without_agent(self, words: tuple[str, ...]) -> list[int]:
         """Return the steps of this name, those of the human first, where no agent is named."""

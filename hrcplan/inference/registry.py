@@ -6,7 +6,7 @@ from collections.abc import Callable, Hashable
 from typing import Any
 
 from hrcplan.core.registry import Registry
-from hrcplan.inference.belief import Belief, MadeFromGoals
+from hrcplan.inference.belief import Belief, MadeFromGoals, ObservesFacts
 
 BANK_METHOD, GOALS_METHOD = "switching", "cost"
 METHODS: Registry[..., Belief[Any]] = Registry(
@@ -28,3 +28,8 @@ def takes_goals(kind: Callable[..., Belief[Any]]) -> bool:
     """Return whether a class of beliefs is made from `Goals`, not from a `Bank`."""
     factory: Hashable = kind
     return isinstance(factory, MadeFromGoals) and factory.takes_goals
+
+
+def takes_facts(kind: Callable[..., Belief[Any]]) -> bool:
+    """Return whether a class of beliefs takes observations of facts, too."""
+    return isinstance(kind, type) and issubclass(kind, ObservesFacts)

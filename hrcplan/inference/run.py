@@ -19,6 +19,7 @@ from hrcplan.inference.belief import (
     DetectsChanges,
     GoalChange,
     HasSteps,
+    ObservesFacts,
     Remarks,
     S,
     WeighsChanges,
@@ -30,7 +31,13 @@ from hrcplan.inference.observations import (
     check_observations,
     observed_words,
 )
-from hrcplan.inference.registry import BANK_METHOD, GOALS_METHOD, METHODS, takes_goals
+from hrcplan.inference.registry import (
+    BANK_METHOD,
+    GOALS_METHOD,
+    METHODS,
+    takes_facts,
+    takes_goals,
+)
 from hrcplan.inference.traces import is_trace
 
 BUILD_S = 20.0  # for plan graphs of a folder that is no bank
@@ -157,9 +164,10 @@ def infer(
     if words is None:
         hint = "a file with one action a line"
         raise InputError("no observed actions are given", code="no-actions", hint=hint)
-    check_observations(words, goals, _path_of(source if actions is None else actions))
     name = method or (BANK_METHOD if isinstance(bank_or_goals, Bank) else GOALS_METHOD)
     kind = METHODS.find(name)
+    path = _path_of(source if actions is None else actions)
+    check_observations(words, goals, path, facts=takes_facts(kind))
     if takes_goals(kind):
         belief = METHODS.make(name, goals, **options)
         return run(belief, Resolver(steps_of(belief, StepTable(goals.task)), goals), words, name)
@@ -202,15 +210,11 @@ def run(
     states = [belief.start()]
     ignored: list[Ignored] = []
     for at, words in enumerate(observations):
-        step = resolver.find(words, states[-1].world)
-        action = f"({' '.join(words)})"
-        if isinstance(step, str):
-            states.append(states[-1])
-            ignored.append(Ignored(at, action, step))
-            continue
-        states.append(belief.observe(states[-1], step.index, robot=step.robot))
-        if states[-1].ignored is not None:
-            ignored.append(Ignored(at, action, states[-1].ignored))
+        state = _observe(belief, resolver, states[-1], words)
+        reason = state if isinstance(state, str) else state.ignored
+        states.append(states[-1] if isinstance(state, str) else state)
+        if reason is not None:
+            ignored.append(Ignored(at, f"({' '.join(words)})", reason))
     places = [at for at in range(len(observations)) if at not in {i.at for i in ignored}]
     effective = [states[at + 1] for at in places]
     changes = belief.changes(effective) if isinstance(belief, DetectsChanges) else ()
@@ -224,6 +228,17 @@ def run(
         "; ".join(filter(None, [_note(states[-1]) or _note(belief), resolver.note])) or None,
         belief.changed(effective) if isinstance(belief, WeighsChanges) else None,
     )
+
+
+def _observe(belief: Belief[S], resolver: Resolver, state: S, words: ObservedWords) -> S | str:
+    """Return the belief after one observation, or why it is none."""
+    if isinstance(belief, ObservesFacts):
+        test = resolver.find_fact(words)
+        if test is not None:
+            observed: S | str = test if isinstance(test, str) else belief.observe_fact(state, test)
+            return observed
+    step = resolver.find(words, state.world)
+    return step if isinstance(step, str) else belief.observe(state, step.index, robot=step.robot)
 
 
 def _note(part: Belief[S] | BeliefState) -> str | None:

@@ -87,11 +87,11 @@ def test_the_worlds_are_of_both_kinds(workshop, hall):
         lambda bank: RecursiveBelief(bank, likelihood=Rational(), own_steps=True),
         lambda bank: RecursiveBelief(bank, likelihood=Attractor(2)),
         lambda bank: ForestBelief(bank, n_samples=400, n_trees=10),
-        lambda bank: CostBelief(bank.goals, timeout_s=10),
-        lambda bank: CostBelief(bank.goals, timeout_s=1e-6),
+        lambda bank: CostBelief(bank.goals),
+        lambda bank: CostBelief(bank.goals, unobserved=0, n_plans=4),
     ],
     ids=["exact", "switching", "recursive", "adaptive", "next", "rational", "attractor", "forest",
-         "cost", "estimated"],
+         "cost", "all-observed"],
 )  # fmt: skip
 def test_every_belief_keeps_the_laws(bank, walk, make):
     belief = make(bank)

@@ -92,7 +92,7 @@ def test_table_shows_changes_and_reasons(files):
 
 
 def test_long_names_are_numbered_and_listed(instances):
-    text = call(instances / "block-words_p01_hyp-0_full", "--timeout", "2").stdout
+    text = call(instances / "block-words_p01_hyp-0_full").stdout
     assert "goal 1: (CLEAR D),(ONTABLE W),(ON D R),(ON R A),(ON A W)" in text
 
 
@@ -238,13 +238,35 @@ def test_observations_as_planners_write_them(corridor, text):
     assert found.posterior[-1][1] > 0.9
 
 
-def test_facts_are_no_observations(corridor):
-    (corridor / "obs.dat").write_text("(here m)\n0.5: (not (here m))\n")
-    found = call(corridor, code=3)
-    assert "obs.dat: the observations are facts such as (here m)" in found.stderr
+def test_facts_are_observations_of_what_was_done_unseen(corridor):
+    (corridor / "obs.dat").write_text("(here r)\n0.5: (not (here r))\n(here k)\n(here moon)\n")
+    found = infer(corridor)
+    assert [row.index(max(row)) for row in found.posterior[1:]] == [1, 1, 1, 1]
+    reasons = [ignored.reason for ignored in found.ignored]
+    assert reasons == ["this was so before", "no action changes this fact"]
+    actions = infer(corridor, "(walk m r) (walk r k)")
+    assert found.posterior[1] == actions.posterior[1]
+
+
+def test_a_fact_that_takes_several_actions(corridor):
+    found = infer(corridor, "(here k)")
+    assert found.posterior[-1][1] > 0.8
+    assert found.note == "1 action must have happened unobserved"
+    assert infer(corridor, "(here m)").ignored[0].reason == "this was so before"
+    assert infer(corridor, "(here l) (here k)").ignored[0].reason.startswith("no agent can")
+
+
+def test_methods_with_plan_graphs_take_no_facts(corridor):
+    (corridor / "obs.dat").write_text("(here r)\n")
+    found = call(corridor, "--method", "exact", code=3)
+    assert "obs.dat: the observations are facts such as (here r)" in found.stderr
     (corridor / "obs.dat").write_text("(walk m r)\n(here r)\n(run r k)")
-    reasons = [ignored.reason for ignored in infer(corridor).ignored]
+    reasons = [ignored.reason for ignored in infer(corridor, method="exact").ignored]
     assert reasons == ["this is a fact, not an action", "there is no action 'run'"]
+
+
+def test_an_old_limit_of_time_is_named(corridor):
+    assert "deprecated" in call(corridor, "--timeout", "2").stderr
 
 
 @pytest.mark.parametrize("text", ["(run m r)", "nothing of this kind", '{"actions": []}'])
