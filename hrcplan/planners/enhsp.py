@@ -145,7 +145,7 @@ def _input(request: Request) -> _Input:
         problem = replace(problem, domain=plain_domain, metric=None, maximize=False)
     simple = all(_is_simple(problem, effect) for effect in _effects(problem))
     simple = simple and exact and not clash
-    handover = Handover.of(with_binary_sums(with_ground_sums(problem)))
+    handover = Handover.of(with_binary_sums(with_ground_sums(problem)), single_types=True)
     return _Input(*handover.texts, None, handover, plain_metric and not moving, simple)
 
 
@@ -157,7 +157,8 @@ def _continuous_input(problem: Problem) -> _Input:
     """
     if problem.domain.is_temporal:
         raise UnsupportedError("enhsp knows processes and events, but no durative actions")
-    handover = Handover.of(with_binary_sums(replace(problem, metric=None, maximize=False)))
+    binary = with_binary_sums(replace(problem, metric=None, maximize=False))
+    handover = Handover.of(binary, single_types=True)
     return _Input(*handover.texts, None, handover, costs=False, whole=False)
 
 

@@ -12,6 +12,7 @@ from itertools import count
 from hrcplan.pddl.guards import guarded
 from hrcplan.pddl.model import Problem
 from hrcplan.pddl.renaming import renamed
+from hrcplan.pddl.single_types import with_single_types
 from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.plans import Plan, PlannedAction, parse_plan
 
@@ -36,8 +37,10 @@ class Handover:
     names: Mapping[str, str] = field(default_factory=dict)
 
     @classmethod
-    def of(cls, problem: Problem) -> Handover:
+    def of(cls, problem: Problem, *, single_types: bool = False) -> Handover:
         """Return the form of a problem for planners; most problems stay as they are.
+
+        ``single_types`` is for planners that read no ``(either …)``.
 
         >>> from hrcplan.pddl.inputs import read
         >>> problem = read("transport", "two-boxes")
@@ -45,6 +48,7 @@ class Handover:
         True
         """
         problem = guarded(problem)
+        problem = with_single_types(problem) if single_types else problem
         words = set(_names(problem))
         unsafe = sorted(words & KEYWORDS)
         if not unsafe:
