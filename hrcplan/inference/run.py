@@ -215,7 +215,8 @@ def run(
         states.append(states[-1] if isinstance(state, str) else state)
         if reason is not None:
             ignored.append(Ignored(at, f"({' '.join(words)})", reason))
-    places = [at for at in range(len(observations)) if at not in {i.at for i in ignored}]
+    without_effect = {i.at for i in ignored}
+    places = [at for at in range(len(observations)) if at not in without_effect]
     effective = [states[at + 1] for at in places]
     changes = belief.changes(effective) if isinstance(belief, DetectsChanges) else ()
     return Inference(

@@ -81,6 +81,8 @@ def read_domain(root: GroupNode, source: SourceText) -> Domain:
     )
     domain = replace(domain, notes=read_notes(source, domain))
     report_types(source, types, ":types" in sections)
+    if ":types" not in sections:  # reported once: problems then find the types declared
+        domain = replace(domain, types={**types, **dict.fromkeys(source.unknown_types, (OBJECT,))})
     check_requirements(domain.requirements, source)
     conventions.check_domain(domain, actions, source)
     return domain

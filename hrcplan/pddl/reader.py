@@ -22,6 +22,7 @@ _SECTION_DEPTH = 3  # groups around the head of a section: everything, define, t
 _FLAT = r"\(\s*+[^\s();:?][^\s();?]*+(?:\s++\??[^\s();?:][^\s();?]*+)*+\s*+\)"
 _GROUP_OR_TOKEN = re.compile(_FLAT + r"|[()]|\?*[^\s();?]+|\?+|;[^\r\n]*")
 _TOKEN = re.compile(r"[()]|\?*[^\s();?]+|\?+|;[^\r\n]*")
+_DEFINE = re.compile(r"\((?:\s|;[^\r\n]*+)*+define\b", re.IGNORECASE)
 _COMMENT_OR_COMMA = re.compile(r";[^\r\n]*|(?<![0-9]),|,(?![0-9])")  # 1,5 is meant as a number
 _NOTE = re.compile(r"(?<!;);++[ \t]*+hrcplan:[ \t]*+([^\r\n;]*)", re.IGNORECASE)
 # Control characters, marks that hide or reverse text, and halves of characters.
@@ -60,6 +61,9 @@ ParseNode = WordNode | GroupNode
 
 def read(source: SourceText) -> GroupNode | None:
     """Return the one ``(define …)`` group of a file, or None; faults go into ``source``."""
+    if not source.has_errors and not _DEFINE.search(source.text):
+        _report_no_define(source)
+        return None
     nodes = read_nodes(source)
     groups = [node for node in nodes if isinstance(node, GroupNode)]
     root = next((group for group in groups if group.head == "define"), None)
@@ -69,6 +73,18 @@ def read(source: SourceText) -> GroupNode | None:
     elif root is None and not source.has_errors:
         source.error(0, "empty", "the file holds no (define …)")
     return root
+
+
+def _report_no_define(source: SourceText) -> None:
+    """Report that a file does not begin as PDDL: its parentheses are no further fault."""
+    first = next((t for t in _TOKEN.finditer(source.text) if t[0][0] != ";"), None)
+    if first is None:
+        source.error(0, "empty", "the file holds no (define …)")
+        return
+    message, hint = _outside(source.text, False)
+    if first[0].lower() == "define":
+        hint = "write '(define', and one ')' at the end of the file"
+    source.error(first.start(), "outside-define", message, hint)
 
 
 def _is_lisp(node: ParseNode, source: SourceText) -> bool:

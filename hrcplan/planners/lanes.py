@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from hrcplan.core.numbers import Number
+from hrcplan.errors import LimitError, UnsupportedError
 from hrcplan.pddl.interference import Access, access, clash
 from hrcplan.pddl.model import Action, Problem
 from hrcplan.pddl.semantics import Binding, Undefined, bind, evaluate
@@ -146,7 +147,10 @@ def _options(problem: Problem, plan: Plan) -> list[tuple[_Option, ...]]:
     own = [((action, occupied(action, problem)),) for action in plan.actions]
     if len(problem.agents) < 2 or problem.domain.is_temporal:
         return list(own)
-    task = Task(problem)
+    try:
+        task = Task(problem)
+    except (UnsupportedError, LimitError):
+        return list(own)  # steps stay with their agents: no bits hold this task
     if not task.is_agent_free:
         return list(own)
     by_step: dict[tuple[str, ...], list[int]] = {}

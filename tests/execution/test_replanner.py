@@ -8,6 +8,7 @@ from hrcplan.agents import load_profile
 from hrcplan.errors import PlannerError
 from hrcplan.execution import events as ev
 from hrcplan.execution import replanner
+from hrcplan.execution.execute import execute
 from hrcplan.execution.model import ExecutionModel
 from hrcplan.execution.monitor import Monitor
 from hrcplan.execution.replanner import Replanner
@@ -19,6 +20,7 @@ from hrcplan.pddl.inputs import read
 from hrcplan.planners import registry
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
 from hrcplan.plans import parse_plan
+from tests.texts import problem_of
 
 DISTRACTED = Nature(0, (StateChange(0.0, {("motivation", "human"): 9}),))
 
@@ -169,3 +171,22 @@ def test_plans_that_are_not_proven_are_compared(
     assert answer.planner == best
     assert [claim.any_plan for claim in claims][:asked] == [[False], [True], [True]][:asked]
     assert sum(len(claim.any_plan) for claim in claims) == asked
+
+
+def test_numbers_that_no_bits_hold_are_executed():
+    """A classical task whose actions change a function: steps stay with their agents."""
+    problem = problem_of(
+        """(define (domain room) (:requirements :typing :numeric-fluents)
+          (:types agent item) (:predicates (controllable ?a - agent) (clean ?i - item))
+          (:functions (water))
+          (:action wash :parameters (?a - agent ?i - item)
+            :precondition (and (>= (water) 0.4)) :effect (and (clean ?i) (decrease (water) 0.4)))
+          (:action fetch :parameters (?a - agent)
+            :precondition (and) :effect (increase (water) 0.5)))""",
+        """(define (problem p) (:domain room) (:objects ann rob - agent cup jar - item)
+          (:init (controllable rob) (= (water) 0.5))
+          (:goal (and (clean cup) (clean jar))))""",
+    )
+    outcome = execute(problem).outcome
+    assert outcome.ending == "goal reached"
+    assert outcome.replans == 0

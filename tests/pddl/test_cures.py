@@ -129,3 +129,29 @@ def test_sections_of_other_languages_are_named_once(tmp_path, section, name):
 def test_an_object_that_a_domain_does_not_have(tmp_path):
     (found,) = errors(tmp_path, ONE_ACTION.format("(p wrench)", "(q)"))
     assert "(:constants …)" in found.hint
+
+
+@pytest.mark.parametrize(
+    ("text", "cure"),
+    [
+        ("(domain d)\n(:predicates (p))\n(:action a :effect (p))\n)", "a file begins with"),
+        ("(domain d)\n(:predicates (p)\n(:action a :effect (p)", "a file begins with"),
+        ("define (domain d) (:predicates (p)))", "write '(define'"),
+        ("; a note\n(problem p) (:domain d) (:init) (:goal (p)))", "a file begins with"),
+    ],
+)
+def test_a_missing_define_is_one_fault_whatever_its_parentheses(tmp_path, text, cure):
+    (fault,) = faults(tmp_path, text)
+    assert fault.code == "outside-define"
+    assert cure in str(fault.hint)
+
+
+def test_missing_types_are_reported_in_the_domain_and_not_again_in_its_problem(tmp_path):
+    texts = {
+        "d.pddl": "(define (domain d) (:requirements :typing) (:predicates (p ?x - box)))",
+        "p.pddl": "(define (problem p) (:domain d) (:objects a - box) (:init) (:goal (p a)))",
+    }
+    for name, text in texts.items():
+        (tmp_path / name).write_text(text)
+    (fault,) = check_files([tmp_path / name for name in texts])
+    assert (fault.code, fault.path) == ("unknown-type", str(tmp_path / "d.pddl"))

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-
 from hrcplan.pddl.inputs import read
 from hrcplan.pddl.single_types import with_single_types
-from hrcplan.planners.solve import solve
 from hrcplan.planners.handover import Handover
+from hrcplan.planners.solve import solve
 from hrcplan.task.reachable import reachable
 
 DOMAIN = """
