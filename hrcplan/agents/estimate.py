@@ -13,7 +13,10 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
+import numpy as np
+
 from hrcplan.agents.state import AgentModel
+from hrcplan.core.arrays import Floats, Ids
 from hrcplan.core.numbers import Number
 from hrcplan.pddl.model import FluentKey
 
@@ -62,12 +65,49 @@ class Prior:
                 probabilities[key, level, _ANEW, True] = share * (1 - self.lasting)
         return probabilities
 
+    @cached_property
+    def table(self) -> _CauseTable:
+        """The causes as arrays."""
+        keys = tuple(self.lows)
+        place = {key: i for i, key in enumerate(keys)}
+        causes = list(self.causes)
+        return _CauseTable(
+            keys,
+            np.array([place[cause[0]] for cause in causes], dtype=np.int64),
+            np.array(list(self.causes.values()), dtype=np.float64),
+            np.array([_strikes(cause) for cause in causes], dtype=np.float64),
+            np.array([cause[1] for cause in causes], dtype=np.int64),
+        )
+
 
 @dataclass(frozen=True)
+class _CauseTable:
+    """The causes of a prior as arrays: element, probability, and how likely it strikes."""
+
+    keys: tuple[FluentKey, ...]
+    element: Ids
+    prior: Floats
+    strikes: Floats
+    level: Ids
+
+    @cached_property
+    def place(self) -> Mapping[FluentKey, int]:
+        """The index of each element."""
+        return {key: place for place, key in enumerate(self.keys)}
+
+    def touches(self, touched: Iterable[FluentKey]) -> Floats:
+        """Return for each cause whether it is about one of some elements, as 1 or 0."""
+        is_touched = np.zeros(len(self.keys))
+        is_touched[[self.place[key] for key in touched if key in self.place]] = 1.0
+        return is_touched[self.element]
+
+
+@dataclass(frozen=True, eq=False)
 class AgentStateEstimate:
     """What is believed after some outcomes; replaces ``Memory``.
 
-    ``weights`` are the probabilities of the causes; what is missing from 1 is "nothing changed".
+    ``weights`` are the probabilities of the causes, in the order of ``prior.causes``; what is
+    missing from 1 is "nothing changed".
 
     >>> prior = Prior({("motivation", "human"): 1, ("knowledge", "human"): 1})
     >>> start = AgentStateEstimate.begin(prior)
@@ -77,13 +117,21 @@ class AgentStateEstimate:
     """
 
     prior: Prior
-    weights: Mapping[Cause, float] = field(repr=False)
+    weights: Floats = field(repr=False)
     known: frozenset[FluentKey] = frozenset()
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, AgentStateEstimate):
+            return NotImplemented
+        same = self.prior == other.prior and self.known == other.known
+        return same and np.array_equal(self.weights, other.weights)
+
+    __hash__ = None  # type: ignore[assignment]
 
     @classmethod
     def begin(cls, prior: Prior) -> AgentStateEstimate:
         """Return what is believed before anything is observed."""
-        return cls(prior, {cause: prior.changed * p for cause, p in prior.causes.items()})
+        return cls(prior, prior.changed * prior.table.prior)
 
     def failed(self, touched: Iterable[FluentKey]) -> AgentStateEstimate:
         """Return what is believed after an action that ``touched`` touch has failed."""
@@ -104,10 +152,9 @@ class AgentStateEstimate:
 
     def sensed(self, key: FluentKey) -> AgentStateEstimate:
         """Return what is believed once an element's value is known: it needs no estimate."""
-        rest = {cause: p for cause, p in self.weights.items() if cause[0] != key}
-        nothing = 1 - sum(self.weights.values())
-        total = nothing + sum(rest.values())
-        weights = {cause: p / total for cause, p in rest.items()} if total else rest
+        rest = self.weights * (1 - self.prior.table.touches([key]))
+        total = 1 - float(self.weights.sum()) + float(rest.sum())
+        weights = rest / total if total > 0 else rest
         return replace(self, weights=weights, known=self.known | {key})
 
     def blame(self) -> dict[FluentKey, float]:
@@ -119,39 +166,29 @@ class AgentStateEstimate:
 
     def failing(self) -> dict[FluentKey, float]:
         """Return the same without leaving anything out."""
-        risks: dict[FluentKey, float] = {}
-        for cause, p in self.weights.items():
-            risks[cause[0]] = risks.get(cause[0], 0.0) + p * _strikes(cause)
-        return risks
+        table = self.prior.table
+        risks = np.bincount(table.element, self.weights * table.strikes, len(table.keys))
+        by_key = zip(table.keys, risks.tolist(), strict=True)
+        return {key: risk for key, risk in by_key if key not in self.known}
 
     def levels(self, key: FluentKey) -> dict[int, float]:
         """Return how likely an element has changed to each level."""
-        probabilities = dict.fromkeys(self.prior.levels, 0.0)
-        for cause, p in self.weights.items():
-            if cause[0] == key:
-                probabilities[cause[1]] += p
-        return probabilities
+        table = self.prior.table
+        own = self.weights * table.touches([key])
+        return {level: float(own[table.level == level].sum()) for level in self.prior.levels}
 
     def _after_outcome(
         self, touched: frozenset[FluentKey], failure: bool, slip: float | None = None
     ) -> AgentStateEstimate:
         if not touched & self.prior.lows.keys():
             return self
-        nothing = 1 - sum(self.weights.values())
-        changes = nothing * self.prior.hazard
-        before = {
-            cause: self.weights.get(cause, 0.0) + changes * p
-            for cause, p in self.prior.causes.items()
-            if cause[0] not in self.known
-        }
-        slip = self.prior.slip if slip is None else slip
-        after: dict[Cause, float] = {}
-        for cause, p in before.items():
-            well = (1 - slip) * (1 - _strikes(cause) * (cause[0] in touched))
-            after[cause] = p * (1 - well if failure else well)
-        rest = (1 - sum(before.values())) * (slip if failure else 1 - slip)
-        total = rest + sum(after.values())
-        return replace(self, weights={cause: p / total for cause, p in after.items()})
+        table, slip = self.prior.table, self.prior.slip if slip is None else slip
+        changes = (1 - float(self.weights.sum())) * self.prior.hazard
+        before = (self.weights + changes * table.prior) * (1 - table.touches(self.known))
+        well = (1 - slip) * (1 - table.strikes * table.touches(touched))
+        after = before * (1 - well if failure else well)
+        rest = (1 - float(before.sum())) * (slip if failure else 1 - slip)
+        return replace(self, weights=after / (rest + float(after.sum())))
 
 
 def _strikes(cause: Cause) -> float:

@@ -95,6 +95,8 @@ class Profile:
 
     def _value(self, value: Number, low: Number, blame: Number) -> Number:
         p = failure_probability(value, low)
+        if not p and not blame:
+            return low if self.values == "log" else value
         if self.values == "sensed" and not blame:
             return value
         return low + max(self._excess(p) if self.values == "log" else value - low, blame)

@@ -38,6 +38,9 @@ class PricedHelp(Protocol):
         The constant is the same for all weights, in the mean over them.
         """
 
+    def least_costs(self, progress: Progress) -> Floats:
+        """Return ``least_cost`` for each goal if it were certain."""
+
     def to_go(self, progress: Progress, weights: Floats) -> float:
         """Return what is expected to be paid until the goal is reached, from here on."""
 
@@ -60,9 +63,19 @@ class PricedSteps:
         self._costs = np.zeros(self.graph.off + 1)
         self._priced: set[int] = set()
         self._off_costs: dict[int, tuple[PlanGraph, Floats]] = {}
+        self._last: tuple[Progress, bytes, StepChoice] | None = None
 
     def options(self, progress: Progress, weights: Floats) -> StepChoice:
         """Return the steps that some goal has next, and what each is expected to save."""
+        if (
+            self._last is None
+            or self._last[0] is not progress
+            or self._last[1] != weights.tobytes()
+        ):
+            self._last = progress, weights.tobytes(), self._options(progress, weights)
+        return self._last[2]
+
+    def _options(self, progress: Progress, weights: Floats) -> StepChoice:
         next_steps = self.values.next_steps(progress)
         steps = self.values.candidates(progress, next_steps)
         savings, needs = self.values.expected_saving(progress, next_steps, steps, weights)
@@ -73,6 +86,13 @@ class PricedSteps:
 
     def _more(self, progress: Progress, next_steps: NextSteps, weights: Floats) -> Floats:
         """Return how much more than one step each step is expected to save."""
+        more = self._more_by_pair(progress, next_steps, weights)
+        by_goal = more * weights.take(next_steps.goals)
+        sums = np.bincount(next_steps.steps, by_goal, len(self.prices.robot))
+        return sums.astype(np.float64)
+
+    def _more_by_pair(self, progress: Progress, next_steps: NextSteps, weights: Floats) -> Floats:
+        """Return how much more than one step each next step saves the goal that it belongs to."""
         goals, steps = next_steps.goals, next_steps.steps
         self._price_goals(np.flatnonzero(weights > NEGLIGIBLE).tolist())
         nodes = progress.nodes.take(goals)
@@ -88,8 +108,7 @@ class PricedSteps:
                 for i in np.flatnonzero(goals == goal).tolist():
                     after = costs[following[int(steps[i])]]
                     more[i] = costs[node] - after - self.prices.robot[steps[i]]
-        sums = np.bincount(steps, more * weights.take(goals), len(self.prices.robot))
-        return sums.astype(np.float64)
+        return more
 
     def _price_goals(self, goals: Sequence[int]) -> None:
         for goal in goals:
@@ -107,7 +126,20 @@ class PricedSteps:
 
     def least_cost(self, progress: Progress, weights: Floats) -> float:
         """Return what the best step costs compared with waiting."""
-        return -max(0.0, *self.options(progress, weights).values, 0.0)
+        return -max(0.0, 0.0, *self.options(progress, weights).values)
+
+    def least_costs(self, progress: Progress) -> Floats:
+        """Return for each goal what the best step costs if it is certain, compared with waiting."""
+        next_steps = self.values.next_steps(progress)
+        steps = self.values.candidates(progress, next_steps)
+        worth = np.where(np.isin(next_steps.steps, steps), 1.0, 0.0)
+        if self.prices.changes:
+            worth *= 1 + self._more_by_pair(
+                progress, next_steps, np.ones(len(self.values.bank.names))
+            )
+        costs = np.zeros(len(self.values.bank.names))
+        np.minimum.at(costs, next_steps.goals, -worth)
+        return costs
 
     def to_go(self, progress: Progress, weights: Floats) -> float:
         """Return what is expected to be paid until the goal is reached, after a wait."""
@@ -144,7 +176,7 @@ class PricedTeam:
         self.values, self.prices = values, prices
         self._priced = PricedMoves(moves, prices) if prices.changes else None
         self.moves = moves if self._priced is None else self._priced
-        self.help = TeamHelp(self.moves, prices.extra)
+        self.help = _RemembersCosts(self.moves, prices.extra)
 
     def options(self, progress: Progress, weights: Floats) -> StepChoice:
         """Return how much time each step of the next robot is expected to save."""
@@ -160,6 +192,12 @@ class PricedTeam:
         costs = self.help.costs(progress.world, self._moment(progress, weights), weights)
         return float(costs.min())
 
+    def least_costs(self, progress: Progress) -> Floats:
+        """Return what the best step or wait costs for each goal if that is certain."""
+        moment = self.values.next_robot(progress)
+        costs: Floats = self.moves.choices(progress.world, moment).costs.min(axis=1)
+        return costs
+
     def to_go(self, progress: Progress, weights: Floats) -> float:
         """Return what is expected to be paid until the goal is reached, after a wait."""
         moment = self.moves.after(self._moment(progress, weights), None)
@@ -171,6 +209,20 @@ class PricedTeam:
         choices = self.moves.choices(progress.world, self.values.next_robot(progress))
         is_next = choices.is_next[:, choices.place(step)]
         return int((is_next & (weights > NEGLIGIBLE)).sum())
+
+
+class _RemembersCosts(TeamHelp):
+    """The same, which does not look ahead twice for one decision."""
+
+    _last: tuple[int, Moment, bytes] | None = None
+    _last_costs: Floats
+
+    def costs(self, world: int, moment: Moment, weights: Floats) -> Floats:
+        """Return the expected cost of each step that a robot can do, and then of waiting."""
+        key = world, moment, weights.tobytes()
+        if key != self._last:
+            self._last_costs, self._last = super().costs(world, moment, weights), key
+        return self._last_costs
 
 
 class PricedMoves(TeamMoves):
@@ -197,7 +249,7 @@ class PricedMoves(TeamMoves):
             if goal not in self._tables:
                 extra = self.extra[[op.step for op in self.bank.table.ops]]
                 self._tables[goal] = self.inner.costs.priced(goal, extra + ACTION, 1.0)
-                self._by_moment = {}
+                self._by_moment = {}  # made without this goal's costs
 
     def choices(self, world: int, moment: Moment) -> TeamChoices:
         """Return what the agent whose turn it is can do, with its costs at the present prices."""

@@ -12,7 +12,7 @@ from hrcplan.core.arrays import Floats
 
 MAX_ANSWERS = 4  # besides "something else"
 LEAST = 0.02  # the probability of a goal that is asked about
-ASK_PRICE = 0.5  # steps that a first question costs
+ASK_PRICE = 1.0  # steps that a first question costs
 IDLE_SHARE = 0.5  # of the price, where people stand still anyway
 WRONG = 0.02  # the probability of an answer that is not true
 
@@ -31,7 +31,7 @@ def question_price(n_asked: int, people_wait: bool) -> float:
     So their number is limited by what an answer can be worth.
 
     >>> question_price(0, False), question_price(1, True)
-    (0.5, 0.5)
+    (1.0, 1.0)
     """
     return ASK_PRICE * (1 + n_asked) * (IDLE_SHARE if people_wait else 1.0)
 
@@ -50,21 +50,17 @@ def best_question(
         weights: The probability of each goal.
         price: What the question costs.
     """
+    now, certain = helper.least_cost(progress, weights), helper.least_costs(progress)
+    if now - float(weights @ certain) <= price:
+        return None  # not even worth it if every goal could be told apart
     order = np.argsort(-weights, kind="stable")[:MAX_ANSWERS]
     goals = [int(goal) for goal in order if weights[goal] >= LEAST]
-    if len(goals) <= 1 and weights[goals].sum() > 1 - LEAST:
-        return None
-    cost = 0.0
-    for goal in goals:
-        cost += weights[goal] * helper.least_cost(progress, one_goal(len(weights), goal))
-    rest = weights.copy()
+    cost, rest = float(weights[goals] @ certain[goals]), weights.copy()
     rest[goals] = 0.0
     share = float(rest.sum())
-    if share > LEAST:
+    if share > 0:
         cost += share * helper.least_cost(progress, rest / share)
-    else:
-        cost /= 1 - share
-    worth = helper.least_cost(progress, weights) - float(cost) - price
+    worth = now - cost - price
     return GoalQuestion(tuple(goals), worth) if worth > 0 else None
 
 

@@ -75,11 +75,15 @@ class AgentFold:
         return self._beliefs[-1]
 
     def values(self, belief: AgentBelief) -> dict[FluentKey, Number]:
-        """Return the function values that planners get."""
+        """Return the function values that planners get; none where all agent states are low."""
+        if not belief.sensed and not belief.experience.blame():
+            return {}
         return self.profile.planner_values(self.agents, belief.sensed, belief.experience)
 
     def after_interaction(self, belief: AgentBelief, action: BegunAction) -> AgentBelief:
         """Return what is believed once an interaction has had its effect."""
+        if not self.agents.is_interaction(action.action):
+            return belief
         step = self.model.actions.step(action.planned)
         assert step is not None
         values = {**self.values(belief), **belief.sensed}

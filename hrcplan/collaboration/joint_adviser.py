@@ -154,7 +154,7 @@ class JointAdviser:
     ) -> Iterator[PossibleInteraction]:
         """Yield what robots could do for the state of another agent now."""
         values = self.agents.values(agents)
-        if not self._ground_interactions or values == self.agents.values(self.agents.start):
+        if not self._ground_interactions or not values:
             return
         state, running = state_after(history, self.setup.model.actions)
         busy = {
