@@ -238,10 +238,14 @@ def test_a_name_says_what_a_thing_is() -> None:
 
 
 def test_parameters_have_types() -> None:
-    """Anything is accepted only where another program decides what is passed on."""
+    """Anything is accepted only where another program decides what is passed on.
+
+    The two programs that run on the Python of ROS speak with ROS only, which has no types.
+    """
     parameters = [
         f"{module}.{function.name}({parameter.arg})"
         for module, tree in TREES.items()
+        if module not in ("hrcplan.execution.links.ros.bridge", "hrcplan.execution.links.ros.robot")
         for function in ast.walk(tree)
         if isinstance(function, ast.FunctionDef)
         for parameter in ast.walk(function.args)

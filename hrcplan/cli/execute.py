@@ -75,8 +75,9 @@ HELP = """Carry out DOMAIN PROBLEM with a simulated human, and replan before act
     "--robot",
     metavar="LINK",
     help="What carries out the robots' actions, in real time: 'cmd:PROGRAM' (speaks JSON lines), "
-    "simulated, an installed link, or module:Class.",
+    "ros:MAPPING.toml, plansys2, simulated, an installed link, or module:Class.",
 )
+@options.ros_python
 @options.planner("Which planner to ask first; if it fails, others are asked.")
 @options.timeout("Seconds for each plan.", 20.0)
 @click.option("--no-model", is_flag=True, help="Do not use sensed values.")
@@ -117,6 +118,7 @@ def command(
     human: str,
     world: str,
     robot: str | None,
+    ros_python: str | None,
     planner: str,
     timeout: float,
     no_model: bool,
@@ -138,7 +140,7 @@ def command(
     prepared_run = prepare_run(
         problem, profile=profile_name, human=human, changes=changes, model=not no_model,
         planner=planner, seed=seed, replan_limit=replan_limit, timeout_s=timeout, world=world,
-        robot=robot, speed=speed or 1.0,
+        robot=robot, speed=speed or 1.0, ros_python=ros_python,
     )  # fmt: skip
     _check_initial(prepared_run.engine.model.agents, settings)
     live = Live(problem, None if robot else speed)

@@ -151,6 +151,14 @@ def settings(function: F) -> F:
     )(function)  # fmt: skip
 
 
+def ros_python(function: F) -> F:
+    """Add the option ``--ros-python``."""
+    return click.option(
+        "--ros-python", metavar="PATH",
+        help="The Python that has ROS 2, for robots of ROS; by default python3.",
+    )(function)  # fmt: skip
+
+
 def picture(option: str, help_text: str) -> Callable[[F], F]:
     """Return an option that takes the file of a picture."""
     return click.option(

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, Generic, Protocol, TypeVar
+from typing import Any, Generic, Protocol, TypeVar, runtime_checkable
 
 from hrcplan.execution import events as ev
 from hrcplan.execution.codec import Item
@@ -68,6 +68,14 @@ class DrivenWorld(Protocol[E_co, C_contra]):
 
     def next(self) -> tuple[E_co, ...]:
         """Return the events of the next instant; none if nothing can happen any more."""
+
+
+@runtime_checkable
+class KeepsDeadlines(Protocol):
+    """A world that may judge itself which actions last too long."""
+
+    keeps_deadlines: bool
+    """Whether it does; the loop judges them otherwise."""
 
 
 class AnswersQuestions(Protocol[C_contra]):
@@ -147,7 +155,8 @@ class Driver(Generic[R, E, C]):
             run, ask = self._step(run, event)
             run = self._with_answer(run, ask)
             t = max(t, event.t)
-        for action in run.running:
+        keeps_deadlines = isinstance(self.world, KeepsDeadlines) and self.world.keeps_deadlines
+        for action in () if keeps_deadlines else run.running:
             if t > action.begun_s + PATIENCE * action.duration_s + ev.INSTANT_S:
                 run, ask = self._step(run, ev.Overdue(t, action.number))
         run, ask = self._step(run, ev.Settled(t))

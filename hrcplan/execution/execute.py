@@ -19,7 +19,7 @@ from hrcplan.execution.changes import WorldChange
 from hrcplan.execution.driver import PlanProvider, RunWatch
 from hrcplan.execution.events import FAILED, Command, Event
 from hrcplan.execution.journal import Journal, JournalFile, JournalWriter, RunSetup, open_journal
-from hrcplan.execution.links import LINKS, RobotLink
+from hrcplan.execution.links import RobotLink, make_link
 from hrcplan.execution.links.world import LinkWorld
 from hrcplan.execution.model import ExecutionModel
 from hrcplan.execution.monitor import Monitor
@@ -132,7 +132,8 @@ def execute(
         journal: Where to write the run down.
         resume: Continue the run in the journal, if there is one.
         robot: What carries out the robots' actions instead of the simulation, in real time:
-            ``cmd:PROGRAM``, ``simulated``, ``module:Class``, or a `RobotLink`.
+            ``cmd:PROGRAM``, ``ros:MAPPING.toml``, ``plansys2``, ``simulated``, ``module:Class``,
+            or a `RobotLink`.
         speed: With a robot: seconds of the run in a real second.
 
     Raises:
@@ -163,12 +164,13 @@ def prepare_run(
     planner: str | Planner = "auto", seed: int | str = 1, replan_limit: int | None = None,
     timeout_s: float = DEFAULT_TIMEOUT_S, world: str = SIMULATED,
     provider: PlanProvider | None = None, robot: str | RobotLink | None = None,
-    speed: float = 1.0,
+    speed: float = 1.0, ros_python: str | None = None,
 ) -> PreparedRun:  # fmt: skip
     """Return a run that is ready to begin; what chance decides is drawn here.
 
     Args as for `execute`. ``timeout_s``: seconds per plan. ``world``: a name in ``EVENT_WORLDS``.
-    ``provider``: answers requests for plans instead of the planners.
+    ``provider``: answers requests for plans instead of the planners. ``ros_python``: the Python
+    of ROS.
 
     Raises:
         UnsupportedError: if the problem has a construct that an execution cannot hold.
@@ -189,19 +191,8 @@ def prepare_run(
     nature = nature_for(human, Spec(seed=seed), engine, changes)
     world = ROBOT if robot is not None else world
     setup = RunSetup(problem, engine.monitor.profile, model, nature, names, world)
-    return PreparedRun(setup, engine, timeout_s, _robot(robot, execution_model), speed)
-
-
-def _robot(robot: str | RobotLink | None, model: ExecutionModel) -> RobotLink | None:
-    """Return the link to a robot, if one is wanted.
-
-    Raises:
-        UsageError: if there is no such link, or no agent of the problem takes commands.
-    """
-    if robot is not None and not model.agents.robots:
-        hint = "(controllable AGENT) in the initial state says which agents take commands"
-        raise UsageError("no agent of this problem takes commands", code="no-robot", hint=hint)
-    return LINKS.make(robot) if isinstance(robot, str) else robot
+    link = None if robot is None else make_link(robot, problem, ros_python)
+    return PreparedRun(setup, engine, timeout_s, link, speed)
 
 
 def _planners(planner: str | Planner) -> tuple[str | Planner, ...]:

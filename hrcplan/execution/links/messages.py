@@ -9,6 +9,8 @@ the number ``n`` of the dispatch where one is meant::
     {"event": "ended", "n": 7, "outcome": "done"}   (failed, cancelled, unknown; "why")
     {"event": "observed", "facts": ["at robot wp3"], "absent": ["at robot wp1"]}
     {"event": "sensed", "values": {"motivation human": 8}}
+    {"event": "said", "agent": "human", "text": "I take the blue box"}
+    {"event": "begun", "agent": "human", "action": "move", "args": ["human", "wp1", "wp4"]}
     {"event": "stop", "why": "…"}                   {"event": "release"}
 """
 
@@ -26,6 +28,7 @@ from hrcplan.execution import events as ev
 from hrcplan.pddl.model import Fact, FluentKey
 
 _SHOWN = 120  # characters of a line that is quoted
+_SAID = 2000  # characters of what a person says
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,6 +86,23 @@ class ValuesSensed:
 
 
 @dataclass(frozen=True, slots=True)
+class PersonSaid:
+    """A person said something; "" is the agent if it is not clear who."""
+
+    agent: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class PersonBegun:
+    """A person has begun an action."""
+
+    agent: str
+    action: str
+    args: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class StopPressed:
     """An emergency stop: everything is cancelled, and nothing begins until it is released."""
 
@@ -110,7 +130,7 @@ class LinkEnded:
 
 LinkMessage = (
     LinkReady | Accepted | Rejected | Feedback | ActionEnded | FactsObserved | ValuesSensed
-    | StopPressed | StopReleased | BadLine | LinkEnded
+    | PersonSaid | PersonBegun | StopPressed | StopReleased | BadLine | LinkEnded
 )  # fmt: skip
 
 
@@ -184,6 +204,11 @@ def _values(document: Mapping[str, Any]) -> ValuesSensed:
     return ValuesSensed(values)
 
 
+def _begun(document: Mapping[str, Any]) -> PersonBegun:
+    action, *args = _words(" ".join([document["action"], *document.get("args", ())]))
+    return PersonBegun(_text(document, "agent").lower(), action, tuple(args))
+
+
 _READERS: Mapping[str, Callable[[Mapping[str, Any]], LinkMessage]] = {
     "ready": lambda d: LinkReady(tuple(map(str, d.get("agents", ())))),
     "accepted": lambda d: Accepted(_number(d)),
@@ -192,6 +217,8 @@ _READERS: Mapping[str, Callable[[Mapping[str, Any]], LinkMessage]] = {
     "ended": _ended,
     "observed": lambda d: FactsObserved(_facts(d, "facts"), _facts(d, "absent")),
     "sensed": _values,
+    "said": lambda d: PersonSaid(_text(d, "agent").lower(), cut(harmless(str(d["text"])), _SAID)),
+    "begun": _begun,
     "stop": lambda d: StopPressed(_text(d, "why")),
     "release": lambda d: StopReleased(),
 }

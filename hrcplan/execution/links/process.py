@@ -34,9 +34,9 @@ class ProcessLink:
             raise UsageError(f"cmd:{command} is no command line: {error}") from None
         if not self.argv:
             raise UsageError("cmd: needs a program", hint="for example cmd:my-robot --port 1")
-        self.command = command
+        self.name = f"cmd:{command}"
         self._program: LineProcess | None = None
-        self._lock: int | None = None
+        self._locks: list[int] = []
         self._n_useless = 0
 
     def start(self) -> None:
@@ -49,13 +49,25 @@ class ProcessLink:
         """
         if shutil.which(self.argv[0]) is None:
             raise MissingPlannerError(f"there is no program '{self.argv[0]}'")
-        if self._lock is None:
-            self._lock = _lock(self.command)
+        if not self._locks:
+            self._locks = _locks(self._resources())
         self._end_program()
         try:
-            self._program = LineProcess(self.argv, cwd=Path.cwd())
+            self._program = LineProcess(self.argv, cwd=Path.cwd(), env=self._environment())
         except OSError as error:
-            raise PlannerError(f"cmd:{self.command} cannot be started: {error}") from None
+            raise PlannerError(f"{self.name} cannot be started: {error}") from None
+
+    def _resources(self) -> Sequence[str]:
+        """Return the names of what no other run may use at the same time."""
+        return [self.name]
+
+    def _environment(self) -> Mapping[str, str] | None:
+        """Return the environment of the program; None for that of hrcplan."""
+        return None
+
+    def _message(self, line: str | None) -> LinkMessage | None:
+        """Return what a line says; None if it is of no interest."""
+        return message_of(line)
 
     def send(self, message: Mapping[str, JsonValue]) -> bool:
         """Send a message; return whether the program takes it."""
@@ -67,7 +79,8 @@ class ProcessLink:
         if program is None:
             return [LinkEnded("it was never started")]
         before = program.n_bytes
-        messages: list[LinkMessage] = [message_of(line) for line in program.read_lines(timeout_s)]
+        lines = program.read_lines(timeout_s)
+        messages = [m for line in lines if (m := self._message(line)) is not None]
         self._n_useless += program.n_bytes - before
         if not all(isinstance(message, BadLine | Feedback) for message in messages):
             self._n_useless = 0
@@ -88,9 +101,9 @@ class ProcessLink:
     def close(self) -> None:
         """End the program, and all that it started."""
         self._end_program()
-        if self._lock is not None:
-            os.close(self._lock)
-            self._lock = None
+        for lock in self._locks:
+            os.close(lock)
+        self._locks = []
 
 
 class SimulatedRobot(ProcessLink):
@@ -99,31 +112,48 @@ class SimulatedRobot(ProcessLink):
     def __init__(self) -> None:
         super().__init__(shlex.join([sys.executable, "-m", "hrcplan", "robot", "--simulated"]))
 
-    def start(self) -> None:
-        """Start the program; any number of simulated robots may run."""
-        self._end_program()
-        self._program = LineProcess(self.argv, cwd=Path.cwd())
+    def _resources(self) -> Sequence[str]:
+        """Return no names: any number of simulated robots may run."""
+        return []
 
 
-def _lock(command: str) -> int | None:
-    """Return the open lock of a command; None if there is no folder for locks.
+def _locks(names: Sequence[str]) -> list[int]:
+    """Return the open locks of what a run uses; none if there is no folder for locks.
+
+    Raises:
+        UsageError: if another process holds one.
+    """
+    folder = cache_folder()
+    locks: list[int] = []
+    if folder is None:
+        return locks
+    for name in names:
+        try:
+            lock = _lock(folder, name)
+        except UsageError:
+            for other in locks:
+                os.close(other)
+            raise
+        locks += [] if lock is None else [lock]
+    return locks
+
+
+def _lock(folder: Path, name: str) -> int | None:
+    """Return the open lock of a name; None if it cannot be written.
 
     Raises:
         UsageError: if another process holds it.
     """
-    folder = cache_folder()
-    if folder is None:
-        return None
-    name = hashlib.sha256(command.encode()).hexdigest()[:16]
+    file_name = hashlib.sha256(name.encode()).hexdigest()[:16]
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        lock = os.open(folder / f"robot-{name}.lock", os.O_RDWR | os.O_CREAT, 0o600)
+        lock = os.open(folder / f"robot-{file_name}.lock", os.O_RDWR | os.O_CREAT, 0o600)
     except OSError:
         return None
     try:
         fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError:
         os.close(lock)
-        message = f"another run drives the robot of cmd:{command}"
+        message = f"another run drives the robot of {name}"
         raise UsageError(message, code="robot-busy", hint="end it first") from None
     return lock

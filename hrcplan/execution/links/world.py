@@ -8,16 +8,18 @@ action without an answer has the outcome *unknown*, and what is observed then sa
 from __future__ import annotations
 
 import time
+from collections import deque
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from hrcplan.core.numbers import Number, exact
 from hrcplan.errors import UsageError
 from hrcplan.execution import events as ev
+from hrcplan.execution.action_model import UNIT_S
 from hrcplan.execution.changes import checked_changes
 from hrcplan.execution.driver import PATIENCE
 from hrcplan.execution.events import Command, Event
-from hrcplan.execution.links import RobotLink
+from hrcplan.execution.links import LimitsActions, RobotLink
 from hrcplan.execution.links import messages as msg
 from hrcplan.execution.links.clock import RunClock
 from hrcplan.execution.links.session import LinkSession
@@ -27,6 +29,7 @@ from hrcplan.pddl.model import FluentKey
 
 ACCEPT_S = 2.0  # how long it may take to accept or refuse an action, to cancel, and to observe
 MAX_TRIES = 3  # how often an action is asked for
+STEP_LIMIT_S = 60.0  # how long a step may take whose duration no one knows
 MAX_FAULTS = 20  # reported per run
 _FEEDBACK_S = 1.0  # between two reports of how far an action is
 _LONG_S = 3600.0
@@ -34,12 +37,18 @@ _LONG_S = 3600.0
 
 @dataclass(slots=True)
 class _Request:
-    """An action that the link was asked for; ``until_s`` (real time) an answer has to come."""
+    """An action that the link was asked for; ``until_s`` (real time) an answer has to come.
+
+    ``limit_s``: how long it may take in all; ``deadline_s`` is then, on the real clock.
+    """
 
     dispatch: ev.Dispatch
     until_s: float
+    limit_s: float
+    deadline_s: float
     n_tries: int = 1
     is_accepted: bool = False
+    is_overdue: bool = False
     feedback_s: float = float("-inf")
 
 
@@ -47,13 +56,20 @@ class LinkWorld:
     """Carries actions out through a link, and simulates the agents that it does not serve.
 
     ``speed``: seconds of the run in a second of the clock.
+
+    Attributes:
+        reports: What people have said and begun, as the link says, if ``hears_people``.
+        hears_people: Whether these reports are taken.
     """
+
+    keeps_deadlines = True
 
     def __init__(
         self, model: ExecutionModel, nature: Nature, link: RobotLink, *, speed: float = 1.0,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:  # fmt: skip
         self.model = model
+        self.link = link
         self.clock = RunClock(speed, clock)
         self.session = LinkSession(link, model, self.clock)
         self.simulated = SimulatedWorld(model, nature)
@@ -61,6 +77,8 @@ class LinkWorld:
         self._outcomes: dict[int, str] = {}  # of the actions that have ended
         self._waiting: list[Command] = []  # while an emergency stop lasts
         self._n_faults = 0
+        self.reports: deque[msg.PersonSaid | msg.PersonBegun] = deque()
+        self.hears_people = False
 
     def begin(self) -> tuple[Event, ...]:
         """Start the link and return what is seen at time 0.
@@ -97,17 +115,28 @@ class LinkWorld:
 
     def _dispatch(self, command: ev.Dispatch) -> None:
         self.simulated.begin_action(command)
-        self._requests[command.number] = _Request(command, self.clock.real_s + ACCEPT_S)
-        limit_s = PATIENCE * command.duration_s
-        # The monitor judges what is overdue whenever something happens: so something has to.
-        self.simulated.wake_at(self.clock.now_s + limit_s + 2 * ev.INSTANT_S)
-        self._send_dispatch(command)
+        now_s, limit_s = self.clock.real_s, self._limit_s(command)
+        request = _Request(command, now_s + ACCEPT_S, limit_s, now_s + limit_s)
+        self._requests[command.number] = request
+        self._send_dispatch(request)
 
-    def _send_dispatch(self, command: ev.Dispatch) -> None:
+    def _limit_s(self, command: ev.Dispatch) -> float:
+        """Return how many real seconds an action may take."""
+        limit_s = (
+            self.link.limit_s(command.action) if isinstance(self.link, LimitsActions) else None
+        )
+        if limit_s is not None:
+            return limit_s
+        if command.duration_s == UNIT_S:  # a step whose duration is not known
+            return STEP_LIMIT_S
+        return PATIENCE * command.duration_s / self.clock.speed
+
+    def _send_dispatch(self, request: _Request) -> None:
+        command = request.dispatch
         self.session.send({
             "do": "dispatch", "n": command.number, "agent": command.agent, "action": command.action,
             "args": list(command.args), "duration_s": command.duration_s / self.clock.speed,
-            "limit_s": PATIENCE * command.duration_s / self.clock.speed,
+            "limit_s": request.limit_s,
         })  # fmt: skip
 
     def _cancel(self, number: int) -> None:
@@ -137,7 +166,12 @@ class LinkWorld:
         while (due := self.simulated.next_s) is not None and due <= self.clock.now_s:
             events += self.simulated.next()
         for number, request in list(self._requests.items()):
-            if self.clock.real_s >= request.until_s and not self.clock.is_stopped:
+            if self.clock.is_stopped:
+                continue
+            if self.clock.real_s >= request.deadline_s and not request.is_overdue:
+                request.is_overdue = True
+                events.append(ev.Overdue(self.clock.now_s, number))
+            elif self.clock.real_s >= request.until_s:
                 events += self._ask_again(number, request)
         return events
 
@@ -147,10 +181,14 @@ class LinkWorld:
 
     def _wait_s(self) -> float:
         """Return for how many real seconds nothing can happen but a message."""
-        times = [request.until_s - self.clock.real_s for request in self._requests.values()]
+        times = [self._next_s(request) - self.clock.real_s for request in self._requests.values()]
         if self.simulated.next_s is not None:
             times.append(self.clock.real_until(self.simulated.next_s))
         return _LONG_S if self.clock.is_stopped else max(0.0, min([*times, _LONG_S]))
+
+    def _next_s(self, request: _Request) -> float:
+        """Return when something is due about an action, on the real clock."""
+        return request.until_s if request.is_overdue else min(request.until_s, request.deadline_s)
 
     def _take(self, message: msg.LinkMessage) -> Iterable[Event]:
         match message:
@@ -168,6 +206,9 @@ class LinkWorld:
                 return self._fault(reason)
             case msg.LinkReady():
                 return ()
+            case msg.PersonSaid() | msg.PersonBegun():
+                self.reports.append(message)
+                return () if self.hears_people else self._fault("hrcplan collaborate hears people")
         return self._answer(message)
 
     def _answer(
@@ -220,9 +261,11 @@ class LinkWorld:
         return [self._notice("robot", f"{request.dispatch}: {text}")]
 
     def _end(self, number: int, outcome: str) -> Sequence[Event]:
-        self._requests.pop(number, None)
+        """End an action; one that was too late has ended for the monitor already."""
+        request = self._requests.pop(number, None)
         self._outcomes[number] = outcome
-        return self.simulated.end_action(self.clock.now_s, number, outcome)
+        events = self.simulated.end_action(self.clock.now_s, number, outcome)
+        return () if request is not None and request.is_overdue else events
 
     def _ask_again(self, number: int, request: _Request) -> Iterable[Event]:
         """Ask for an action again that was not accepted; give it up after some tries."""
@@ -232,7 +275,7 @@ class LinkWorld:
             return self._unknown(number, "the robot does not answer")
         request.n_tries += 1
         request.until_s = self.clock.real_s + ACCEPT_S
-        self._send_dispatch(request.dispatch)
+        self._send_dispatch(request)
         return ()
 
     def _unknown(self, number: int, why: str) -> Iterable[Event]:
