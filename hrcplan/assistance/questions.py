@@ -52,7 +52,7 @@ def best_question(
     """
     now, certain = helper.least_cost(progress, weights), helper.least_costs(progress)
     if now - float(weights @ certain) <= price:
-        return None  # not even worth it if every goal could be told apart
+        return None  # not even worth it if the answer named the goal
     order = np.argsort(-weights, kind="stable")[:MAX_ANSWERS]
     goals = [int(goal) for goal in order if weights[goal] >= LEAST]
     cost, rest = float(weights[goals] @ certain[goals]), weights.copy()
