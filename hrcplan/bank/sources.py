@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -9,7 +10,7 @@ from hrcplan.bank import ramirez_geffner
 from hrcplan.bank.goals import Goals, SourceFile, from_problems
 from hrcplan.core.text import quote
 from hrcplan.errors import InputError
-from hrcplan.pddl import library
+from hrcplan.pddl import inputs, library
 from hrcplan.pddl.check import domain_in, problem_in
 from hrcplan.pddl.reader import GroupNode, read
 
@@ -39,6 +40,25 @@ def read_goals(domain: str, goals: str | None = None) -> Goals:
         files = (SourceFile.read(folder / part) for part in parts)
         return goals_in((first, *files), ramirez_geffner.KIND)
     return goals_in((first, *_problem_files(domain, first, folder)))
+
+
+def goals_named(domain: str, goals: str | None = None) -> Goals:
+    """Return the goals that words name: those of `read_goals`, or that of one problem.
+
+    Args:
+        domain: As for `read_goals`, or a domain and a problem in one word (``transport/two-boxes``).
+        goals: As for `read_goals`, or the path of a problem.
+
+    Raises:
+        PddlError: with every fault of the first file that has any.
+        InputError: as `read_goals` does.
+    """
+    is_pair = goals is None and domain.count("/") == 1 and not domain.endswith(".pddl")
+    if is_pair and not os.path.exists(domain):
+        return from_problems([inputs.read(*domain.split("/"))])
+    if goals is not None and goals.endswith(".pddl") and not os.path.isdir(goals):
+        return from_problems([inputs.read(domain, goals)])
+    return read_goals(domain, goals)
 
 
 def goals_in(files: tuple[SourceFile, ...], kind: str = "problems") -> Goals:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Hashable
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,7 +13,7 @@ from hrcplan.core.text import plural
 from hrcplan.errors import UsageError
 
 if TYPE_CHECKING:
-    from hrcplan.bank import Bank, Goals
+    from hrcplan.bank import Bank
     from hrcplan.cli.narrator import Narrator
     from hrcplan.collaboration.collaborate import Collaboration, CollaborationParts
     from hrcplan.collaboration.events import SharedCommand, SharedEvent
@@ -63,11 +62,12 @@ def command(
     change your mind. It ends when a goal holds and you say that this was all. With one goal the
     robot follows the best plan, and tells you your part of it.
     """
+    from hrcplan.bank.sources import goals_named
     from hrcplan.cli.lines import EndOfInputError
     from hrcplan.collaboration.collaborate import bank_for, carry_out_collaboration, make_setup
 
     output.LINES = output.JSON
-    bank = bank_for(_goals(domain, goals))
+    bank = bank_for(goals_named(domain, goals))
     spec = {"name": "frontier" if human == SIMULATED else human}
     setup = make_setup(bank, pace=pace, method=method, seed=seed, human=spec)
     _check_method(setup, len(bank.names))
@@ -86,19 +86,6 @@ def command(
         return EXIT_NO
     _finish(done)
     return 0 if done.outcome.success else EXIT_NO
-
-
-def _goals(domain: str, goals: str | None) -> Goals:
-    """Return the goals: a folder of them, those shipped, or that of one problem."""
-    from hrcplan.bank import from_problems, read_goals
-    from hrcplan.pddl.inputs import read
-
-    is_pair = goals is None and domain.count("/") == 1 and not domain.endswith(".pddl")
-    if is_pair and not os.path.exists(domain):
-        return from_problems([read(*domain.split("/"))])
-    if goals is not None and goals.endswith(".pddl") and not os.path.isdir(goals):
-        return from_problems([read(domain, goals)])
-    return read_goals(domain, goals)
 
 
 def _check_method(setup: CollaborationSetup, n_goals: int) -> None:

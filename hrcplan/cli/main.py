@@ -31,6 +31,7 @@ COMMANDS = {
     "validate": "hrcplan.cli.validate",
     "execute": "hrcplan.cli.execute",
     "collaborate": "hrcplan.cli.collaborate",
+    "serve": "hrcplan.cli.serve",
     "robot": "hrcplan.cli.robot",
     "replay": "hrcplan.cli.replay",
     "check": "hrcplan.cli.check",

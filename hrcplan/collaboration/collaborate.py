@@ -187,7 +187,7 @@ PartsMaker = Callable[[CollaborationSetup], CollaborationParts]
 
 def carry_out_collaboration(
     setup: CollaborationSetup, make_parts: PartsMaker, *, journal: Path | None = None,
-    resume: bool = False, watch: CollaborationWatch | None = None,
+    resume: bool = False, watch: CollaborationWatch | None = None, watch_all: bool = False,
 ) -> Collaboration:  # fmt: skip
     """Return the finished collaboration; a resumed one takes the setup of its journal.
 
@@ -197,6 +197,7 @@ def carry_out_collaboration(
         journal: Where to write it down.
         resume: Continue the collaboration in the journal, if there is one.
         watch: Is called after every step of the machine that is not repeated from a journal.
+        watch_all: Let ``watch`` see the repeated steps, too.
 
     Raises:
         InputError: if the journal is damaged or of other PDDL.
@@ -214,7 +215,7 @@ def carry_out_collaboration(
             writer = JournalWriter.begin(file, setup, FORMAT, KINDS)
         elif file is not None and past is not None:
             writer = JournalWriter.resume(file, past, KINDS)
-        run = parts.run(writer, _watch_after(writer, watch))
+        run = parts.run(writer, watch if watch_all else _watch_after(writer, watch))
         outcome = collaboration_outcome(run)
         if writer is not None:
             writer.finish(outcome)
