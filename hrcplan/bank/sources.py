@@ -46,7 +46,7 @@ def goals_named(domain: str, goals: str | None = None) -> Goals:
     """Return the goals that words name: those of `read_goals`, or that of one problem.
 
     Args:
-        domain: As for `read_goals`, or a domain and a problem in one word (``transport/two-boxes``).
+        domain: As for `read_goals`, or domain and problem in one word (``transport/two-boxes``).
         goals: As for `read_goals`, or the path of a problem.
 
     Raises:

@@ -22,8 +22,10 @@ if TYPE_CHECKING:
 @click.argument("journal", type=click.Path(path_type=Path))
 @click.option("--trace", type=click.Path(path_type=Path), metavar="FILE",
               help="Also write what was done, for hrcplan infer.")  # fmt: skip
+@click.option("--html", "page", type=click.Path(path_type=Path), metavar="FILE",
+              help="Also write a page that shows the run, with a slider over time.")  # fmt: skip
 @output.common_options
-def command(journal: Path, trace: Path | None) -> int:
+def command(journal: Path, trace: Path | None, page: Path | None) -> int:
     """Check that every decision in JOURNAL follows from what was written before it.
 
     JOURNAL was written by 'hrcplan execute' or 'hrcplan collaborate'.
@@ -31,10 +33,15 @@ def command(journal: Path, trace: Path | None) -> int:
     from hrcplan.execution.journal import read_journal
 
     check_target(trace, journal)
+    check_target(page, journal)
     content = read_journal(journal)
     check = _replay(content)
     if trace is not None:
         output.write_atomically(trace, _trace(content).text())
+    if page is not None:
+        from hrcplan.web.replay_page import replay_page
+
+        output.write_atomically(page, replay_page(content))
     difference = check.difference
     if output.JSON:
         place = difference and {

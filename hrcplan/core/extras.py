@@ -17,6 +17,9 @@ EXTRA_OF = {
     "joblib": ("joblib", "studies"),
     "sklearn": ("scikit-learn", "studies"),
     "matplotlib": ("matplotlib", "studies"),
+    "starlette": ("starlette", "web"),
+    "uvicorn": ("uvicorn", "web"),
+    "sse_starlette": ("sse-starlette", "web"),
 }
 """By module: the name of its package, and the extra of hrcplan that installs it."""
 

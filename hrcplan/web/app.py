@@ -7,18 +7,20 @@ import json
 from collections.abc import AsyncIterator, Awaitable, Callable
 from concurrent.futures import Future
 from typing import Any
+from urllib.parse import parse_qs, quote
 
 from sse_starlette import EventSourceResponse, ServerSentEvent
 from starlette.applications import Starlette
 from starlette.requests import Request
-from starlette.responses import JSONResponse, RedirectResponse, Response
+from starlette.responses import HTMLResponse, JSONResponse, RedirectResponse, Response
 from starlette.routing import Route
 
 from hrcplan.errors import HrcplanError, InputError, UsageError
 from hrcplan.web.board import Board
-from hrcplan.web.frontend import FRONTEND, PAGE
+from hrcplan.web.frontend import FRONTEND
 from hrcplan.web.live_session import LiveSession
-from hrcplan.web.safety import AccessRules, Guard, RateLimit
+from hrcplan.web.pages import home_page, live_page
+from hrcplan.web.safety import AccessRules, Guard, RateLimit, RefusalError
 from hrcplan.web.sessions import Sessions, spec_of
 from hrcplan.web.worlds import offers
 
@@ -46,14 +48,17 @@ class PageApp:
         routes = [
             Route("/", self._index),
             Route("/static/{name}", self._static),
-            Route("/api/home", self._answered(self._home)),
-            Route("/api/sessions", self._answered(self._begin), methods=["POST"]),
+            Route("/begin", self._answered(self._begin), methods=["POST"]),
+            Route("/c", self._side_by_side),
+            Route("/c/{names}", self._answered(self._live)),
             Route("/api/sessions/{name}", self._answered(self._delete), methods=["DELETE"]),
             Route("/api/sessions/{name}/events", self._answered(self._event), methods=["POST"]),
             Route("/api/sessions/{name}/why", self._answered(self._why)),
             Route("/api/stream", self._answered(self._stream)),
         ]
-        return Guard(Starlette(routes=routes), self.rules, limit)
+        return Guard(
+            Starlette(routes=routes, exception_handlers={RefusalError: _refused}), self.rules, limit
+        )
 
     def _answered(self, handler: Handler) -> Handler:
         """Return a handler whose errors are answers."""
@@ -73,30 +78,44 @@ class PageApp:
     async def _index(self, request: Request) -> Response:
         token = request.query_params.get("token")
         if token is None:
-            return Response(FRONTEND[PAGE], media_type="text/html")
+            rows = await asyncio.to_thread(self.sessions.overview)
+            return HTMLResponse(home_page(await asyncio.to_thread(offers), rows))
         answer = RedirectResponse("/", 303)
         answer.set_cookie(self.rules.cookie, token, httponly=True, samesite="strict")
         return answer
 
     async def _static(self, request: Request) -> Response:
         name = request.path_params["name"]
-        if name not in FRONTEND or name == PAGE:
+        if name not in FRONTEND:
             return Response("there is no such file\n", 404)
         kind = "text/css" if name.endswith(".css") else "text/javascript"
         return Response(FRONTEND[name], media_type=kind)
 
     # Sessions.
 
-    async def _home(self, request: Request) -> Response:
-        rows = await asyncio.to_thread(self.sessions.overview)
-        return JSONResponse({"worlds": await asyncio.to_thread(offers), "sessions": rows})
+    async def _side_by_side(self, request: Request) -> Response:
+        names = "+".join(request.query_params.getlist("name")[:MAX_STREAMS])
+        return RedirectResponse(f"/c/{quote(names)}" if names else "/", 303)
+
+    async def _live(self, request: Request) -> Response:
+        names = request.path_params["names"].split("+")[:MAX_STREAMS]
+        for name in names:
+            self._session(name)
+        return HTMLResponse(live_page(names))
 
     async def _begin(self, request: Request) -> Response:
-        spec = spec_of(await _document(request))
-        if (spec.domain, spec.goals or "") not in {(o["domain"], o["goals"]) for o in offers()}:
+        form = {key: values[0] for key, values in parse_qs((await request.body()).decode()).items()}
+        domain, _, goals = form.get("world", "").partition(" ")
+        if (domain, goals) not in {(o["domain"], o["goals"]) for o in offers()}:
             raise UsageError("this is no domain with goals here", code="not-found")
+        seed = form.get("seed", "")
+        spec = spec_of({
+            "domain": domain, "goals": goals, "pace": form.get("pace"),
+            "method": form.get("robot"), "human": form.get("human"),
+            "seed": int(seed[:9]) if seed.isdecimal() else 0,
+        })  # fmt: skip
         session = await asyncio.to_thread(self.sessions.begin, spec)
-        return JSONResponse({"name": session.name}, 201)
+        return RedirectResponse(f"/c/{session.name}", 303)
 
     async def _delete(self, request: Request) -> Response:
         self._session(request.path_params["name"])
@@ -172,6 +191,11 @@ class SessionReader:
             self._has_head = True
             message["head"] = self.session.head
         return message
+
+
+async def _refused(request: Request, error: Exception) -> Response:
+    assert isinstance(error, RefusalError)
+    return error.answer()
 
 
 def _last_lines(text: str) -> dict[str, int]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -15,6 +16,7 @@ from hrcplan.collaboration.adviser import Adviser
 from hrcplan.collaboration.collaborate import bank_for
 from hrcplan.collaboration.events import AskReading, AskStep, Chosen, Read
 from hrcplan.collaboration.setup import CollaborationSetup
+from hrcplan.errors import HrcplanError
 from hrcplan.execution import events as ev
 
 
@@ -30,13 +32,26 @@ class SharedBank:
     bank: Bank
     lock: threading.RLock = field(default_factory=threading.RLock)
     _assistants: dict[str, Assistant[Any]] = field(default_factory=dict)
+    _making: threading.Lock = field(default_factory=threading.Lock)
 
     def assistant(self, method: str) -> Assistant[Any]:
         """Return the assistant of a name, made at its first use."""
-        with self.lock:
+        with self._making:
             if method not in self._assistants:
                 self._assistants[method] = ASSISTANTS.make(method, self.bank)
             return self._assistants[method]
+
+    def prepare(self, method: str) -> None:
+        """Make an assistant while people look at the page: they need not wait for it later."""
+
+        def make() -> None:
+            with contextlib.suppress(HrcplanError):  # the session that asks for it says so
+                assistant = self.assistant(method)
+                with self.lock:
+                    assistant.choose(assistant.start())  # what is computed once is computed now
+
+        if method not in self._assistants and len(self.bank.names) > 1:
+            threading.Thread(target=make, daemon=True).start()
 
     def adviser(self, setup: CollaborationSetup) -> Adviser:
         """Return the adviser of one collaboration."""

@@ -28,11 +28,11 @@ from hrcplan.web.page_person import (
     PagePerson,
     PageRequest,
     Question,
-    SessionStopped,
+    SessionStoppedError,
     adviser_offer,
     event_of,
 )
-from hrcplan.web.scene import scene_of
+from hrcplan.web.run_head import collaboration_head
 from hrcplan.web.story import Story
 
 ME = "me"
@@ -40,7 +40,7 @@ ME = "me"
 
 @dataclass(frozen=True)
 class SessionSpec:
-    """What a session is made of; it is stored beside the journal.
+    """What a session is made of; it is stored next to the journal.
 
     Attributes:
         domain: The domain, as in ``hrcplan collaborate``.
@@ -144,7 +144,8 @@ class LiveSession:
 
     def _explanation(self, run: CompanionRun) -> dict[str, Any]:
         adviser, setup = self._adviser, self._setup
-        assert adviser is not None and setup is not None
+        assert adviser is not None
+        assert setup is not None
         if setup.has_one_goal:
             return {"text": "The robot follows the plan that is cheapest as things are."}
         why = adviser.locked(lambda: adviser.explain(adviser.fold.state(run.history)))
@@ -165,7 +166,7 @@ class LiveSession:
         error: Exception | None = None
         try:
             self._carry_out()
-        except SessionStopped:
+        except SessionStoppedError:
             self._show({"phase": "stopped"})
         except HrcplanError as fault:
             error = fault
@@ -191,8 +192,9 @@ class LiveSession:
 
     def _parts(self, setup: CollaborationSetup, shared_bank: SharedBank) -> CollaborationParts:
         self._setup, self._adviser = setup, SharedAdviser(setup, shared_bank)
+        shared_bank.prepare(setup.method)
         story = Story(setup.problem)
-        self.head = session_head(setup) | {"name": self.name, "spec": self.spec.to_json()}
+        self.head = collaboration_head(setup) | {"name": self.name, "spec": self.spec.to_json()}
         self.story = story
         bank = shared_bank.bank
         if self.spec.human == ME:
@@ -210,7 +212,8 @@ class LiveSession:
     def _offer(self, run: CompanionRun, agents: tuple[str, ...]) -> None:
         """Show what people can do now."""
         adviser, story = self._adviser, self.story
-        assert adviser is not None and story is not None
+        assert adviser is not None
+        assert story is not None
         question = run.question
         now = {
             "phase": "waiting", "n": self.line, "t": run.t, "agents": list(agents),
@@ -235,19 +238,3 @@ class LiveSession:
     def _tell(self) -> None:
         self.version += 1
         self._changed()
-
-
-def session_head(setup: CollaborationSetup) -> dict[str, Any]:
-    """Return what a page has to know of a collaboration before anything happens."""
-    agents = setup.model.agents
-    states = {
-        " ".join(key): {"value": float(low), "range": [float(v) for v in agents.value_range(key)]}
-        for key, low in agents.low.items()
-    }
-    is_timed = setup.pace != TURNS or setup.has_one_goal
-    return {
-        "domain": setup.problem.domain.name, "goals": list(setup.goals), "pace": setup.pace,
-        "method": setup.method, "people": list(setup.people), "robots": sorted(setup.robots),
-        "unit": "s" if is_timed and setup.problem.domain.is_temporal else "steps",
-        "states": states, "scene": scene_of(setup.problem),
-    }  # fmt: skip

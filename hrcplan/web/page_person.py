@@ -21,7 +21,7 @@ MAX_WORDS = 50
 Question = Callable[[CompanionRun], Any]
 
 
-class SessionStopped(Exception):
+class SessionStoppedError(Exception):
     """The session is to stop here; its journal lets it go on later."""
 
 
@@ -92,14 +92,14 @@ class PagePerson:
         """Return what these people do now.
 
         Raises:
-            SessionStopped: if the session is to stop.
+            SessionStoppedError: if the session is to stop.
         """
         self._offer(run, agents)
         self._reply()
         while True:
             request = self._requests.get()
             if request is None:
-                raise SessionStopped
+                raise SessionStoppedError
             event = self._event(request, run)
             if event is not None:
                 return (event,)
@@ -206,15 +206,15 @@ def adviser_offer(
     """
     possible = adviser.possible(agents)
     prior = adviser.prior(possible) if adviser.is_ready else {}
-    asked = {
+    requests = {
         (r.step.schema.name, *r.step.binding.values())
         for r in run.running
         if r.index is not None and r.step.agent in agents
     }
-    steps = [*(s for s in possible if s in asked), *(s for s in possible if s not in asked)]
-    steps.sort(key=lambda step: (step not in asked, -prior.get(step, 0.0)))
+    steps = [*(s for s in possible if s in requests), *(s for s in possible if s not in requests)]
+    steps.sort(key=lambda step: (step not in requests, -prior.get(step, 0.0)))
     return [
         {"action": list(step), "p": round(prior.get(step, 0.0), 4)}
-        | ({"asked": True} if step in asked else {})
+        | ({"asked": True} if step in requests else {})
         for step in steps
     ]

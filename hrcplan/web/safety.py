@@ -1,7 +1,8 @@
 """Who may ask for what: every request passes these checks, and every answer gets these headers.
 
 A page in another tab, or another machine, must not be able to reach a collaboration: the names in
-``Host`` and ``Origin`` have to be ours, and whoever asks needs the token of the start-up link.
+``Host`` and ``Origin`` have to be those of this server, and a request needs the token of the
+start-up link.
 """
 
 from __future__ import annotations
@@ -29,19 +30,23 @@ HEADERS = {
     "Content-Security-Policy": POLICY,
     "X-Content-Type-Options": "nosniff",
     "X-Frame-Options": "DENY",
-    "Referrer-Policy": "no-referrer",
+    "Referrer-Policy": "same-origin",
     "Cross-Origin-Resource-Policy": "same-origin",
     "Cross-Origin-Opener-Policy": "same-origin",
     "Cache-Control": "no-store",
 }
 
 
-class Refusal(Exception):
+class RefusalError(Exception):
     """A request that is not answered: a status and the reason in words."""
 
     def __init__(self, status: int, why: str) -> None:
         super().__init__(why)
         self.status, self.why = status, why
+
+    def answer(self) -> PlainTextResponse:
+        """Return what is sent instead."""
+        return PlainTextResponse(f"{self.why}\n", self.status)
 
 
 @dataclass(frozen=True)
@@ -122,40 +127,39 @@ class Guard:
         try:
             self._check(scope)
             await self.app(scope, _bounded(receive), send_with_headers)
-        except Refusal as refusal:
-            answer = PlainTextResponse(f"{refusal.why}\n", refusal.status)
-            await answer(scope, receive, send_with_headers)
+        except RefusalError as refusal:
+            await refusal.answer()(scope, receive, send_with_headers)
 
     def _check(self, scope: Scope) -> None:
         headers = Headers(scope=scope)
         host = headers.get("host", "")
         if host not in self.rules.hosts:
-            raise Refusal(403, "this server is not addressed by this name")
+            raise RefusalError(403, "this server is not addressed by this name")
         if scope["method"] not in METHODS:
-            raise Refusal(405, "this method is not known here")
+            raise RefusalError(405, "this method is not known here")
         origin = headers.get("origin")
         if origin is not None and origin not in (f"http://{host}", f"https://{host}"):
-            raise Refusal(403, "requests of other pages are not answered")
+            raise RefusalError(403, "requests of other pages are not answered")
         if headers.get("sec-fetch-site") == "cross-site" and scope["path"] != "/":
-            raise Refusal(403, "requests of other pages are not answered")
-        if int(headers.get("content-length") or 0) > MAX_BODY:
-            raise Refusal(413, f"a request has at most {MAX_BODY} bytes")
+            raise RefusalError(403, "requests of other pages are not answered")
+        length = headers.get("content-length", "0")
+        if not length.isdecimal() or int(length[:18]) > MAX_BODY:
+            raise RefusalError(413, f"a request has at most {MAX_BODY} bytes")
         token = self._token(scope, headers)
         if not self._is_open(scope["path"]) and not self.rules.knows(token):
-            raise Refusal(403, "open the link that 'hrcplan serve' has printed")
+            raise RefusalError(403, "open the link that 'hrcplan serve' has printed")
         caller = token if self.rules.knows(token) else f"{scope['path'][:40]}"
         if not self.limit.take(caller):
-            raise Refusal(429, "too many requests at once")
+            raise RefusalError(429, "too many requests at once")
 
     def _is_open(self, path: str) -> bool:
         return path.startswith(self.rules.open_paths)
 
     def _token(self, scope: Scope, headers: Headers) -> str:
-        if scope["path"] == "/":
-            query = scope["query_string"].decode("latin-1")
-            if query.startswith("token="):
-                return query.removeprefix("token=")
-        return cookie_parser(headers.get("cookie", "")).get(self.rules.cookie, "")
+        if scope["path"] == "/" and scope["query_string"].startswith(b"token="):
+            return str(scope["query_string"], "latin-1").removeprefix("token=")
+        cookies: dict[str, str] = cookie_parser(headers.get("cookie", ""))
+        return cookies.get(self.rules.cookie, "")
 
 
 def _bounded(receive: Receive) -> Receive:
@@ -167,7 +171,7 @@ def _bounded(receive: Receive) -> Receive:
         message = await receive()
         n_bytes += len(message.get("body", b""))
         if n_bytes > MAX_BODY:
-            raise Refusal(413, f"a request has at most {MAX_BODY} bytes")
+            raise RefusalError(413, f"a request has at most {MAX_BODY} bytes")
         return message
 
     return receive_some

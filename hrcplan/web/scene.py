@@ -1,8 +1,8 @@
 """What can be drawn of a world, read off its PDDL: who is where, who holds what, and a map.
 
-No note is needed. A fact is about the place of an object if actions exchange it for another such
-fact of the same object: ``at`` of a mover for ``at``, ``box-at`` of a box for ``holding``. A fact of
-two objects that is only ever added is a place, too (an ingredient ``in`` a dish), unless it follows
+No note is needed. A fact says where an object is if actions exchange it for another such fact of
+the same object: ``at`` of a mover for ``at``, ``box-at`` of a box for ``holding``. A fact of two
+objects that is only ever added is a place, too (an ingredient ``in`` a dish), unless it follows
 from another one. All other facts are badges. ``;; hrcplan: show`` notes override this.
 """
 
@@ -214,7 +214,7 @@ def _agents_places(problem: Problem, views: Mapping[str, FactView]) -> tuple[str
             continue
         params = domain.predicates[name].params
         moves = any(domain.is_a(AGENT, (kind,)) for kind in params[view.of].types)
-        if AGENT in domain.types and moves or _holds_agents(domain, params[view.of].types):
+        if (AGENT in domain.types and moves) or _holds_agents(domain, params[view.of].types):
             places.update(problem.objects_of(params[view.at].types))
     return tuple(name for name in problem.all_objects if name in places)
 

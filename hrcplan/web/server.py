@@ -1,4 +1,4 @@
-"""The server: listens, prints its link, and ends at once when it is told to."""
+"""The server: listens, prints its link, and ends at once on a signal."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import contextlib
 import os
 import secrets
 import socket
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from types import FrameType
@@ -21,7 +21,7 @@ from hrcplan.web.board import Board
 from hrcplan.web.safety import AccessRules
 from hrcplan.web.sessions import Sessions
 
-LOOPBACK, PORT = "127.0.0.1", 8765
+LOOPBACK, PORT, HTTP_PORT = "127.0.0.1", 8765, 80
 _TOKEN_FILE = "serve-token"
 _HEADER_BYTES = 16 << 10
 
@@ -83,18 +83,24 @@ def serve(options: ServerOptions, say_link: Callable[[str], None]) -> None:
 
 
 def _shown(host: str) -> str:
-    """Return an address as it stands in a link."""
+    """Return an address as links have it."""
     name = socket.gethostname() if host in ("0.0.0.0", "::") else host
     return f"[{name}]" if ":" in name else name
 
 
 def _hosts(host: str, port: int) -> frozenset[str]:
-    names = {_shown(host)} | ({"127.0.0.1", "localhost", "[::1]"})
-    return frozenset(f"{name}:{port}" for name in names) | (frozenset(names) if port == 80 else frozenset())
+    names = {_shown(host), LOOPBACK, "localhost", "[::1]"}
+    bare = names if port == HTTP_PORT else set()  # browsers leave this port out
+    return frozenset({f"{name}:{port}" for name in names} | bare)
 
 
 @contextlib.contextmanager
-def _listening(options: ServerOptions):
+def _listening(options: ServerOptions) -> Iterator[socket.socket]:
+    """Hold a socket that listens.
+
+    Raises:
+        UsageError: if the port is taken.
+    """
     ports = [PORT, 0] if options.port is None else [options.port]
     family = socket.AF_INET6 if ":" in options.host else socket.AF_INET
     for port in ports:
