@@ -7,7 +7,7 @@ from pathlib import Path
 import rich_click as click
 
 from hrcplan.cli import options, output
-from hrcplan.errors import UsageError
+from hrcplan.core.extras import require
 
 
 @click.command(
@@ -27,11 +27,9 @@ from hrcplan.errors import UsageError
 @output.common_options
 def command(port: int | None, host: str, folder: Path) -> int:
     """Serve a page in which you work together with a robot. Ctrl-C ends it."""
-    try:
-        from hrcplan.web.server import ServerOptions, serve
-    except ModuleNotFoundError as error:
-        message = f"'hrcplan serve' needs the extra 'web' ({error.name} is missing)"
-        raise UsageError(message, code="no-web", hint="pip install 'hrcplan[web]'") from None
+    for module in ("starlette", "uvicorn", "sse_starlette"):
+        require(module, "the server of pages")
+    from hrcplan.web.server import ServerOptions, serve
 
     output.LINES = output.JSON
 
