@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from itertools import product
 
 from hrcplan.core.bits import single_bits
 from hrcplan.core.numbers import Number
 from hrcplan.core.progress import counting
 from hrcplan.errors import UnsupportedError
-from hrcplan.pddl.model import DURATION, TOTAL_COST, TRUE, Constant, Expr, FluentKey
+from hrcplan.pddl.model import DURATION, TOTAL_COST, TRUE, Action, Constant, Expr, FluentKey
 from hrcplan.pddl.semantics import Undefined, Values, evaluate, ground_key, instances
 from hrcplan.pddl.walks import functions_in
 from hrcplan.task.changing import (
@@ -23,6 +24,7 @@ from hrcplan.task.changing import (
     with_duration,
 )
 from hrcplan.task.conditions import ALWAYS, Grounder, Tests, all_of, any_of, negation
+from hrcplan.task.literal_schemas import LiteralSchema, changed_names, is_literal
 from hrcplan.task.numbers import ground_expression
 from hrcplan.task.reachable import SchemaInstance
 from hrcplan.task.transitions import BitEffect, Effects, Transition, net_effect
@@ -84,10 +86,33 @@ def ground_actions(
         for count, instance in enumerate(instances):
             if count % _TELL == 0:
                 tell(len(actions))
-            for choice in combinations(keys_read(grounder, instance, value_sets), value_sets):
+            schema = builder.literal_schema(instance.action)
+            if schema is not None:
                 with contextlib.suppress(Undefined):  # what it needs has no value: it cannot run
+                    actions += builder.build_literal(len(actions), instance, schema)
+                continue
+            for choice in combinations(keys_read(grounder, instance, value_sets), value_sets):
+                with contextlib.suppress(Undefined):
                     actions += builder.build(len(actions), instance, choice)
     return tuple(actions)
+
+
+@dataclass(frozen=True)
+class _Phases:
+    """Conditions and effects of an instance, by phase."""
+
+    start: Tests
+    over: Tests
+    end: Tests
+    at_start: Effects
+    at_end: Effects
+
+    @property
+    def tests(self) -> Tests:
+        """The condition of the sequential reading, before the start."""
+        if self.over == ALWAYS == self.end:
+            return self.start
+        return all_of([self.start, _before(all_of([self.over, self.end]), self.at_start)])
 
 
 @dataclass(frozen=True)
@@ -96,6 +121,47 @@ class _Builder:
 
     grounder: Grounder
     value_sets: ValueSets
+    _literal_schemas: dict[str, LiteralSchema | None] = field(default_factory=dict)
+
+    @cached_property
+    def _changed_names(self) -> Set[str]:
+        return changed_names(self.grounder.problem)
+
+    def literal_schema(self, action: Action) -> LiteralSchema | None:
+        """Return the schema of an action for look-ups, if it is of that kind."""
+        if action.name not in self._literal_schemas:
+            grounder, moving = self.grounder, {key[0] for key in self.value_sets}
+            problem, names = grounder.problem, self._changed_names
+            self._literal_schemas[action.name] = (
+                LiteralSchema(action, problem, names, grounder.powers, grounder.fixed)
+                if is_literal(action, names, moving)
+                else None
+            )
+        return self._literal_schemas[action.name]
+
+    def build_literal(
+        self, index: int, instance: SchemaInstance, schema: LiteralSchema
+    ) -> Iterator[GroundAction]:
+        """Yield the ground action of an instance, by look-ups; see `build`."""
+        row, action = schema.rows.of(instance.args), instance.action
+        start = schema.tests(row, "start")
+        if not start:
+            return
+        over = end = ALWAYS
+        at_end: Effects = ()
+        duration: Number | None = 0
+        if action.durative:
+            over, end = schema.tests(row, "all"), schema.tests(row, "end")
+            at_end, length = schema.effects(row, "end"), action.fixed_duration
+            values = self.grounder.problem.values
+            duration = None if length is None else evaluate(length, values, instance.binding)
+        phases = _Phases(start, over, end, schema.effects(row, "start"), at_end)
+        tests = phases.tests
+        if not tests or not (phases.at_start or at_end):
+            return
+        has_costs = TOTAL_COST in self.grounder.problem.domain.functions
+        costs = schema.costs(instance.binding) if has_costs else _UNIT_COST
+        yield self._action(index, instance, phases, tests, duration, costs, {})
 
     def build(
         self, index: int, instance: SchemaInstance, choice: Mapping[FluentKey, Number]
@@ -113,41 +179,37 @@ class _Builder:
         over = self._conditions(instance, "all", later)
         end = self._conditions(instance, "end", later)
         at_end, _ = self._changes(instance, "end", later)
-        tests = all_of([start, _before(all_of([over, end]), at_start)])
-        if not tests or not (at_start or at_end):
+        phases = _Phases(start, over, end, at_start, at_end)
+        duration = values.get((DURATION,)) if instance.action.durative else 0
+        before = phases.tests
+        if not before or not (at_start or at_end):
             return []
-        net = net_effect(at_start, at_end)
-        agent, step = self._who(instance)
-        action = GroundAction(
-            index=index,
-            name=instance.action.name,
-            args=instance.args,
-            agent=agent,
-            step=step,
-            duration=values.get((DURATION,)) if instance.action.durative else 0,
-            costs=(),
-            tests=tests,
-            adds=net.adds,
-            deletes=net.deletes,
-            start=start,
-            over=over,
-            end=end,
-            at_start=at_start,
-            at_end=at_end,
-            conditional=any(c.tests != ALWAYS for c in (*at_start, *at_end)),
-            values=choice,
-        )
         variants: list[GroundAction] = []
         for extra, costs in self._costs(instance, values, later, at_start):
-            start, tests = (all_of([part, extra]) for part in (action.start, action.tests))
+            tests, start = all_of([before, extra]), all_of([phases.start, extra])
             if tests:
-                place = index + len(variants)
-                variants.append(replace(action, index=place, costs=costs, start=start, tests=tests))
+                place, part = index + len(variants), replace(phases, start=start)
+                variants.append(self._action(place, instance, part, tests, duration, costs, choice))
         return variants
+
+    def _action(
+        self, index: int, instance: SchemaInstance, phases: _Phases, tests: Tests,
+        duration: Number | None, costs: tuple[Expr, ...], choice: Mapping[FluentKey, Number],
+    ) -> GroundAction:  # fmt: skip
+        at_start, at_end = phases.at_start, phases.at_end
+        net = net_effect(at_start, at_end)
+        agent, step = self._who(instance)
+        return GroundAction(
+            tests, at_start, at_end, index, instance.action.name, instance.args, agent, step,
+            duration, costs, net.adds, net.deletes, phases.start, phases.over, phases.end,
+            conditional=any(c.tests != ALWAYS for c in (*at_start, *at_end)), values=choice,
+        )  # fmt: skip
 
     def _who(self, instance: SchemaInstance) -> tuple[str | None, tuple[str, ...]]:
         """Return the agent, and the step: the action without its agent."""
         agents = self.grounder.problem.agents
+        if not agents:
+            return None, (instance.action.name, *instance.args)
         place = next((i for i, arg in enumerate(instance.args) if arg in agents), None)
         if place is None:
             return None, (instance.action.name, *instance.args)

@@ -54,13 +54,12 @@ class Grounder:
 
     def bit(self, fact: Fact) -> int:
         """Return a state in which only this fact holds; 0 if it never changes."""
-        position = self.bits.get(fact)
-        return 0 if position is None else self._powers[position]
+        return self.powers.get(fact, 0)
 
     @cached_property
-    def _powers(self) -> list[int]:
-        """The powers of two, made once: in large tasks they are large."""
-        return [1 << position for position in range(len(self.bits))]
+    def powers(self) -> Mapping[Fact, int]:
+        """The state in which only a fact holds, for each fluent; in large tasks they are large."""
+        return {fact: 1 << position for fact, position in self.bits.items()}
 
     def conditions(self, action: Action, when: str, binding: Binding, values: Values) -> Tests:
         """Return the alternatives that mean an action's conditions of one phase."""

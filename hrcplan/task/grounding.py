@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence, Set
 from dataclasses import dataclass, replace
+from functools import cached_property
 from math import inf
 
 from hrcplan.core.numbers import Number
@@ -17,7 +18,7 @@ from hrcplan.task.conditions import Grounder, Tests, all_of, any_of
 from hrcplan.task.lookup import lookup
 from hrcplan.task.numbers import check_supported, numeric_effects
 from hrcplan.task.reachable import SchemaInstance, reachable
-from hrcplan.task.transitions import BitEffect
+from hrcplan.task.transitions import BitEffect, net_effect
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,7 +41,7 @@ class ActionIndex:
         rules = [(action.index, action.simple_rule) for action in actions]
         simple = [(index, rule) for index, rule in rules if rule is not None]
         others = tuple(index for index, rule in rules if rule is None)
-        effects = (None if a.conditional else BitEffect(a.adds, a.deletes) for a in actions)
+        effects = (None if a.conditional else net_effect(a.at_start, a.at_end) for a in actions)
         return cls(lookup(n_facts, len(actions), simple), others, tuple(effects))
 
 
@@ -55,7 +56,6 @@ class Grounding:
         value_sets: The values, in bit order, of the functions that actions change.
         movers: The instances that could change them.
         actions: The ground actions: by schema as declared, then by objects as declared.
-        index: The actions, laid out for inner loops.
         structure: Groundings with the same structure differ in the numbers of ``value_sets`` and in
             costs only, so what was computed for one holds for the others.
     """
@@ -66,8 +66,12 @@ class Grounding:
     value_sets: ValueSets
     movers: tuple[SchemaInstance, ...]
     actions: tuple[GroundAction, ...]
-    index: ActionIndex
     structure: object
+
+    @cached_property
+    def index(self) -> ActionIndex:
+        """The actions, laid out for inner loops, when that is first asked for."""
+        return ActionIndex.of(self.actions, len(self.facts))
 
     def with_actions(self, actions: Sequence[GroundAction], costs: Sequence[Number]) -> Grounding:
         """Return the grounding with other actions, numbered from 0, at constant costs."""
@@ -75,8 +79,7 @@ class Grounding:
             replace(action, costs=(Constant(cost),))
             for action, cost in zip(actions, costs, strict=True)
         )
-        index = ActionIndex.of(actions_at_cost, len(self.facts))
-        return replace(self, actions=actions_at_cost, index=index, structure=actions_at_cost)
+        return replace(self, actions=actions_at_cost, structure=actions_at_cost)
 
     def initial(self, problem: Problem) -> int:
         """Return the initial state of a problem."""
@@ -130,7 +133,7 @@ def ground(problem: Problem, deadline: float = inf) -> Grounding:
     return Grounding(
         facts, bits, constant, value_sets,
         movers=tuple(i for i in schema_instances if any(numeric_effects(i.action))),
-        actions=actions, index=ActionIndex.of(actions, len(facts)), structure=actions,
+        actions=actions, structure=actions,
     )  # fmt: skip
 
 

@@ -19,7 +19,7 @@ from hrcplan.pddl.walks import formula_functions
 from hrcplan.task.actions import GroundAction
 from hrcplan.task.changing import ValueSets
 from hrcplan.task.conditions import Test, meets
-from hrcplan.task.grounding import Grounding, ground
+from hrcplan.task.grounding import ActionIndex, Grounding, ground
 from hrcplan.task.numbers import divisors, functions_read
 from hrcplan.task.transitions import apply
 
@@ -73,7 +73,10 @@ class Task:
         self.structure: Final = grounding.structure
         self.initial: Final[int] = grounding.initial(problem)
         self.goal: Final[tuple[Test, ...]] = grounding.goal(problem)
-        self._index: Final = grounding.index
+
+    @cached_property
+    def _index(self) -> ActionIndex:
+        return self.grounding.index
 
     def __repr__(self) -> str:
         problem = self.problem

@@ -121,6 +121,9 @@ def apply(effects: Iterable[BitEffect], state: int) -> int:
 
 def net_effect(at_start: Effects, at_end: Effects) -> BitEffect:
     """Return the one effect that does what the unconditional effects of two instants do."""
+    if not at_end and len(at_start) == 1 and at_start[0].tests == ALWAYS:
+        only = at_start[0]
+        return BitEffect(only.adds, only.deletes & ~only.adds) if only.adds & only.deletes else only
     adds = deletes = 0
     for instant in (at_start, at_end):
         sure = [effect for effect in instant if effect.tests == ALWAYS]
