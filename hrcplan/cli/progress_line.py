@@ -1,4 +1,4 @@
-"""One line on a terminal that says how far long work has come, and goes away when it is done."""
+"""How far long work has come: one line that goes away on a terminal, else a line now and then."""
 
 from __future__ import annotations
 
@@ -8,11 +8,16 @@ from collections.abc import Callable
 from typing import TextIO
 
 from hrcplan.core import progress
+from hrcplan.core.text import cut
 
 DELAY_S = 2.0
 """Work that ends earlier shows nothing."""
 EVERY_S = 0.2
 """How often the line is written again at most."""
+COLUMNS = 80
+"""The width of a terminal that does not tell it."""
+LOG_DELAY_S = 5.0
+LOG_EVERY_S = 10.0
 
 
 class ProgressLine:
@@ -45,13 +50,49 @@ class ProgressLine:
             self._write(f"{count:,} {what} …")
 
     def _write(self, text: str) -> None:
+        text = cut(text, max(1, self._columns() - 1))
         if text or self._width:
             self._stream.write(f"\r{text:{self._width}}{'' if text else chr(13)}")
             self._stream.flush()
             self._width = len(text)
 
+    def _columns(self) -> int:
+        try:
+            return os.get_terminal_size(self._stream.fileno()).columns or COLUMNS
+        except OSError:
+            return COLUMNS
+
+
+class ProgressLog:
+    """Writes a line now and then, where standard error is a file or a pipe.
+
+    Args:
+        stream: Where to.
+        clock: Seconds that only grow.
+    """
+
+    def __init__(self, stream: TextIO, clock: Callable[[], float] = time.monotonic) -> None:
+        self._stream = stream
+        self._clock = clock
+        self._pid = os.getpid()
+        self._next_s: float | None = None
+
+    def __call__(self, what: str, count: int | None) -> None:
+        """Write how much there is, if it is time for that; an end of some work says nothing."""
+        now = self._clock()
+        if os.getpid() != self._pid or count is None:
+            return
+        if self._next_s is None:
+            self._next_s = now + LOG_DELAY_S
+        elif now >= self._next_s:
+            self._next_s = now + LOG_EVERY_S
+            self._stream.write(f"{count:,} {what} …\n")
+            self._stream.flush()
+
 
 def show_progress(stream: TextIO | None) -> None:
-    """Show the progress of work on a stream if it is a terminal; None is a closed stream."""
-    is_terminal = stream is not None and stream.isatty()
-    progress.listen(ProgressLine(stream) if stream is not None and is_terminal else None)
+    """Show the progress of work on a stream; None is a closed one."""
+    if stream is None:
+        progress.listen(None)
+    else:
+        progress.listen(ProgressLine(stream) if stream.isatty() else ProgressLog(stream))

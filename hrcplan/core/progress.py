@@ -28,12 +28,18 @@ def counting(what: str) -> Iterator[Callable[[int], None]]:
     [('steps', 256), ('steps', None)]
     >>> listen(None)
     """
-
-    def tell(count: int | None) -> None:
-        for listener in _listeners:
-            listener(what, count)
-
     try:
-        yield tell
+        yield lambda count: report(what, count)
     finally:
-        tell(None)
+        hide(what)
+
+
+def report(what: str, count: int | None) -> None:
+    """Report how much there is of something, outside of `counting`."""
+    for listener in _listeners:
+        listener(what, count)
+
+
+def hide(what: str = "") -> None:
+    """Let the listener take away what it shows, before something else is printed."""
+    report(what, None)

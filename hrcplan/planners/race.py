@@ -11,6 +11,8 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
+from hrcplan.core import progress
+from hrcplan.core.numbers import number_text
 from hrcplan.errors import HrcplanError, LimitError, PlannerError
 from hrcplan.planners.choice import Job
 from hrcplan.planners.contract import Answer, Request, Status
@@ -100,11 +102,22 @@ class _Race:
                 if time.monotonic() >= stop_at:
                     break
                 self._step(min(_TICK_S, max(0.0, stop_at - time.monotonic())))
+                progress.report(self._standing, int(time.monotonic() - self._start_s))
         finally:
+            progress.hide()
             end([lane.worker for lane in self._lanes])
             self._watch.close()
             self._ready.close()
         return self.portfolio
+
+    @property
+    def _standing(self) -> str:
+        """Who is at work and the best plan so far, to be said after the number of seconds."""
+        names = ", ".join(dict.fromkeys(lane.job.name for lane in self._lanes))
+        best = self.portfolio.best
+        value = None if best is None else best.objective
+        plan = "" if value is None else f"; best so far: {number_text(value)}"
+        return f"s; at work: {names}{plan}"
 
     def _start(self) -> None:
         """Begin jobs as long as there is room and time for them."""
@@ -163,6 +176,7 @@ class _Race:
         best = self.portfolio.best
         goes_on = len(self._lanes) > 1 or isinstance(message, _Improvement)
         if best is not None and best is not before and goes_on and not self.portfolio.is_settled:
+            progress.hide()
             self._on_better(best)
 
     def _remove(self, lane: _Lane) -> None:

@@ -2,15 +2,22 @@
 
 import io
 import os
+import time
 
 import pytest
+from joblib.externals.loky import get_reusable_executor
 
-from hrcplan.cli.progress_line import DELAY_S, ProgressLine, show_progress
+from hrcplan.cli.progress_line import COLUMNS, DELAY_S, ProgressLine, ProgressLog, show_progress
 from hrcplan.core.progress import counting, listen
 from hrcplan.errors import LimitError
 from hrcplan.pddl.inputs import read
+from hrcplan.planners import registry
+from hrcplan.planners.contract import Answer, Request, Status
+from hrcplan.planners.solve import solve
+from hrcplan.plans import parse_plan
 from hrcplan.task import Task
 from hrcplan.task.reachable import reachable
+from tests.planners.actors import Actor, walk
 
 
 class Clock:
@@ -73,7 +80,7 @@ def test_grounding_tells_how_far_it_is_and_always_ends() -> None:
 
 
 @pytest.mark.parametrize(("stream", "shown"), [(Terminal(), "\r5 steps …"), (io.StringIO(), "")])
-def test_only_a_terminal_shows_progress(
+def test_a_line_is_rewritten_on_a_terminal_only(
     stream: io.StringIO, shown: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("hrcplan.cli.progress_line.DELAY_S", 0)
@@ -86,3 +93,44 @@ def test_only_a_terminal_shows_progress(
         listen(None)
     assert bool(stream.getvalue()) == bool(shown)
     assert stream.getvalue().startswith(shown)
+
+
+def test_a_log_has_a_line_now_and_then(monkeypatch: pytest.MonkeyPatch) -> None:
+    stream, clock = io.StringIO(), Clock()
+    log = ProgressLog(stream, clock)
+    for clock.now in range(30):
+        log("steps", int(clock.now))
+        log("steps", None)
+    assert stream.getvalue() == "5 steps …\n15 steps …\n25 steps …\n"
+    monkeypatch.setattr(os, "getpid", lambda: -1)
+    clock.now = 99
+    log("steps", 99)
+    assert "99" not in stream.getvalue()
+
+
+def test_a_line_is_not_wider_than_the_terminal() -> None:
+    stream, clock = io.StringIO(), Clock()
+    line = ProgressLine(stream, clock)
+    line("x" * 200, 1)
+    clock.now = DELAY_S
+    line("x" * 200, 2)
+    assert len(stream.getvalue()) == COLUMNS  # with the carriage return
+
+
+def test_planners_at_work_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    def thinks(request: Request) -> Answer:
+        request.on_plan(parse_plan("(go a b) (go b c)"))
+        time.sleep(0.5)
+        return Answer(Status.UNSOLVED)
+
+    heard: list[str] = []
+    monkeypatch.setattr(registry, "names", lambda: ("thinker",))
+    monkeypatch.setattr(registry, "make", lambda name: Actor(name, thinks))
+    get_reusable_executor().shutdown(wait=True)  # its threads would move the race elsewhere
+    listen(lambda what, count: heard.append(what))
+    try:
+        solve(walk(), timeout_s=30)
+    finally:
+        listen(None)
+    assert any(what.startswith("s; at work: thinker") for what in heard)
+    assert any(what.endswith("best so far: 2") for what in heard)
