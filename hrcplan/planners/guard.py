@@ -230,15 +230,25 @@ def groups() -> set[int]:
 
 def descendants() -> list[int]:
     """Return the ids of all processes below this one, zombies included."""
-    children: dict[int, list[int]] = {}
+    return below(os.getpid(), children())
+
+
+def children() -> dict[int, list[int]]:
+    """Return the children of every process that has some."""
+    ids: dict[int, list[int]] = {}
     for name in os.listdir("/proc"):
         if name.isdigit() and (stat := read(f"/proc/{name}/stat")):
             # The name of the program, in parentheses, may hold spaces and parentheses.
             parent = int(stat[stat.rindex(b")") + 2 :].split(None, 2)[1])
-            children.setdefault(parent, []).append(int(name))
-    ids = children.get(os.getpid(), [])
-    for pid in ids:  # grows while it is walked
-        ids.extend(children.get(pid, ()))
+            ids.setdefault(parent, []).append(int(name))
+    return ids
+
+
+def below(pid: int, children: dict[int, list[int]]) -> list[int]:
+    """Return the ids of all processes below one."""
+    ids = list(children.get(pid, ()))
+    for one in ids:  # grows while it is walked
+        ids.extend(children.get(one, ()))
     return ids
 
 

@@ -18,7 +18,7 @@ from hrcplan.planners.choice import Job
 from hrcplan.planners.contract import Answer, Request, Status
 from hrcplan.planners.portfolio import Portfolio
 from hrcplan.planners.result import Result, ask, check_answer
-from hrcplan.planners.workers import Watch, Work, Worker, end
+from hrcplan.planners.workers import Watch, Work, Worker, end, largest_beyond
 from hrcplan.plans import Plan
 
 OnBetter = Callable[[Result], None]
@@ -28,6 +28,8 @@ OVERTIME_S = 0.4
 """What a planner that ends at the deadline may take to report."""
 LATER = (1 / 30, 1 / 6, 1 / 3)
 """When one more job than there are cores may start, as parts of the whole time."""
+DUTY = 20
+"""A look at the memory of all processes may take one part in so many of the time."""
 STAGGER_S = 0.1
 """How long the first job runs alone: many tasks need no more."""
 LATE_NICENESS = 5
@@ -69,7 +71,7 @@ def race(request: Request, waiting: Sequence[Job], lanes: bool, on_better: OnBet
     """Return what jobs say that run side by side until the result is settled or time is up.
 
     As many as there are cores (two at least) run at the same time, those that stand first begin.
-    They share the memory of the request.
+    They share the memory of the request: the largest is stopped if all together use more.
     """
     return _Race(request, waiting, lanes, on_better).run()
 
@@ -89,8 +91,8 @@ class _Race:
         self._in_lanes = lanes
         self._on_better = on_better
         self._start_s = time.monotonic()
-        most = min(len(waiting), self._slots + len(LATER))
-        self._memory = request.memory_bytes // max(1, most)
+        self._share = request.memory_bytes // min(max(1, len(waiting)), self._slots)
+        self._look_at_memory_s = 0.0
 
     def run(self) -> Portfolio:
         """Return the portfolio once it is settled, all jobs have ended, or time is up."""
@@ -126,7 +128,7 @@ class _Race:
             job = self._waiting.pop(0)
             request = replace(
                 self.request,
-                memory_bytes=self._memory,
+                memory_bytes=self._share,
                 any_plan=job.any_plan or self.request.any_plan,
                 improves=not self.request.any_plan,
             )
@@ -154,9 +156,19 @@ class _Race:
                 self._take(lane, message)
             if lane.worker.is_over:
                 self._remove(lane)
-        for lane in [lane for lane in self._lanes if lane.worker.exceeds(self._memory)]:
+        if time.monotonic() >= self._look_at_memory_s:
+            self._watch_memory()
+
+    def _watch_memory(self) -> None:
+        """Stop the largest job if all together use more memory than they may."""
+        start_s, memory = time.monotonic(), self.request.memory_bytes
+        worker = largest_beyond([lane.worker for lane in self._lanes], memory)
+        for lane in [lane for lane in self._lanes if lane.worker is worker]:
             lane.worker.signal(signal.SIGKILL)
-            self._take(lane, LimitError(f"stopped: more than {self._memory >> 20} MiB of memory"))
+            words = f"stopped: all planners together use more than {memory >> 20} MiB of memory"
+            self._take(lane, LimitError(words))
+        end_s = time.monotonic()
+        self._look_at_memory_s = end_s + DUTY * (end_s - start_s)
 
     def _take(self, lane: _Lane, message: _Message) -> None:
         before = self.portfolio.best

@@ -14,10 +14,11 @@ import os
 import signal
 import time
 from collections.abc import Callable, Sequence
+from itertools import chain
 from types import FrameType
 from typing import Any, Generic, NoReturn, TypeVar
 
-from hrcplan.planners.guard import PR_SET_PDEATHSIG, proportional, resident
+from hrcplan.planners.guard import PR_SET_PDEATHSIG, below, children, proportional, resident
 from hrcplan.planners.messages import Inbox, send
 
 M = TypeVar("M")
@@ -59,10 +60,6 @@ class Worker(Generic[M]):
     def is_over(self) -> bool:
         """Whether the work has ended and all its messages are read."""
         return self._inbox.is_over
-
-    def exceeds(self, memory_bytes: int) -> bool:
-        """Return whether it uses more memory than this; what it shares counts in part."""
-        return resident(self.pid) > memory_bytes and proportional(self.pid) > memory_bytes
 
     @property
     def is_running(self) -> bool:
@@ -139,6 +136,19 @@ def end(workers: Sequence[Worker[Any]]) -> None:
         worker.signal(signal.SIGKILL)
     for worker in workers:
         worker.close()
+
+
+def largest_beyond(workers: Sequence[Worker[M]], memory_bytes: int) -> Worker[M] | None:
+    """Return the worker that uses most memory, if all together use more than they may.
+
+    What they have started counts, too; shared memory counts in part.
+    """
+    tree = children()
+    pids = [[worker.pid, *below(worker.pid, tree)] for worker in workers]
+    if sum(map(resident, chain.from_iterable(pids))) <= memory_bytes:
+        return None
+    sizes = [sum(map(proportional, group)) for group in pids]
+    return None if sum(sizes) <= memory_bytes else workers[sizes.index(max(sizes))]
 
 
 class _EndRequest(BaseException):
