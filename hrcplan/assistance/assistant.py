@@ -34,6 +34,7 @@ from hrcplan.inference.belief import (
     after_attempt,
     after_wait,
     at_turn,
+    in_world,
     n_declared,
 )
 
@@ -198,6 +199,11 @@ class BeliefAssistant(ValueAssistant[AssistantState[S]], Generic[S]):
         belief: S = after_attempt(self.belief, state.belief, step)
         progress = self.tracker.attempt(state.progress, step)
         return replace(state, belief=belief, progress=progress, ignored=belief.ignored)
+
+    def observe_state(self, state: AssistantState[S], world: int) -> AssistantState[S]:
+        """Return the state in another state of the task, given as bits."""
+        belief: S = in_world(self.belief, state.belief, world)
+        return replace(state, belief=belief, progress=self.tracker.in_world(state.progress, world))
 
     def at_turn(self, state: AssistantState[S], agent: str) -> AssistantState[S]:
         """Return the state as it is if it is an agent's turn, where agents take turns."""

@@ -18,11 +18,11 @@ from hrcplan.assistance.expected_help import ExpectedHelp
 from hrcplan.assistance.explanation import StepChoice
 from hrcplan.assistance.priced_help import PricedHelp, PricedSteps, PricedTeam
 from hrcplan.assistance.questions import (
+    AskingRecord,
     GoalQuestion,
     answer_likelihood,
     best_question,
     one_goal,
-    question_price,
 )
 from hrcplan.assistance.step_prices import Changes, PriceModel, StepPrices
 from hrcplan.bank import Bank
@@ -30,7 +30,13 @@ from hrcplan.bank.progress import Evidence, Progress
 from hrcplan.core.arrays import Bools, Floats
 from hrcplan.core.numbers import Number
 from hrcplan.inference.adaptive import AdaptiveBelief
-from hrcplan.inference.belief import IMPOSSIBLE, Belief, PredictsSteps, after_evidence
+from hrcplan.inference.belief import (
+    IMPOSSIBLE,
+    Belief,
+    PredictsSteps,
+    after_evidence,
+    with_progress,
+)
 from hrcplan.pddl.conventions import people
 from hrcplan.pddl.model import FluentKey
 
@@ -39,7 +45,7 @@ NONE_PRIOR = 0.02  # that people want none of the goals of the bank
 NONE_HAZARD = 0.1  # that before a human step this is drawn again
 NONE_HOLDS = 0.5
 IDLES = 0.2  # how likely people stand still who could do a next step of their goal
-MAX_PRICED = 4  # agent states whose prices are remembered
+MAX_PRICED = 8  # agent states whose prices are remembered
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,14 +71,14 @@ class Situation:
 
     Attributes:
         values: The agent state, as function values that planners get.
-        n_asked: How many questions about the goal were asked.
-        people_wait: Whether people stand still.
+        asking: What became of questions about the goal, and whether people stand still.
+        stands_still: Whether people go on to do nothing.
         interactions: What could be done for an agent's state.
     """
 
     values: Values = field(default_factory=dict)
-    n_asked: int = 0
-    people_wait: bool = False
+    asking: AskingRecord = field(default_factory=AskingRecord)
+    stands_still: bool = False
     interactions: Sequence[PossibleInteraction] = ()
 
 
@@ -135,11 +141,12 @@ class JointHelp(ExpectedHelp):
         """Return what the robot should do now."""
         helper, weights = self.helper(situation.values), self.posterior(state)
         if self.asks and state.none <= NONE_HOLDS:
-            price = question_price(situation.n_asked, situation.people_wait)
-            question = best_question(helper, state.progress, weights, price)
+            question = best_question(helper, state.progress, weights, situation.asking)
             if question is not None:
                 return Advice(question=question, value=question.worth)
         choice = self._claimed(helper, state, helper.options(state.progress, weights))
+        if situation.stands_still:
+            choice = helper.surely_nearer(choice, state.progress, weights)
         best = choice.best
         value = 0.0 if best is None else choice.values[choice.steps.index(best)]
         advice = Advice(step=best, value=value)
@@ -207,13 +214,29 @@ class JointHelp(ExpectedHelp):
             return progress.doable.bit_count()
         return len(moves.choices(progress.world, progress.moment).steps) + 1
 
-    def observe_idling(self, state: JointState) -> JointState:
-        """Return the state after people have stood still, where agents do not take turns.
+    def observe_pause(self, state: JointState, is_evidence: bool = True) -> JointState:
+        """Return the state after a person did nothing.
 
-        A goal of which they could do a next step makes that less likely.
+        A goal of which they could do a next step makes that less likely. A pause that goes on says
+        nothing more.
+
+        Args:
+            state: The state before.
+            is_evidence: Whether it says something about the goal.
         """
+        if self.tracker.moves is not None:
+            if is_evidence:
+                return _joint(self.observe_wait(state), state)
+            move = self.tracker.wait(state.progress)
+            return state if move is None else self._with_progress(state, move[0])
+        if not is_evidence:
+            return state
         likelihood = np.where(self._has_step(state.progress, self._people), IDLES, 1.0)
         return self._after_evidence(state, likelihood)
+
+    def _with_progress(self, state: JointState, progress: Progress) -> JointState:
+        belief: Any = with_progress(state.belief, progress)
+        return replace(state, belief=belief, progress=progress)
 
     def chance_of_pause(self, state: JointState, agent: str) -> float:
         """Return how likely an agent stands still now, if no action is hard for it."""

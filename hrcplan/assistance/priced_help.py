@@ -47,6 +47,12 @@ class PricedHelp(Protocol):
     def n_helped(self, progress: Progress, step: int, weights: Floats) -> int:
         """Return how many goals that are not out of the question have a step next."""
 
+    def surely_nearer(self, choice: StepChoice, progress: Progress, weights: Floats) -> StepChoice:
+        """Return a choice without steps that pay only because people will show what they want.
+
+        Those could be done and undone for ever while people stand still.
+        """
+
 
 class PricedSteps:
     """The help of steps that any agent can do.
@@ -162,6 +168,10 @@ class PricedSteps:
         goals = np.unique(next_steps.goals[next_steps.steps == step])
         return int((weights[goals] > NEGLIGIBLE).sum())
 
+    def surely_nearer(self, choice: StepChoice, progress: Progress, weights: Floats) -> StepChoice:
+        """Return the choice: its values do not look ahead."""
+        return choice
+
 
 class PricedTeam:
     """The help of a robot in a team that takes turns.
@@ -210,6 +220,16 @@ class PricedTeam:
         is_next = choices.is_next[:, choices.place(step)]
         return int((is_next & (weights > NEGLIGIBLE)).sum())
 
+    def surely_nearer(self, choice: StepChoice, progress: Progress, weights: Floats) -> StepChoice:
+        """Return the steps that lower the expected cost of a team that knows the goal."""
+        choices = self.moves.choices(progress.world, self._moment(progress, weights))
+        costs = weights @ choices.costs
+        pairs = [
+            (step, value) for step, value in zip(choice.steps, choice.values, strict=True)
+            if costs[choices.place(step)] < costs[-1]
+        ]  # fmt: skip
+        return StepChoice(tuple(s for s, _ in pairs), tuple(v for _, v in pairs), choice.wait)
+
 
 class _RemembersCosts(TeamHelp):
     """The same, which does not look ahead twice for one decision."""
@@ -250,6 +270,10 @@ class PricedMoves(TeamMoves):
                 extra = self.extra[[op.step for op in self.bank.table.ops]]
                 self._tables[goal] = self.inner.costs.priced(goal, extra + ACTION, 1.0)
                 self._by_moment = {}  # made without this goal's costs
+
+    def knows(self, world: int) -> bool:
+        """Return whether a state is one that the team can get to."""
+        return self.inner.knows(world)
 
     def choices(self, world: int, moment: Moment) -> TeamChoices:
         """Return what the agent whose turn it is can do, with its costs at the present prices."""

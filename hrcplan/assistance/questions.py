@@ -25,33 +25,52 @@ class GoalQuestion:
     worth: float
 
 
-def question_price(n_asked: int, people_wait: bool) -> float:
-    """Return what a question costs: each one more than the one before, less where people wait.
+@dataclass(frozen=True, slots=True)
+class AskingRecord:
+    """What became of earlier questions, and whether people wait now."""
 
-    So their number is limited by what an answer can be worth.
+    n_asked: int = 0
+    n_answered: int = 0
+    people_wait: bool = False
 
-    >>> question_price(0, False), question_price(1, True)
-    (1.0, 1.0)
-    """
-    return ASK_PRICE * (1 + n_asked) * (IDLE_SHARE if people_wait else 1.0)
+    @property
+    def price(self) -> float:
+        """What a question costs: each one more than the one before, less where people wait.
+
+        So the number of questions is limited by what an answer can be worth.
+
+        >>> AskingRecord().price, AskingRecord(1, 1, people_wait=True).price
+        (1.0, 1.0)
+        """
+        return ASK_PRICE * (1 + self.n_asked) * (IDLE_SHARE if self.people_wait else 1.0)
+
+    @property
+    def chance_of_answer(self) -> float:
+        """How likely people answer, from how often they have done so.
+
+        >>> AskingRecord().chance_of_answer, AskingRecord(3, 0).chance_of_answer
+        (1.0, 0.25)
+        """
+        return (1 + self.n_answered) / (1 + self.n_asked)
 
 
 def best_question(
-    helper: PricedHelp, progress: Progress, weights: Floats, price: float
+    helper: PricedHelp, progress: Progress, weights: Floats, record: AskingRecord
 ) -> GoalQuestion | None:
     """Return the question that is worth its price; None if there is none.
 
     It names the likeliest goals. Its value is what the best step costs now, minus what it costs
-    on average once the answer is known.
+    on average once the answer is known, if people answer.
 
     Args:
         helper: Knows what steps cost.
         progress: Where the goals are.
         weights: The probability of each goal.
-        price: What the question costs.
+        record: What a question costs, and how likely it is answered.
     """
+    price, chance = record.price, record.chance_of_answer
     now, certain = helper.least_cost(progress, weights), helper.least_costs(progress)
-    if now - float(weights @ certain) <= price:
+    if chance * (now - float(weights @ certain)) <= price:
         return None  # not even worth it if the answer named the goal
     order = np.argsort(-weights, kind="stable")[:MAX_ANSWERS]
     goals = [int(goal) for goal in order if weights[goal] >= LEAST]
@@ -60,7 +79,7 @@ def best_question(
     share = float(rest.sum())
     if share > 0:
         cost += share * helper.least_cost(progress, rest / share)
-    worth = now - cost - price
+    worth = chance * (now - cost) - price
     return GoalQuestion(tuple(goals), worth) if worth > 0 else None
 
 

@@ -140,6 +140,23 @@ class ProgressTracker:
             return progress
         return self._in_turn(progress, progress.world, replace(moment, turn=turn))
 
+    def in_world(self, progress: Progress, world: int) -> Progress:
+        """Return the progress in another state, which was observed.
+
+        A state that a team cannot get to leaves it as it is.
+        """
+        if world == progress.world:
+            return progress
+        if self.moves is not None and progress.moment is not None:
+            if not self.moves.knows(world):
+                return progress
+            return self._in_turn(progress, world, progress.moment)
+        nodes = np.array([self._find(g, world) for g in range(len(self.bank.names))])
+        is_off = np.flatnonzero(nodes == self.combined_graph.off).tolist()
+        off = {goal: OffGraph(world) for goal in is_off}
+        doable = self._doable.after(progress.doable, progress.world, world)
+        return Progress(world, nodes, doable, off or _NOWHERE)
+
     def attempt(self, progress: Progress, step: int) -> Progress:
         """Return the progress after a step that failed: where agents take turns, a turn is over."""
         if self.moves is None or progress.moment is None:

@@ -16,6 +16,7 @@ from hrcplan.bank.bank import Bank
 from hrcplan.bank.cost_to_go import NEVER, TIMESTEP, Costs, cost_to_go_of
 from hrcplan.bank.team import ANY_AGENT, step_owners
 from hrcplan.core.arrays import Bools, Floats, Ids
+from hrcplan.errors import UsageError
 from hrcplan.pddl.conventions import robots
 
 K = TypeVar("K")
@@ -132,6 +133,14 @@ class TeamMoves:
         for _ in range(self._n_waits(moment, step)):
             moment = self.after(moment, None)
         return moment
+
+    def knows(self, world: int) -> bool:
+        """Return whether a state is one that the team can get to."""
+        try:
+            self.costs.place(world)
+        except UsageError:
+            return False
+        return True
 
     def can_reach(self, goal: int, world: int) -> bool:
         """Return whether the team can still reach a goal."""

@@ -69,7 +69,7 @@ class Adviser:
     @cached_property
     def fold(self) -> BeliefFold:
         """The belief of the assistant."""
-        return BeliefFold(self.bank, self._make(self.bank))
+        return BeliefFold(self.bank, self._make(self.bank), self.setup.model.actions)
 
     @property
     def is_ready(self) -> bool:

@@ -8,16 +8,20 @@ from hrcplan.assistance.assistant import Assistant, inform
 from hrcplan.assistance.joint_help import JointHelp, JointState
 from hrcplan.bank import Bank
 from hrcplan.bank.turn_moves import team_moves
+from hrcplan.collaboration.events import OTHER
 from hrcplan.collaboration.history import (
     AskedGoal,
+    DeniedGoals,
     History,
-    PassedTurn,
     SeenAction,
     SeenEnd,
+    SeenFacts,
     SeenMark,
+    SeenWait,
     WantedGoal,
     evidence_in,
 )
+from hrcplan.execution.action_model import ActionModel
 from hrcplan.inference.belief import (
     IMPOSSIBLE,
     BeliefState,
@@ -25,6 +29,7 @@ from hrcplan.inference.belief import (
     after_attempt,
     after_wait,
     at_turn,
+    in_world,
 )
 from hrcplan.pddl.conventions import robots
 
@@ -38,10 +43,13 @@ class BeliefFold:
     Args:
         bank: The plans.
         assistant: Made from it.
+        model: How actions end; without it, states that are observed change nothing.
     """
 
-    def __init__(self, bank: Bank, assistant: Assistant[Any]) -> None:
-        self.bank, self.assistant = bank, assistant
+    def __init__(
+        self, bank: Bank, assistant: Assistant[Any], model: ActionModel | None = None
+    ) -> None:
+        self.bank, self.assistant, self._model = bank, assistant, model
         self.has_turns = team_moves(bank) is not None
         self._robots = robots(bank.goals.problem)
         self._seen: tuple[SeenMark, ...] = ()
@@ -49,7 +57,7 @@ class BeliefFold:
 
     def state(self, history: History) -> Any:
         """Return the assistant's state after a history."""
-        seen = evidence_in(history)
+        seen = evidence_in(history, self._model)
         n = 0
         while n < min(len(seen), len(self._seen)) and seen[n] == self._seen[n]:
             n += 1
@@ -70,10 +78,15 @@ class BeliefFold:
                 return self._after_action(state, impossible, mark)
             case SeenEnd(number):
                 return self._after_end(state, impossible, number)
-            case PassedTurn(agent):
-                return self._after_pass(state, agent), impossible
+            case SeenFacts(facts):
+                world = self.bank.goals.task.state_of(facts)
+                return in_world(self.assistant, state, world), impossible
+            case SeenWait(agent, goes_on):
+                return self._after_wait(state, agent, goes_on), impossible
             case AskedGoal(options, choice):
                 return self._after_answer(state, options, choice), impossible
+            case DeniedGoals(options):
+                return self._after_answer(state, options, OTHER), impossible
             case WantedGoal(goal):
                 return inform(self.assistant, state, self.bank.goal_index(goal)), impossible
 
@@ -108,12 +121,12 @@ class BeliefFold:
         answer = self.bank.goal_index(choice) if choice in options else None
         return self.assistant.observe_answer(state, goals, answer)
 
-    def _after_pass(self, state: BeliefState, agent: str) -> Any:
+    def _after_wait(self, state: BeliefState, agent: str, goes_on: bool) -> Any:
+        if isinstance(self.assistant, JointHelp) and agent not in self._robots:
+            state = self.in_turn_of(state, agent)
+            assert isinstance(state, JointState)
+            return self.assistant.observe_pause(state, is_evidence=not goes_on)
         if not self.has_turns:
-            is_person = agent not in self._robots
-            if is_person and isinstance(self.assistant, JointHelp):
-                assert isinstance(state, JointState)
-                return self.assistant.observe_idling(state)
             return state  # a wait says nothing where it is not known whose turn it is
         if not isinstance(self.assistant, ObservesWaits):
             return state

@@ -111,6 +111,8 @@ class Companion:
         run, commands = self._observed(run, event)
         now = run.run.sensed_values
         news = {key: now[key] for key in event.values if key in now and now[key] != before.get(key)}
+        if not self.setup.is_joint:
+            return run, commands
         return (run.plus(SensedValues(news)) if news else run), commands
 
     def _observed(self, run: CompanionRun, event: SharedEvent) -> CompanionStep:

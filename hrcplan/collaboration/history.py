@@ -65,6 +65,13 @@ class AskedGoal:
 
 
 @dataclass(frozen=True, slots=True)
+class DeniedGoals:
+    """Goals hold, and people have not said that this is all."""
+
+    options: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class PassedTurn:
     """An agent did nothing in its turn."""
 
@@ -86,7 +93,10 @@ class SeenState:
     numbers: Mapping[FluentKey, Number]
 
 
-Mark = BegunAction | EndedAction | PassedTurn | WantedGoal | SeenState | SensedValues | AskedGoal
+Mark = (
+    BegunAction | EndedAction | PassedTurn | WantedGoal | SeenState | SensedValues | AskedGoal
+    | DeniedGoals
+)  # fmt: skip
 History = tuple[Mark, ...]
 
 
@@ -125,8 +135,15 @@ def state_after(
     history: History, model: ActionModel
 ) -> tuple[LiftedState, dict[int, StartEffects]]:
     """Return the state after a history, and what the start of each running action changed."""
-    state = model.initial()
-    running: dict[int, tuple[BoundAction, StartEffects, float]] = {}
+    state, running = _state_and_running(history, model)
+    return state, {number: effects for number, (_, effects, _) in running.items()}
+
+
+_Running = dict[int, tuple[BoundAction, StartEffects, float]]
+
+
+def _state_and_running(history: History, model: ActionModel) -> tuple[LiftedState, _Running]:
+    state, running = model.initial(), _Running()
     for mark in history:
         match mark:
             case BegunAction():
@@ -143,7 +160,19 @@ def state_after(
                     state = model.revert(state, effects)
             case SeenState(facts, numbers):
                 state = LiftedState(facts, numbers)
-    return state, {number: effects for number, (_, effects, _) in running.items()}
+    return state, running
+
+
+def _settled_state(history: History, place: int, model: ActionModel) -> LiftedState:
+    """Return the state just after a mark, if all that runs then had ended as it will end."""
+    outcomes = {m.number: m.outcome for m in history if isinstance(m, EndedAction)}
+    state, running = _state_and_running(history[: place + 1], model)
+    for number, (step, effects, lasts_s) in running.items():
+        if outcomes.get(number, ev.DONE) == ev.DONE:
+            state = model.finish(state, step, exact_number(lasts_s))  # type: ignore[arg-type]
+        else:
+            state = model.revert(state, effects)
+    return state
 
 
 # What a belief sees.
@@ -167,25 +196,49 @@ class SeenEnd:
     number: int
 
 
-SeenMark = SeenAction | SeenEnd | PassedTurn | WantedGoal | AskedGoal
+@dataclass(frozen=True, slots=True)
+class SeenFacts:
+    """The facts, once all that runs has ended: they do not follow from the actions."""
+
+    facts: frozenset[Fact]
 
 
-def evidence_in(history: History) -> tuple[SeenMark, ...]:
+@dataclass(frozen=True, slots=True)
+class SeenWait:
+    """An agent did nothing in its turn; ``goes_on``: and has done nothing since it did so last."""
+
+    agent: str
+    goes_on: bool
+
+
+SeenMark = SeenAction | SeenEnd | SeenFacts | SeenWait | WantedGoal | AskedGoal | DeniedGoals
+
+
+def evidence_in(history: History, model: ActionModel | None = None) -> tuple[SeenMark, ...]:
     """Return what a belief observes, in order.
 
     An action is evidence when it begins. A person's attempt that failed remains evidence without
     an effect; attempts of one action, without another action of this person between them, are one
     observation. What a robot failed to do has not happened.
+
+    Args:
+        history: The history.
+        model: How actions end; without it observed states are left out.
     """
     outcomes = {m.number: m.outcome for m in history if isinstance(m, EndedAction)}
     seen: list[SeenMark | None] = []
+    waiting: set[str] = set()
     attempts: dict[str, int] = {}  # the place of each person's last action, if that failed
-    for mark in history:
+    for place, mark in enumerate(history):
         match mark:
+            case SeenState() if model is not None:
+                facts = frozenset(_settled_state(history, place, model).facts)
+                seen.append(SeenFacts(facts))
             case BegunAction():
                 happens = outcomes.get(mark.number, ev.DONE) == ev.DONE
                 if mark.is_robot and not happens:
                     continue
+                waiting.discard(mark.agent)
                 before = attempts.pop(mark.agent, None)
                 if before is not None and _words(seen[before]) == mark.words:
                     seen[before] = None
@@ -194,7 +247,10 @@ def evidence_in(history: History) -> tuple[SeenMark, ...]:
                 seen.append(SeenAction(mark.number, mark.agent, mark.words, mark.is_robot, happens))
             case EndedAction(number=number, outcome=ev.DONE):
                 seen.append(SeenEnd(number))
-            case PassedTurn() | WantedGoal() | AskedGoal():
+            case PassedTurn(agent):
+                seen.append(SeenWait(agent, agent in waiting))
+                waiting.add(agent)
+            case WantedGoal() | AskedGoal() | DeniedGoals():
                 seen.append(mark)
     return tuple(one for one in seen if one is not None)
 

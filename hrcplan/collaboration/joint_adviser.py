@@ -16,6 +16,7 @@ from hrcplan.assistance.joint_help import (
     Situation,
     Values,
 )
+from hrcplan.assistance.questions import AskingRecord
 from hrcplan.assistance.step_prices import action_cost
 from hrcplan.collaboration import events as shared
 from hrcplan.collaboration.agent_fold import AgentBelief, AgentFold
@@ -135,19 +136,21 @@ class JointAdviser:
     def _situation(
         self, history: History, agents: AgentBelief | None, doers: tuple[str, ...]
     ) -> Situation:
-        n_asked = sum(isinstance(mark, AskedGoal) for mark in history)
+        answers = [mark.choice for mark in history if isinstance(mark, AskedGoal)]
+        n_pauses = self._n_pauses(history)
+        asking = AskingRecord(len(answers), sum(map(bool, answers)), n_pauses > 0)
         values = {} if agents is None else self.agents.values(agents)
         interactions = [] if agents is None else self._interactions(history, agents, doers)
-        return Situation(values, n_asked, self._people_wait(history), tuple(interactions))
+        return Situation(values, asking, n_pauses > 1, tuple(interactions))
 
-    def _people_wait(self, history: History) -> bool:
-        """Return whether the last thing that a person did was to do nothing."""
+    def _n_pauses(self, history: History) -> int:
+        """Return how often people have done nothing since one of them has acted."""
+        n_pauses = 0
         for mark in reversed(history):
             if isinstance(mark, BegunAction) and not mark.is_robot:
-                return False
-            if isinstance(mark, PassedTurn) and mark.agent not in self.setup.robots:
-                return True
-        return False
+                break
+            n_pauses += isinstance(mark, PassedTurn) and mark.agent not in self.setup.robots
+        return n_pauses
 
     def _interactions(
         self, history: History, agents: AgentBelief, doers: tuple[str, ...]

@@ -7,6 +7,7 @@ from dataclasses import replace
 from hrcplan.collaboration import events as shared
 from hrcplan.collaboration.history import (
     AskedGoal,
+    DeniedGoals,
     EndedAction,
     History,
     PassedTurn,
@@ -69,7 +70,7 @@ class Reports:
         if agent not in self.setup.people or (step.agent and event.agent not in ("", step.agent)):
             return _told(companion, "unknown-agent", f"{text} is no action of a person here")
         if self.setup.has_one_goal and _runs(companion.run, step):
-            return _closed(_begun_now(companion, step)), ()  # it was asked for
+            return self._closed(_begun_now(companion, step)), ()  # it was asked for
         companion = self._after_question(companion, agent)
         if not self._has_turn(companion, agent):
             return _told(companion, "not-your-turn", f"it is not the turn of {agent}")
@@ -77,7 +78,7 @@ class Reports:
         obstacle = self.obstacle(after.run, step)
         if obstacle is not None:
             return _told(companion, "impossible", f"{text} needs {obstacle}")
-        after, dispatch = self.begin(_closed(after), step)
+        after, dispatch = self.begin(self._closed(after), step)
         if self.setup.has_one_goal:
             run = after.run.with_reason(ev.DEVIATION, f"{agent} does {text}")
             after = replace(after, run=run)
@@ -114,10 +115,10 @@ class Reports:
         slot = self.setup.slots[companion.slot]
         agent = event.agent or slot[0]
         if self.setup.has_one_goal or companion.question is not None:
-            return _closed(companion), ()
+            return self._closed(companion), ()
         if not self._has_turn(companion, agent):
             return _told(companion, "not-your-turn", f"it is not the turn of {agent}")
-        return replace(_closed(companion), has_acted=True).plus(PassedTurn(agent)), ()
+        return replace(self._closed(companion), has_acted=True).plus(PassedTurn(agent)), ()
 
     def take_words(self, companion: CompanionRun, event: shared.Said) -> CompanionStep:
         """Return the run when a person has said something, and the question what it means."""
@@ -159,16 +160,35 @@ class Reports:
         if question.question == shared.WHICH:
             if event.choice not in question.options:
                 return _told(companion, "unknown-answer", f"'{event.choice}' was no option")
-            return self._begun_text(_closed(companion), event.choice)
+            return self._begun_text(self._closed(companion), event.choice)
         if question.question == shared.GOAL:
             if event.choice not in (*question.options, shared.OTHER):
                 return _told(companion, "unknown-answer", f"'{event.choice}' was no option")
-            return _closed(companion, event.choice), ()
+            return self._closed(companion, event.choice), ()
         if event.choice != shared.YES:
-            return _closed(companion), ()
+            return self._closed(companion), ()
         run, commands = self.decider.finish(companion.run, ev.GOAL, ", ".join(question.options))
         reached = frozenset(question.options)
         return replace(companion, run=run, question=None, reached=reached), commands
+
+    def _closed(self, companion: CompanionRun, answer: str = "") -> CompanionRun:
+        """Return the run without an open question; goals that people go on from are not all.
+
+        Args:
+            companion: The run.
+            answer: What people have said to a question about their goal; "" if nothing.
+        """
+        question = companion.question
+        if question is None:
+            return companion
+        denied = companion.denied
+        if question.question == shared.GOAL:
+            companion = companion.plus(AskedGoal(question.options, answer))
+        if question.question == shared.DONE:
+            denied = denied | frozenset(question.options)
+            if self.setup.is_joint:
+                companion = companion.plus(DeniedGoals(question.options))
+        return replace(companion, question=None, denied=denied, phase=CompanionPhase.LISTENING)
 
     def undone(self, companion: CompanionRun, event: shared.Undone) -> CompanionStep:
         """Return the run as if a person had never begun an action, or as if it had failed.
@@ -181,7 +201,9 @@ class Reports:
             return _told(companion, "nothing-to-undo", "no action of a person can be taken back")
         change = as_failed if event.attempted else without
         is_running = companion.run.running_action(number) is not None
-        companion = self._corrected(_closed(companion), change(companion.history, number), number)
+        if companion.question is not None:  # which is withdrawn, not answered
+            companion = replace(companion, question=None, phase=CompanionPhase.LISTENING)
+        companion = self._corrected(companion, change(companion.history, number), number)
         if self.setup.has_one_goal:
             reason = f"{fact_text(action.words)} was not done"
             companion = replace(companion, run=companion.run.with_reason(ev.DEVIATION, reason))
@@ -214,24 +236,6 @@ def _begun_now(companion: CompanionRun, step: BoundAction) -> CompanionRun:
     run = companion.run
     running = tuple(replace(r, begun_s=run.t) if r.step == step else r for r in run.running)
     return replace(companion, run=replace(run, running=running))
-
-
-def _closed(companion: CompanionRun, answer: str = "") -> CompanionRun:
-    """Return the run without an open question; goals that people go on from are not all.
-
-    Args:
-        companion: The run.
-        answer: What people have said to a question about their goal; "" if nothing.
-    """
-    question = companion.question
-    if question is None:
-        return companion
-    if question.question == shared.GOAL:
-        companion = companion.plus(AskedGoal(question.options, answer))
-    denied = companion.denied
-    if question.question == shared.DONE:
-        denied = denied | frozenset(question.options)
-    return replace(companion, question=None, denied=denied, phase=CompanionPhase.LISTENING)
 
 
 def _told(companion: CompanionRun, code: str, message: str) -> CompanionStep:

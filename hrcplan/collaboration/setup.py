@@ -11,6 +11,7 @@ from typing import Any
 from hrcplan.agents import Profile
 from hrcplan.agents.profile import profile_from_table
 from hrcplan.bank import Goals
+from hrcplan.collaboration.robots import JOINT_ROBOTS
 from hrcplan.errors import InputError, UsageError
 from hrcplan.execution.model import ExecutionModel
 from hrcplan.pddl.check import domain_in, problem_in
@@ -66,6 +67,11 @@ class CollaborationSetup:
         """The agents that take no commands, in the order of their turns."""
         humans = people(self.problem)
         return tuple(agent for slot in self.slots for agent in slot if agent in humans)
+
+    @property
+    def is_joint(self) -> bool:
+        """Whether the robot weighs goal and agent state, and hears more than steps."""
+        return self.method in JOINT_ROBOTS
 
     @property
     def has_one_goal(self) -> bool:

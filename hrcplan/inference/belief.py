@@ -118,6 +118,23 @@ class ActsInAnyTurn(Protocol[S]):
         ...
 
 
+@runtime_checkable
+class ObservesStates(Protocol[S]):
+    """A belief that is put right where the state of the task is seen to be another one."""
+
+    def observe_state(self, state: S, world: int) -> S:
+        """Return the belief in another state of the task, given as bits; it is no evidence."""
+        ...
+
+
+def in_world(belief: Belief[S], state: S, world: int) -> S:
+    """Return a belief in another state of the task; as it was if it cannot be put right."""
+    if isinstance(belief, ObservesStates):
+        moved: S = belief.observe_state(state, world)
+        return moved
+    return state
+
+
 @dataclass(frozen=True, slots=True)
 class GoalChange:
     """A change of goal just before observation ``at`` (0-based), and how probable it is.
@@ -247,7 +264,7 @@ def after_attempt(belief: Belief[S], state: S, step: int) -> S:
     after: S = belief.observe(state, step)
     if after.ignored is not None:
         return after
-    return _with_progress(after, progress[0].attempt(progress[1], step))
+    return with_progress(after, progress[0].attempt(progress[1], step))
 
 
 def after_evidence(belief: Belief[S], state: S, likelihood: Floats) -> S:
@@ -266,7 +283,7 @@ def at_turn(belief: Belief[S], state: S, agent: str) -> S:
     progress = _progress_in(belief, state)
     if progress is None:
         return state
-    return _with_progress(state, progress[0].at_turn(progress[1], agent))
+    return with_progress(state, progress[0].at_turn(progress[1], agent))
 
 
 def _progress_in(
@@ -278,8 +295,8 @@ def _progress_in(
     return None
 
 
-def _with_progress(state: S, progress: Progress) -> S:
-    """Return a state with another progress; as it was if it is no data class."""
+def with_progress(state: S, progress: Progress) -> S:
+    """Return a belief's state with another progress; as it was if it is no data class."""
     if not is_dataclass(type(state)):
         return state
     moved: S = replace(cast(Any, state), progress=progress)

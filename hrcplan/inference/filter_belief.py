@@ -129,6 +129,10 @@ class FilterBelief(PlanFollower, ABC, Generic[F]):
         filter_state = self.filter.step(state.filter_state, likelihood)
         return FilterBeliefState(progress, filter_state, is_human=True)
 
+    def observe_state(self, state: FilterBeliefState[F], world: int) -> FilterBeliefState[F]:
+        """Return the belief in another state of the task, given as bits."""
+        return replace(state, progress=self.tracker.in_world(state.progress, world))
+
     def observe_evidence(
         self, state: FilterBeliefState[F], likelihood: Floats
     ) -> FilterBeliefState[F]:

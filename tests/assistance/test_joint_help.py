@@ -8,7 +8,7 @@ import pytest
 from hrcplan.assistance.expected_help import ExpectedHelp
 from hrcplan.assistance.joint_help import JointHelp, Situation
 from hrcplan.assistance.priced_help import PricedMoves
-from hrcplan.assistance.questions import ASK_PRICE, answer_likelihood, question_price
+from hrcplan.assistance.questions import ASK_PRICE, AskingRecord, answer_likelihood
 from hrcplan.assistance.step_prices import PriceModel
 from hrcplan.assistance.team_help import ACTION
 from hrcplan.assistance.turn_costs import human_turn_costs
@@ -105,9 +105,10 @@ def test_costs_of_tired_people_are_higher() -> None:
 
 
 def test_each_question_costs_more_than_the_one_before() -> None:
-    prices = [question_price(n, False) for n in range(4)]
+    prices = [AskingRecord(n, n).price for n in range(4)]
     assert prices == sorted(set(prices))
-    assert prices[0] == ASK_PRICE > question_price(0, True)
+    assert prices[0] == ASK_PRICE > AskingRecord(people_wait=True).price
+    assert AskingRecord(2, 2).chance_of_answer == 1 > AskingRecord(2, 1).chance_of_answer
 
 
 def test_an_answer_settles_the_goal_and_something_else_rules_the_options_out() -> None:
@@ -126,8 +127,9 @@ def test_standing_still_speaks_against_goals_of_which_there_is_a_step() -> None:
     step = bank.table.find(("cut", "pipe"))
     assert step is not None
     state = robot.observe(robot.start(), step)
-    idle = robot.observe_idling(state)
+    idle = robot.observe_pause(state)
     assert robot.posterior(idle).tolist() == pytest.approx(robot.posterior(state).tolist())
+    assert robot.observe_pause(idle, is_evidence=False) == idle
     assert robot.chance_of_pause(state, "ann") < 0.5
 
 
