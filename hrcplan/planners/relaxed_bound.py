@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from math import lcm
 
-from hrcplan.core.numbers import Number, exact
+from hrcplan.core.numbers import exact
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.constructs import ALL
 from hrcplan.pddl.model import TRUE, Domain
@@ -20,7 +20,8 @@ from hrcplan.planners.contract import Answer, Capabilities, OwnPlanner, Request,
 from hrcplan.planners.exact.weights import metric
 from hrcplan.planners.lowering import lower
 from hrcplan.search.lm_cut import landmarks, longest_chain
-from hrcplan.task import Task
+from hrcplan.task import BitEffect, Task
+from hrcplan.task.conditions import all_of
 from hrcplan.task.steps import Operator
 from hrcplan.task.unreachable import is_out_of_reach
 
@@ -46,8 +47,8 @@ class RelaxedBound(OwnPlanner):
 
         Raises:
             LimitError: if there is too little time or memory.
-            UnsupportedError: if the metric is not a sum of costs and time, if there are too many
-                actions, or if the sequential reading of a temporal task hides what can happen.
+            UnsupportedError: if the metric is not a sum of costs and time, or if there are too many
+                actions.
         """
         if not request.lazy_task.is_ready or request.problem.domain.is_temporal:
             deadline = time.monotonic() + request.time_left_s / 2
@@ -58,7 +59,6 @@ class RelaxedBound(OwnPlanner):
             raise UnsupportedError(f"more than {MAX_ACTIONS:,} ground actions")
         if not task.problem.domain.is_temporal:
             return _classical(task)
-        _check_chains(task.problem.domain)
         return _temporal(task)
 
 
@@ -75,46 +75,49 @@ def _temporal(task: Task) -> Answer:
     prices = [Fraction(objective.cost * cost) for cost in task.costs]
     if any(price < 0 for price in prices):
         raise UnsupportedError("an action has a negative cost")
-    scale = lcm(*(price.denominator for price in prices))
-    cost = _least_cost(task, [int(price * scale) for price in prices])
+    durations = [Fraction(action.duration or 0) for action in task.actions]
+    price_scale, time_scale = (lcm(*(x.denominator for x in part)) for part in (prices, durations))
+    costs = [int(price * price_scale) for price in prices]
+    ticks = [int(duration * time_scale) for duration in durations]
+    if _has_chains(task.problem.domain):
+        cost = _least_cost(task, costs)
+        time_ops = list(_halves(task, ticks))
+    else:
+        no_time = [0] * len(costs)
+        cost = _sum_of_cuts(task, list(_events(task, costs, no_time)))
+        time_ops = list(_events(task, no_time, ticks))
     if cost is None:
         return Answer(Status.UNSOLVABLE)
-    bound = Fraction(cost, scale) + objective.time * _least_time(task) + objective.constant
-    return Answer(Status.UNSOLVED, bound=exact(bound))
+    chain = longest_chain(time_ops, task.initial, task.goal) or 0
+    bound = Fraction(cost, price_scale) + objective.time * Fraction(chain, time_scale)
+    return Answer(Status.UNSOLVED, bound=exact(bound + objective.constant))
 
 
-def _check_chains(domain: Domain) -> None:
-    """Raise unless whatever an action needs has to be true when it starts.
+def _has_chains(domain: Domain) -> bool:
+    """Return whether whatever an action needs has to be true when it starts.
 
     Else two actions can make true what the other one needs while both run, and a chain of whole
     actions says nothing.
     """
-    for action in domain.actions:
-        if any(c.when == "end" and c.formula != TRUE for c in action.conditions):
-            raise UnsupportedError(f"'{action.name}' has a condition at its end")
+    if any(c.when == "end" and c.formula != TRUE for a in domain.actions for c in a.conditions):
+        return False
     holds = any(c.when == "all" for action in domain.actions for c in action.conditions)
     early = any(e.when == "start" and e.kind == "add" and action.durative
                 for action in domain.actions for e in action.effects)  # fmt: skip
-    if holds and early:
-        raise UnsupportedError("some action adds at its start what another may need all the time")
+    return not (holds and early)
 
 
 def _least_cost(task: Task, costs: Sequence[int]) -> int | None:
     """Return a bound on the sum of the actions' costs; None if the goal is out of reach."""
-    ops = [
+    return _sum_of_cuts(task, [
         Operator(action.tests, action.at_start, action.at_end, action.index, cost)
         for action, cost in zip(task.actions, costs, strict=True)
-    ]
+    ])  # fmt: skip
+
+
+def _sum_of_cuts(task: Task, ops: Sequence[Operator]) -> int | None:
     cuts = landmarks(ops, task.initial, task.goal)
     return None if cuts is None else sum(landmark.cost for landmark in cuts)
-
-
-def _least_time(task: Task) -> Number:
-    """Return a bound on the makespan."""
-    durations = [Fraction(action.duration or 0) for action in task.actions]
-    scale = lcm(*(duration.denominator for duration in durations))
-    ops = list(_halves(task, [int(duration * scale) for duration in durations]))
-    return Fraction(longest_chain(ops, task.initial, task.goal) or 0, scale)
 
 
 def _halves(task: Task, ticks: Sequence[int]) -> Iterator[Operator]:
@@ -124,3 +127,19 @@ def _halves(task: Task, ticks: Sequence[int]) -> Iterator[Operator]:
             yield Operator(action.tests, action.at_start, (), action.index, 0)
         if action.at_end:
             yield Operator(action.tests, (), action.at_end, action.index, length)
+
+
+def _events(task: Task, costs: Sequence[int], ticks: Sequence[int]) -> Iterator[Operator]:
+    """Yield three operators for each action: its start, its duration, and its end.
+
+    What it needs while it runs is only asked for at its end, so that it may come of actions that
+    run at the same time. Two facts more for each action say that it has started and lasted.
+    """
+    for action, cost, length in zip(task.actions, costs, ticks, strict=True):
+        started = 1 << len(task.facts) + 2 * action.index
+        lasted = started << 1
+        start = (*action.at_start, BitEffect(started, 0))
+        yield Operator(action.start, start, (), action.index, cost)
+        yield Operator(((started, started),), (BitEffect(lasted, 0),), (), action.index, length)
+        tests = all_of([((lasted, lasted),), action.over, action.end])
+        yield Operator(tests, (), action.at_end, action.index, 0)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import pytest
 
-from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.inputs import read
 from hrcplan.planners.contract import Request, Status
 from hrcplan.planners.relaxed_bound import RelaxedBound
@@ -25,6 +24,25 @@ MATCH = """(define (domain match) (:requirements :strips :durative-actions)
   (:durative-action mend :parameters () :duration (= ?duration 2)
     :condition (over all (light)) :effect (at end (mended))))"""
 MATCH_P = "(define (problem p) (:domain match) (:init (dark)) (:goal (mended)))"
+
+
+DOOR = """(define (domain door) (:requirements :strips :durative-actions)
+  (:predicates (turned) (is-open))
+  (:durative-action turn :parameters () :duration (= ?duration 4)
+    :condition () :effect (at end (turned)))
+  (:durative-action open :parameters () :duration (= ?duration 5)
+    :condition (at end (turned)) :effect (at end (is-open))))"""
+DOOR_P = "(define (problem p) (:domain door) (:init) (:goal (is-open)))"
+PAIR = """(define (domain pair) (:requirements :strips :durative-actions :action-costs)
+  (:predicates (left) (right) (lifted)) (:functions (total-cost))
+  (:durative-action lift-left :parameters () :duration (= ?duration 1)
+    :condition (over all (right)) :effect (and (at start (left)) (at end (not (left)))
+      (at end (lifted)) (at end (increase (total-cost) 3))))
+  (:durative-action lift-right :parameters () :duration (= ?duration 1)
+    :condition (over all (left)) :effect (and (at start (right)) (at end (not (right)))
+      (at end (increase (total-cost) 4)))))"""
+PAIR_P = """(define (problem p) (:domain pair) (:init) (:goal (lifted))
+  (:metric minimize (total-cost)))"""
 
 
 @pytest.mark.parametrize(("domain", "problem"), [
@@ -49,6 +67,26 @@ def test_a_goal_that_nothing_makes_true_is_unsolvable() -> None:
     assert RelaxedBound().solve(Request(problem_from(RELAY, text))).status is Status.UNSOLVABLE
 
 
-def test_what_needs_concurrency_is_left_to_others() -> None:
-    with pytest.raises(UnsupportedError, match="at its start"):
-        RelaxedBound().solve(Request(problem_from(MATCH, MATCH_P)))
+def test_what_has_to_run_at_the_same_time_is_bounded() -> None:
+    """Mending takes 2; the match, which has to burn for it, is lit at once."""
+    problem = problem_from(MATCH, MATCH_P)
+    best = solve(problem, timeout_s=20)
+    assert RelaxedBound().solve(Request(problem)).bound == 2
+    assert best.objective is not None
+    assert best.objective >= 2
+
+
+def test_a_condition_at_the_end_is_no_delay() -> None:
+    """Opening takes 5 and may begin before the key has turned, after 4."""
+    assert RelaxedBound().solve(Request(problem_from(DOOR, DOOR_P))).bound == 5
+
+
+def test_costs_of_what_runs_at_the_same_time_add_up() -> None:
+    """Each of two actions needs what the other one starts."""
+    assert RelaxedBound().solve(Request(problem_from(PAIR, PAIR_P))).bound == 3 + 4
+
+
+def test_in_a_portfolio_a_temporal_plan_has_a_bound() -> None:
+    best = solve(problem_from(MATCH, MATCH_P), timeout_s=20)
+    assert best.bound is not None
+    assert best.gap is not None
