@@ -11,7 +11,15 @@ from tempfile import TemporaryDirectory
 from public_pddl import breaking, judging, racing
 from public_pddl.archive import Pair, export, pairs
 from public_pddl.reader import READERS
-from public_pddl.reading import OURS, Verdicts, accepts, counts, refused_alone, time_ratios
+from public_pddl.reading import (
+    OURS,
+    Verdicts,
+    accepts,
+    counts,
+    is_readable,
+    refused_alone,
+    time_ratios,
+)
 from public_pddl.reading import verdicts as read_all
 
 
@@ -21,25 +29,34 @@ def main() -> None:
     readable = list[Pair]()
     table = list[Verdicts]()
     with TemporaryDirectory(prefix="wild-") as folder:
-        print(f"| archive | pairs | {' | '.join(READERS)} | refused by {OURS} alone |")
-        print(f"|{'---|' * (len(READERS) + 3)}")
+        if not options.alone:
+            print(f"| archive | pairs | {' | '.join(READERS)} | refused by {OURS} alone |")
+            print(f"|{'---|' * (len(READERS) + 3)}")
         for i, source in enumerate(options.archive):
             chosen = pairs(export(source, Path(folder, str(i))), options.n, options.seed)
+            if options.alone:
+                readable += filter(is_readable, chosen)
+                continue
             part = read_all(chosen)
             _row(_name(source), part)
             _reasons(Path(folder), chosen, part)
             readable += [pair for pair, v in zip(chosen, part, strict=True) if accepts(v)]
             table += part
-        _row("all", table)
-        n, total, middle = time_ratios(table)
-        print(f"\nprocessor time over Fast Downward's: {total:.2f} in sum, {middle:.2f} in the")
-        print(f"median of {n} pairs", flush=True)
+        if table:
+            _totals(table)
         if options.mutants:
             breaking.report(readable, options.mutants, options.seed)
         if options.plans:
             judging.report(readable, options.plans, options.seed)
         if options.tasks:
             racing.report(readable, options.tasks, options.seed)
+
+
+def _totals(table: list[Verdicts]) -> None:
+    _row("all", table)
+    n, total, middle = time_ratios(table)
+    print(f"\nprocessor time over Fast Downward's: {total:.2f} in sum, {middle:.2f} in the")
+    print(f"median of {n} pairs", flush=True)
 
 
 def _name(source: Path) -> str:
@@ -72,6 +89,7 @@ def _options() -> argparse.Namespace:
     )
     parser.add_argument("--n", type=int, default=80, help="domains of each archive")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--alone", action="store_true", help="do not ask other readers")
     parser.add_argument("--mutants", type=int, default=0, help="broken mutants to refuse")
     parser.add_argument("--plans", type=int, default=0, help="plans to validate beside VAL")
     parser.add_argument("--tasks", type=int, default=0, help="tasks to plan beside planners")

@@ -2,27 +2,33 @@
 
 from __future__ import annotations
 
+import math
 import os
 import random
+import re
 import subprocess
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from fractions import Fraction
 from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from hrcplan.core.numbers import exact
 from hrcplan.errors import HrcplanError
 from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import Problem
 from hrcplan.planners.solve import solve
-from hrcplan.plans import Plan, format_plan
-from hrcplan.validation import validate
+from hrcplan.plans import Plan, PlannedAction, format_plan
+from hrcplan.validation import Report, validate
 from public_pddl.archive import Pair
 
 PLAN_S = 3.0
 VALIDATE_S = 30
-MUTANTS = ("dropped", "swapped", "changed")
+MUTANTS = ("dropped", "swapped", "changed", "repeated", "later", "longer")
+TOLERANCE = 1e-3  # of a metric: VAL prints few digits
+_VALUE = re.compile(r"Final value: (\S+)")
 
 
 def val(pair: Pair, plan: Plan) -> tuple[bool | None, str]:
@@ -58,6 +64,12 @@ def changed(plan: Plan, kind: str, problem: Problem, rng: random.Random) -> Plan
             first, second = actions[at], actions[other]
             actions[at] = replace(first, name=second.name, args=second.args)
             actions[other] = replace(second, name=first.name, args=first.args)
+        case "repeated":
+            actions.insert(at + 1, actions[other])
+        case "later" | "longer":
+            if actions[at].start_s is None:
+                return None
+            actions[at] = _delayed(actions[at], kind, rng)
         case _:
             args = list(actions[at].args)
             if not args:
@@ -66,6 +78,14 @@ def changed(plan: Plan, kind: str, problem: Problem, rng: random.Random) -> Plan
             args[rng.randrange(len(args))] = rng.choice(sorted(names))
             actions[at] = replace(actions[at], args=tuple(args))
     return replace(plan, actions=tuple(actions)) if tuple(actions) != plan.actions else None
+
+
+def _delayed(action: PlannedAction, kind: str, rng: random.Random) -> PlannedAction:
+    """Return an action that begins or ends at another time, sometimes hardly another."""
+    by = Fraction(rng.choice(("0.001", "0.01", "0.5", "3", "-0.5", "-0.001")))
+    if kind == "longer":
+        return replace(action, duration_s=exact(max(Fraction(0), (action.duration_s or 0) + by)))
+    return replace(action, start_s=exact(max(Fraction(0), (action.start_s or 0) + by)))
 
 
 def _plans(pair: Pair, rng: random.Random) -> Iterator[tuple[str, Problem, Plan]]:
@@ -93,7 +113,9 @@ def report(readable: Sequence[Pair], n: int, seed: int) -> None:
             break
         for kind, problem, plan in _plans(pair, rng):
             tally[kind][_compared(kind, pair, problem, plan)] += 1
-    print("\n| plans | judged by VAL | valid by VAL | same verdict | not judged by VAL |")
+    print(
+        "\n| plans | judged by VAL | valid by VAL | same verdict and metric | not judged by VAL |"
+    )
     print("|---|---|---|---|---|")
     for kind, counter in (*tally.items(), ("all", sum(tally.values(), Counter[str]()))):
         print(f"| {kind} | {' | '.join(map(str, _cells(counter)))} |", flush=True)
@@ -107,13 +129,26 @@ def _compared(kind: str, pair: Pair, problem: Problem, plan: Plan) -> str:
         print(f"- not judged by VAL: {pair.domain} {pair.problem}: {' '.join(text.split())[-300:]}")
         return "not judged"
     if ours.valid == theirs:
+        if theirs and not _same_value(problem, ours, text):
+            print(f"- metric of {pair.domain} {pair.problem}: hrcplan {ours.metric}")
+            print(f"{' '.join(text.split())[-200:]}", flush=True)
+            return "other value"
         return "both valid" if theirs else "both invalid"
     print(f"- {kind} of {pair.domain} {pair.problem}: VAL {theirs}, hrcplan {ours.reason}")
     print(f"{' '.join(text.split())[-500:]}\n{format_plan(plan)[:1500]}", flush=True)
     return "valid by VAL" if theirs else "valid by hrcplan"
 
 
+def _same_value(problem: Problem, ours: Report, text: str) -> bool:
+    """Return whether VAL prints our value of the problem's metric, if it has one."""
+    value = _VALUE.search(text)
+    if problem.metric is None or ours.metric is None or value is None:
+        return True
+    return math.isclose(float(ours.metric), float(value[1]), rel_tol=TOLERANCE, abs_tol=TOLERANCE)
+
+
 def _cells(counter: Counter[str]) -> tuple[int, int, int, int]:
     judged = counter.total() - counter["not judged"]
     same = counter["both valid"] + counter["both invalid"]
-    return judged, counter["both valid"] + counter["valid by VAL"], same, counter["not judged"]
+    valid = counter["both valid"] + counter["other value"] + counter["valid by VAL"]
+    return judged, valid, same, counter["not judged"]

@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
 
+from hrcplan.errors import HrcplanError
+from hrcplan.pddl.inputs import read
 from public_pddl.archive import Pair
 from public_pddl.reader import READERS
 
@@ -39,6 +41,15 @@ def _column(name: str, lines: str) -> list[Verdict]:
     command = [sys.executable, "-P", str(Path(__file__).with_name("reader.py")), name]
     done = subprocess.run(command, input=lines, capture_output=True, text=True, check=True)
     return [Verdict(**json.loads(line)) for line in done.stdout.splitlines()]
+
+
+def is_readable(pair: Pair) -> bool:
+    """Return whether hrcplan reads a pair, whatever other readers say."""
+    try:
+        read(pair.domain, pair.problem)
+    except HrcplanError:
+        return False
+    return True
 
 
 def accepts(verdict: Verdicts, name: str = OURS) -> bool:
