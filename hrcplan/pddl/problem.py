@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import islice
+
 from hrcplan.core.numbers import Number, to_number
 from hrcplan.core.text import nearest, quote
 from hrcplan.pddl.annotations import read_problem_notes
@@ -28,9 +30,10 @@ from hrcplan.pddl.model import (
     Preference,
     Problem,
     TimedChange,
+    fact_text,
 )
 from hrcplan.pddl.preferences import read_preferences, with_names
-from hrcplan.pddl.reader import GroupNode, ParseNode, WordNode
+from hrcplan.pddl.reader import FactNode, GroupNode, ParseNode, WordNode
 from hrcplan.pddl.requirements import check_requirements, read_requirements
 from hrcplan.pddl.scope import Scope, decimal_cure, looks_numeric
 from hrcplan.pddl.source import SourceText
@@ -112,15 +115,32 @@ class _Init:
         self.has_loose_word = False
         self.timed_changes: list[TimedChange] = []
         self.negative_facts: set[FluentKey] = set()
+        self._objects = {str(name): (str(name), kind) for name, kind in scope.objects.items()}
+        self._predicates = {
+            name: (signature.name, [self._kinds_below(param.types) for param in signature.params])
+            for name, signature in scope.domain.predicates.items()
+            if name not in scope.domain.derived
+        }
+
+    def _kinds_below(self, types: tuple[str, ...]) -> frozenset[str]:
+        """Return the types of the objects that a parameter takes."""
+        kinds = set(self.scope.objects.values())
+        return frozenset(kind for kind in kinds if self.scope.domain.is_a(kind, types))
 
     def take(self, node: ParseNode) -> None:
         source = self.scope.source
+        if isinstance(node, FactNode):
+            fact = self._plain_fact(node)
+            if fact is not None:
+                self._add(fact, node)
+                return
+            node = node.group()
         if isinstance(node, WordNode):
             self._loose_word(node)
             return
         atom = self.scope.plain_atom(node)
         if atom is not None and atom.name not in self.scope.domain.derived:
-            self._add(atom, node)
+            self._add((atom.name, *atom.args), node)
         elif self.scope.is_atom(node):
             self._fact(node)
         elif node.head == "and":
@@ -141,6 +161,20 @@ class _Init:
             self._negative_fact(node)
         else:
             self._fact(node)
+
+    def _plain_fact(self, node: FactNode) -> Fact | None:
+        """Return the fact that a node is; None if anything about it needs a second look."""
+        words = node.words()
+        predicate, kinds = self._predicates.get(words[0], ("", ())) if words else ("", ())
+        if not predicate or len(words) != len(kinds) + 1 or predicate in _LOGIC:
+            return None
+        fact = [predicate]
+        for word, kinds_of_param in zip(islice(words, 1, None), kinds, strict=True):
+            name, kind = self._objects.get(word, ("", ""))
+            if kind not in kinds_of_param:
+                return None
+            fact.append(name)
+        return tuple(fact)
 
     def _loose_word(self, word: WordNode) -> None:
         """Report a word between the facts, once."""
@@ -191,12 +225,11 @@ class _Init:
     def _fact(self, node: GroupNode) -> None:
         atom = self._base_atom(node)
         if atom is not None:
-            self._add(atom, node)
+            self._add((atom.name, *atom.args), node)
 
-    def _add(self, atom: Atom, node: GroupNode) -> None:
-        fact = (atom.name, *atom.args)
+    def _add(self, fact: Fact, node: GroupNode) -> None:
         if fact in self.facts:
-            message = f"{quote(str(atom))} stands twice"
+            message = f"{quote(fact_text(fact))} stands twice"
             self.scope.source.warn(node.at, "duplicate-fact", message)
         self.facts.add(fact)
         if self.negative_facts:

@@ -56,6 +56,32 @@ class GroupNode(list["ParseNode"]):
         return self[0] if self and isinstance(self[0], WordNode) else ""
 
 
+class FactNode(GroupNode):
+    """A group of words in ``:init``, of which there may be a million: kept as text.
+
+    As a list it is empty; ``group`` returns it with its words.
+    """
+
+    __slots__ = ("text",)
+
+    def __init__(self, at: int, text: str) -> None:
+        super().__init__(at)
+        self.text = text
+
+    def __eq__(self, other: object) -> bool:
+        return self.group() == (other.group() if isinstance(other, FactNode) else other)
+
+    __hash__ = None  # type: ignore[assignment]  # as of any list
+
+    def words(self) -> list[str]:
+        """Return its words without their places."""
+        return self.text[1:-1].split()
+
+    def group(self) -> GroupNode:
+        """Return it as a group of words that know their places."""
+        return _flat_group(self.at, self.text)
+
+
 ParseNode = WordNode | GroupNode
 
 
@@ -156,12 +182,14 @@ def _read_even(text: str, source: SourceText) -> list[ParseNode]:
     if len(lower) != len(text):  # a few letters become two: then the places would be wrong
         lower = text
     group = GroupNode(0)
+    init: GroupNode | None = None
     stack = [group]
     deepest = 0
     for match in _GROUP_OR_TOKEN.finditer(lower):
-        token = match.group()
+        token = match[0]
         if token[0] == "(" and len(token) > 1:
-            flat = _flat_group(token, match.start(), lower)
+            node = FactNode if group is init else _flat_group
+            flat = node(match.start(), token)
             group.append(flat)
             if len(stack) >= deepest:
                 deepest = len(stack) + 1
@@ -190,8 +218,11 @@ def _read_even(text: str, source: SourceText) -> list[ParseNode]:
             if kind == "?":
                 if word.at and text[word.at - 1] not in _BEFORE_A_WORD:
                     _report_gap(word, source)
-            elif kind == ":" and not _is_in_place(word, group, len(stack)):
-                raise _UnevenError(word.at)
+            elif kind == ":":
+                if not _is_in_place(word, group, len(stack)):
+                    raise _UnevenError(word.at)
+                if token == ":init" and not group:
+                    init = group
             group.append(word)
     if len(stack) != 1:
         raise _UnevenError(group.at)
@@ -199,14 +230,15 @@ def _read_even(text: str, source: SourceText) -> list[ParseNode]:
     return list(group)
 
 
-def _flat_group(token: str, start: int, text: str) -> GroupNode:
+def _flat_group(start: int, token: str) -> GroupNode:
     """Return the group of words that begins at ``start``."""
     group = GroupNode(start)
-    at = start
+    at = 1
     for part in token[1:-1].split():
         word = WordNode(part)
-        word.at = text.find(part, at)
-        at = word.at + len(part)
+        at = token.find(part, at)
+        word.at = start + at
+        at += len(part)
         group.append(word)
     return group
 

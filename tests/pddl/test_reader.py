@@ -8,7 +8,15 @@ import pytest
 from hrcplan.core.text import nearest
 from hrcplan.pddl.check import check_files, load_domain, load_problem
 from hrcplan.pddl.model import Domain, Problem
-from hrcplan.pddl.reader import MAX_DEPTH, GroupNode, ParseNode, WordNode, read, read_nodes
+from hrcplan.pddl.reader import (
+    MAX_DEPTH,
+    FactNode,
+    GroupNode,
+    ParseNode,
+    WordNode,
+    read,
+    read_nodes,
+)
 from hrcplan.pddl.source import MAX_FAULTS, SourceText, decode
 
 VALID = Path(__file__).parent / "valid"
@@ -198,3 +206,31 @@ def test_groups_of_words_have_the_places_that_they_have_in_the_text(text: str) -
 
     for node in read_nodes(SourceText("x", text)):
         check(node)
+
+
+def test_facts_of_an_initial_state_know_their_words_and_places() -> None:
+    text = "(define (problem p) (:domain d) (:init\n (at  bob home) (not (at a b)) (q)))"
+    root = read(SourceText("x", text))
+    assert root is not None
+    init = root[3]
+    assert isinstance(init, GroupNode)
+    facts = [node for node in init if isinstance(node, FactNode)]
+    assert [fact.words() for fact in facts] == [["at", "bob", "home"], ["q"]]
+    group = facts[0].group()
+    assert group == ["at", "bob", "home"]
+    assert [text[word.at :].split()[0] for word in group] == ["at", "bob", "home)"]
+
+
+def test_a_fault_in_one_fact_of_many_stands_at_its_word(tmp_path: Path) -> None:
+    names = {"d.pddl": "(define (domain d) (:predicates (p ?x ?y)))"}
+    names["p.pddl"] = (
+        "(define (problem p) (:domain d) (:objects a b)\n(:init (p a b)\n(p a  c)\n(p b))"
+        "\n(:goal (p b a)))"
+    )
+    for name, text in names.items():
+        (tmp_path / name).write_text(text)
+    found = check_files([tmp_path / name for name in names])
+    assert [(d.line, d.column, d.code) for d in found if d.severity == "error"] == [
+        (3, 7, "unknown-object"),
+        (4, 1, "wrong-arity"),
+    ]
