@@ -19,8 +19,11 @@ if TYPE_CHECKING:
     is_flag=True,
     help="Exit with code 3 for warnings too, except for missing initial values.",
 )
+@click.option(
+    "--sarif", is_flag=True, help="Print the faults as a SARIF document, as code hosts read it."
+)
 @output.common_options
-def command(files: tuple[str, ...], strict: bool) -> int:
+def command(files: tuple[str, ...], strict: bool, sarif: bool) -> int:
     """Report every fault of domain and problem FILEs, with line and column.
 
     The exit code is 3 if any fault is an error.
@@ -28,7 +31,11 @@ def command(files: tuple[str, ...], strict: bool) -> int:
     from hrcplan.pddl.check import check
 
     report = check(files)
-    if output.JSON:
+    if sarif:
+        from hrcplan.cli.sarif import sarif_document
+
+        output.document(sarif_document(report.diagnostics))
+    elif output.JSON:
         output.document(report.to_json())
     else:
         for line in report.lines():

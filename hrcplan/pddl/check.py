@@ -6,9 +6,10 @@ what ``check`` accepts can be loaded and what it rejects cannot.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from types import MappingProxyType
 
 from hrcplan.core.text import nearest, quote
 from hrcplan.errors import Diagnostic, InputError, PddlError
@@ -64,14 +65,18 @@ class CheckReport:
             yield f"{path}: note: {note}"
 
 
-def check(paths: Sequence[str | Path]) -> CheckReport:
+def check(paths: Sequence[str | Path], texts: Mapping[str, str] | None = None) -> CheckReport:
     """Return every fault of the files; problems are checked against their domains.
 
     A problem's domain is the one of its name among the files given, else in the problem's folder,
     else among the shipped ones. A file that cannot be read is a fault like any other.
+
+    Args:
+        paths: The files.
+        texts: By path, what to read instead of the file, as an editor has it.
     """
-    files = [_open(path) for path in paths]
-    domains = _Domains(files)
+    files = [_open(path, texts or {}) for path in paths]
+    domains = _Domains(files, texts or {})
     for file in files:
         if file.kind == "problem":
             _check_problem(file, domains)
@@ -154,7 +159,9 @@ def kind_of(path: str | Path) -> str:
     return _open(path).kind
 
 
-def _open(path: str | Path) -> _File:
+def _open(path: str | Path, texts: Mapping[str, str] = MappingProxyType({})) -> _File:
+    if str(path) in texts:
+        return _read(SourceText(str(path), texts[str(path)]))
     try:
         return _read(read_source(path))
     except InputError as error:
@@ -186,7 +193,8 @@ def _kind(root: GroupNode) -> str:
 class _Domains:
     """Domains by name: those among the files given, then those found elsewhere."""
 
-    def __init__(self, files: Sequence[_File]) -> None:
+    def __init__(self, files: Sequence[_File], texts: Mapping[str, str]) -> None:
+        self._texts = texts
         self.by_name: dict[str, _File] = {}
         for file in files:
             if file.domain is not None:
@@ -205,7 +213,7 @@ class _Domains:
         if path is None:
             return None
         if path not in self._by_path:
-            self._by_path[path] = _open(path)
+            self._by_path[path] = _open(path, self._texts)
         return self._by_path[path]
 
     @property

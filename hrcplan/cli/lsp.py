@@ -1,0 +1,20 @@
+"""``hrcplan lsp``: the language server that editors start."""
+
+from __future__ import annotations
+
+import rich_click as click
+
+
+@click.command("lsp")
+def command() -> int:
+    """Serve an editor over standard input and output, as the Language Server Protocol says.
+
+    The page on editors says how to set up VS Code, Neovim, Emacs and Helix.
+    """
+    from hrcplan.core.extras import require
+
+    require("pygls", "the language server")
+    from hrcplan.lsp.server import make_server
+
+    make_server().start_io()
+    return 0
