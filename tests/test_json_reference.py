@@ -37,6 +37,7 @@ COMMANDS = {
         ["validate", "transport/two-boxes", "{w}/close.plan"],
     ],
     "check": [["check", "{w}/bad.pddl"]],
+    "format": [["format", "{w}/bad.pddl"]],
     "allocation": [["allocation", "transport/two-boxes", "motivation human"]],
     "execute": [
         ["execute", "transport/two-boxes", "--human", "partly-cooperative", "--seed", "5",
