@@ -77,7 +77,7 @@ def _add_documents(server: LanguageServer, files: PddlWorkspace) -> None:
 def _add_questions(server: LanguageServer, files: PddlWorkspace) -> None:
     """Answer where a name is declared and used, and what it is."""
 
-    def asked(
+    def question(
         place: lsp.TextDocumentIdentifier, position: lsp.Position
     ) -> tuple[str, str, int, Name | None]:
         document = server.workspace.get_text_document(place.uri)
@@ -95,12 +95,12 @@ def _add_questions(server: LanguageServer, files: PddlWorkspace) -> None:
 
     @server.feature(lsp.TEXT_DOCUMENT_DEFINITION)
     def definition(params: lsp.DefinitionParams) -> list[lsp.Location]:
-        path, _, _, name = asked(params.text_document, params.position)
+        path, _, _, name = question(params.text_document, params.position)
         return [] if name is None else locations(files.declarations(path, name))
 
     @server.feature(lsp.TEXT_DOCUMENT_REFERENCES)
     def references(params: lsp.ReferenceParams) -> list[lsp.Location]:
-        path, _, _, name = asked(params.text_document, params.position)
+        path, _, _, name = question(params.text_document, params.position)
         places = [] if name is None else files.places(path, name)
         if not params.context.include_declaration:
             places = [place for place in places if not place.name.declares]
@@ -108,7 +108,7 @@ def _add_questions(server: LanguageServer, files: PddlWorkspace) -> None:
 
     @server.feature(lsp.TEXT_DOCUMENT_HOVER)
     def hover(params: lsp.HoverParams) -> lsp.Hover | None:
-        path, _, _, name = asked(params.text_document, params.position)
+        path, _, _, name = question(params.text_document, params.position)
         declared = [] if name is None else files.declarations(path, name)
         if not declared:
             return None
@@ -120,7 +120,7 @@ def _add_questions(server: LanguageServer, files: PddlWorkspace) -> None:
         lsp.TEXT_DOCUMENT_COMPLETION, lsp.CompletionOptions(trigger_characters=["(", ":", "?", "-"])
     )
     def completion(params: lsp.CompletionParams) -> list[lsp.CompletionItem]:
-        path, text, offset, _ = asked(params.text_document, params.position)
+        path, text, offset, _ = question(params.text_document, params.position)
         before = text[:offset]
         word = re.search(r"[^\s();]*$", before)
         start = word.start() if word else offset

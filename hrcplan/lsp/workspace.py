@@ -1,4 +1,4 @@
-"""The PDDL files of an editor: open texts, files beside them, their faults and names."""
+"""The PDDL files of an editor: open texts, files of their folders, faults and names."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class PddlWorkspace:
         """
         paths = list(dict.fromkeys([path, *self.texts]))
         if with_folder:
-            paths = list(dict.fromkeys([*paths, *self._beside(path)]))
+            paths = list(dict.fromkeys([*paths, *self._in_folder(path)]))
         faults: dict[str, list[Diagnostic]] = {name: [] for name in paths}
         for fault in check(paths, self.texts).diagnostics:
             faults[fault.path].append(fault)
@@ -74,19 +74,19 @@ class PddlWorkspace:
         return [place for place in self.places(path, name) if place.name.declares]
 
     def words(self, path: str, kind: NameKind) -> list[str]:
-        """Return the names of one kind that the file and those beside it declare, sorted."""
+        """Return the names of one kind that the files of its domain declare, sorted."""
         return sorted({place.name.word for place in self._all_places(path)
                        if place.name.kind == kind and place.name.declares})  # fmt: skip
 
     def _all_places(self, path: str) -> Iterator[Place]:
         domain = _domain_of(self.text(path))
-        for file in dict.fromkeys([path, *self.texts, *self._beside(path), *_in_project(path)]):
+        for file in dict.fromkeys([path, *self.texts, *self._in_folder(path), *_in_project(path)]):
             text = self.text(file)
             if file == path or _domain_of(text) == domain is not None:
                 for name in names(text):
                     yield Place(file, name)
 
-    def _beside(self, path: str) -> list[str]:
+    def _in_folder(self, path: str) -> list[str]:
         """Return the PDDL files of the folder of a file, the open ones first."""
         folder = Path(path).parent
         files = [name for name in self.texts if Path(name).parent == folder]

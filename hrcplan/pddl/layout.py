@@ -99,8 +99,9 @@ def _close(open_groups: list[_Part]) -> None:
     group = open_groups.pop()
     parts = group.parts or []
     group.length = 2 + sum(part.length for part in parts) + max(0, len(parts) - 1)
+    n_first = _n_head(parts) if _is_hugged(parts) else len(parts)
     group.is_broken = any(p.is_comment or p.is_broken for p in parts) or any(
-        p.n_breaks for p in parts[1:]
+        p.n_breaks for p in parts[1:n_first]
     )
 
 
@@ -152,8 +153,7 @@ class _Writer:
             self.add(" " if number else "")
             self.write(part, indent, 0)
         rest = parts[n_head:]
-        is_define = parts[0].text.lower() == "define" if parts else False
-        if len(rest) == 1 and rest[0].parts is not None and n_head and not is_define:
+        if _is_hugged(parts):
             self.add(" ")
             self.write(rest[0], indent, n_closing + 1)
         elif parts and (parts[0].text.lower() in _LISTS or _is_plain(parts)):
@@ -186,6 +186,13 @@ class _Writer:
             is_last = number == len(parts) - 1
             self.write(part, indent, n_closing if is_last else 0)
             is_value = part.parts is None and part.text.startswith(":")
+
+
+def _is_hugged(parts: list[_Part]) -> bool:
+    """Whether a broken group ends with a group on its first line, as ``(:goal (and`` does."""
+    n_head = _n_head(parts)
+    is_last = n_head == len(parts) - 1 and parts[-1].parts is not None
+    return is_last and n_head > 0 and parts[0].text.lower() != "define"
 
 
 def _n_head(parts: list[_Part]) -> int:
