@@ -31,14 +31,14 @@ from hrcplan.task.transitions import BitEffect, Effects
 
 Row = tuple[str, ...]
 """The names that the atoms of a schema hold, then the objects of its parameters."""
-Key = Callable[[Row], tuple[str, ...]]
+RowKey = Callable[[Row], tuple[str, ...]]
 """What makes the fact of an atom, or the key of a function, from a row."""
 
 
-class Rows:
+class LiteralRows:
     """The rows of a schema, and what makes facts from them.
 
-    >>> rows = Rows(["?a", "?b"])
+    >>> rows = LiteralRows(["?a", "?b"])
     >>> fact = rows.key("at", ["?b", "home"])
     >>> fact(rows.of(("ann", "box")))
     ('at', 'box', 'home')
@@ -49,7 +49,7 @@ class Rows:
         self._names: list[str] = []
         self._n_params = len(params)
 
-    def key(self, name: str, args: Sequence[str]) -> Key:
+    def key(self, name: str, args: Sequence[str]) -> RowKey:
         """Return what makes the key ``(name, *args)`` from a row, with variables replaced."""
         if not args:
             fact = (name,)
@@ -72,13 +72,13 @@ class Rows:
 
 @dataclass(frozen=True, slots=True)
 class _Literal:
-    key: Key
+    key: RowKey
     positive: bool
 
 
 @dataclass(frozen=True, slots=True)
 class _Change:
-    key: Key
+    key: RowKey
     adds: bool
 
 
@@ -98,7 +98,7 @@ class LiteralSchema:
         fixed: Set[Fact],
     ) -> None:  # fmt: skip
         self._powers, self._fixed, self._values = powers, fixed, problem.values
-        self.rows = Rows([param.name for param in action.params])
+        self.rows = LiteralRows([param.name for param in action.params])
         self._literals: dict[str, list[_Literal]] = {"start": [], "all": [], "end": []}
         for condition in action.conditions:
             for part in conjuncts(condition.formula):
