@@ -10,7 +10,7 @@ export class Session {
 		this.options = options;
 		this.entries = [];
 		this.now = { phase: "starting" };
-		this.node = h("article", {}, h("p", { class: "soft" }, "Getting ready …"));
+		this.node = h("article", {}, "Getting ready …");
 	}
 
 	take({ head, entries, now }) {
@@ -77,6 +77,7 @@ export class Session {
 	draw() {
 		const { now } = this, isOver = now.phase === "over" || now.phase === "error" || now.phase === "stopped";
 		this.run.draw(this.view);
+		this.node.dataset.n = now.n;
 		this.act.hidden = isOver;
 		this.over.hidden = !isOver;
 		if (isOver) fill(this.over, h("h2", {}, now.phase === "over" ? now.outcome.ending : now.phase), h("p", {}, this.summary(now)));
@@ -142,7 +143,7 @@ export class Session {
 		this.note.textContent = "";
 		this.why.replaceChildren();
 		const answer = await this.api("POST", `sessions/${this.name}/events`, { ...event, after: this.now.n });
-		if (answer.error) this.note.textContent = answer.error.code === "stale" ? "Something has happened meanwhile: look again." : answer.error.message;
+		if (answer.error) this.note.textContent = answer.error.code === "stale" ? "Something has happened meanwhile: look." : answer.error.message;
 		if (!this.node.contains(document.activeElement) && !this.options.narrow) this.say.focus({ preventScroll: true });
 	}
 
