@@ -19,6 +19,11 @@
 ;; hrcplan: call living living room, lounge
 ;; hrcplan: call bath bathroom
 ;; hrcplan: call hall hallway, corridor
+;; hrcplan: show meal orange
+;; hrcplan: show laundry sky
+;; hrcplan: show plant green
+;; hrcplan: show luggage purple
+;; hrcplan: show idle hide
 
 (define (domain household)
   (:requirements :strips :typing :numeric-fluents :action-costs :durative-actions)

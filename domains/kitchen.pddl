@@ -47,6 +47,10 @@
 ;; hrcplan: call pan pot, saucepan, frying pan, skillet
 ;; hrcplan: call stove hob, burner, cooker
 ;; hrcplan: call blender mixer, liquidizer
+;; hrcplan: show ingredient green
+;; hrcplan: show tool gray
+;; hrcplan: show dish sky
+;; hrcplan: show appliance red
 
 (define (domain kitchen)
   (:requirements :strips :typing :numeric-fluents :action-costs)

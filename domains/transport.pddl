@@ -13,6 +13,8 @@
 ;; hrcplan: say take take over, take off, take from
 ;; hrcplan: call wp waypoint
 ;; hrcplan: call box parcel
+;; hrcplan: show box orange
+;; hrcplan: show idle hide
 
 (define (domain transport)
   (:requirements :strips :typing :numeric-fluents :action-costs :durative-actions)

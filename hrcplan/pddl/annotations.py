@@ -1,16 +1,18 @@
 """``;; hrcplan:`` comments of a domain or a problem: what PDDL itself cannot hold.
 
-The grammar is four forms, with names in any case and numbers as in PDDL; a further ``;`` begins
+The grammar is five forms, with names in any case and numbers as in PDDL; a further ``;`` begins
 an ordinary comment::
 
     ;; hrcplan: success ACTION PROBABILITY
     ;; hrcplan: range FUNCTION LOW HIGH
     ;; hrcplan: say ACTION WORDS, WORDS, …
     ;; hrcplan: call OBJECT-OR-TYPE WORDS, WORDS, …
+    ;; hrcplan: show PREDICATE-OR-OBJECT-OR-TYPE WORD, WORD
 
 The first two are simulation data and stand in a domain once per name. ``say`` and ``call`` are
-words of people, may stand in problems too, and add up. A domain may ``call`` objects that only its
-problems declare.
+words of people, may stand in problems too, and add up. ``show`` says how pages draw something:
+facts of a predicate as ``place``, ``zone``, ``badge`` or ``hide``; an object, or all of a type, by
+an icon and a color. A domain may ``call`` and ``show`` objects that only its problems declare.
 """
 
 from __future__ import annotations
@@ -29,8 +31,13 @@ _FORMS = {
     "range": "range FUNCTION LOW HIGH",
     "say": "say ACTION WORDS, WORDS, …",
     "call": "call OBJECT WORDS, WORDS, …",
+    "show": "show NAME WORD, WORD",
 }
 _WORDING = ("say", "call")
+_REPEATED = (*_WORDING, "show")
+VIEWS = ("place", "zone", "badge", "hide")
+COLORS = ("blue", "orange", "green", "red", "purple", "sky", "yellow", "gray")
+MAX_ICON = 8  # characters
 
 Names = Mapping[str, Collection[str] | None]
 """Names that a kind of note may have; None for any name."""
@@ -39,11 +46,12 @@ Names = Mapping[str, Collection[str] | None]
 def read_notes(source: SourceText, domain: Domain) -> tuple[Note, ...]:
     """Return the notes of a domain file; one that makes no sense is a warning and left out."""
     actions = domain.schemas
-    names: Names = {"success": actions, "range": domain.functions, "say": actions, "call": None}
+    names: Names = {"success": actions, "range": domain.functions, "say": actions, "call": None,
+                    "show": None}  # fmt: skip
     read = []
     once = set()
     for at, note in _parsed(source, names):
-        if note.kind not in _WORDING and (note.kind, note.name) in once:
+        if note.kind not in _REPEATED and (note.kind, note.name) in once:
             source.warn(at, "duplicate-note", f"a second '{note.kind}' of {quote(note.name)}")
             continue
         once.add((note.kind, note.name))
@@ -57,7 +65,7 @@ def read_problem_notes(
 ) -> tuple[Note, ...]:
     """Return the notes of a problem file: words for actions and objects; others are a warning."""
     called = [*domain.constants, *objects, *domain.types]
-    read = list(_parsed(source, {"say": domain.schemas, "call": called}))
+    read = list(_parsed(source, {"say": domain.schemas, "call": called, "show": called}))
     warn_alike(source, domain, {**domain.constants, **objects}, read, domain.notes)
     return tuple(note for _, note in read)
 
@@ -68,10 +76,11 @@ def check_calls(source: SourceText, domain: Domain, objects: Mapping[str, str]) 
     new = []
     for at, text in notes(source):
         kind, *words = text.lower().split() or [""]
-        note = _note(kind, words) if kind == "call" else None
-        if note is not None and note.name not in called:
-            _warn_unknown(source, at, note.name, called)
-        elif note is not None and note.name not in domain.constants:
+        note = _note(kind, words) if kind in ("call", "show") else None
+        shown = domain.predicates if kind == "show" else ()
+        if note is not None and note.name not in called and note.name not in shown:
+            _warn_unknown(source, at, note.name, [*called, *shown])
+        elif note is not None and kind == "call" and note.name not in domain.constants:
             new.append((at, note))
     above = [note for note in domain.notes if note.name in domain.constants]
     warn_alike(source, domain, {**domain.constants, **objects}, new, above)
@@ -104,12 +113,26 @@ def _warn_unknown(source: SourceText, at: int, name: str, known: Collection[str]
 
 def _note(kind: str, words: list[str]) -> Note | None:
     """Return the note that words say, or None if they do not fit its form."""
-    if kind in _WORDING:
+    if kind in _REPEATED:
         phrases = tuple(" ".join(p.split()) for p in " ".join(words[1:]).split(","))
-        return Note(kind, words[0], phrases=phrases) if words and all(phrases) else None
+        if not words or not all(phrases) or (kind == "show" and not _can_be_shown(phrases)):
+            return None
+        return Note(kind, words[0], phrases=phrases)
     numbers = tuple(n for n in map(to_number, words[1:]) if n is not None)
     is_valid = len(words) == len(numbers) + 1 and _is_valid(kind, numbers)
     return Note(kind, words[0], numbers) if is_valid else None
+
+
+def _can_be_shown(words: tuple[str, ...]) -> bool:
+    """Return whether words are a way to draw facts, or an icon, a color, or both."""
+    if any(word in VIEWS for word in words):
+        return len(words) == 1
+    icons = [word for word in words if word not in COLORS]
+    return (
+        len(words) - len(icons) <= 1
+        and len(icons) <= 1
+        and all(len(icon) <= MAX_ICON for icon in icons)
+    )
 
 
 def _is_valid(kind: str, numbers: tuple[Number, ...]) -> bool:

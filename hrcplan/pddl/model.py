@@ -296,6 +296,7 @@ class Note:
     ``range FUNCTION low high``: the values that a function takes.
     ``say ACTION words, …`` and ``call OBJECT words, …``: what people call an action or an object
     (or every object of a type).
+    ``show NAME words``: how pages draw facts of a predicate, an object, or every object of a type.
     """
 
     kind: str

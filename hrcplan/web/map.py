@@ -12,6 +12,8 @@ from hrcplan.core.arrays import Floats
 from hrcplan.pddl.model import Problem
 
 MAX_PLACES = 40  # a map of more is no longer readable
+ROUNDS = 60
+TINY = 1e-6
 
 
 def map_of(problem: Problem, places: Sequence[str]) -> dict[str, Any] | None:
@@ -48,7 +50,10 @@ def _ring(n: int) -> Floats:
 
 
 def _spread(n: int, ways: Sequence[tuple[int, int]]) -> Floats:
-    """Return positions whose distances fit the numbers of steps (classical scaling)."""
+    """Return positions whose distances fit the numbers of steps between places.
+
+    Classical scaling gives a beginning, from which the stress is reduced (majorization).
+    """
     steps = np.full((n, n), float(n))
     np.fill_diagonal(steps, 0)
     for a, b in ways:
@@ -57,9 +62,14 @@ def _spread(n: int, ways: Sequence[tuple[int, int]]) -> Floats:
         steps = np.minimum(steps, steps[:, k : k + 1] + steps[k : k + 1, :])
     center = np.eye(n) - 1 / n
     values, vectors = np.linalg.eigh(-center @ (steps**2) @ center / 2)
-    positions = vectors[:, -2:] * np.sqrt(np.maximum(values[-2:], 0))
+    positions: Floats = vectors[:, -2:] * np.sqrt(np.maximum(values[-2:], 0))
     positions *= np.where(positions[0] < 0, -1, 1)  # the sign of an axis is arbitrary
-    positions = positions[:, ::-1]
+    positions = positions[:, ::-1] + 0.1 * _ring(n)  # places that coincide are parted
+    for _ in range(ROUNDS):
+        apart = np.linalg.norm(positions[:, None] - positions[None], axis=2)
+        pull = np.divide(-steps, apart, out=np.zeros((n, n)), where=apart > TINY)
+        np.fill_diagonal(pull, -pull.sum(axis=1))
+        positions = pull @ positions / n
     low, span = positions.min(axis=0), np.ptp(positions, axis=0)
-    flat = span < 1e-6
+    flat = span < TINY
     return np.where(flat, 0.5, (positions - low) / np.where(flat, 1, span))

@@ -14,12 +14,13 @@ from dataclasses import dataclass
 from typing import Any
 
 from hrcplan.execution.action_model import ActionModel
+from hrcplan.pddl.annotations import COLORS, VIEWS
 from hrcplan.pddl.conventions import AGENT, robots
 from hrcplan.pddl.model import Action, Atom, Domain, Note, Problem
 from hrcplan.pddl.walks import conjuncts
 from hrcplan.web.map import map_of
 
-PLACE, HOLD, ZONE, BADGE, HIDE = "place", "hold", "zone", "badge", "hide"
+PLACE, HOLD, ZONE, BADGE = "place", "hold", "zone", "badge"
 _Slot = tuple[str, int]
 """A parameter of a predicate: the predicate, and the place of the parameter."""
 
@@ -80,9 +81,6 @@ def _look(note: Note) -> dict[str, str]:
     return {("color" if word in COLORS else "icon"): word for word in note.phrases}
 
 
-COLORS = ("blue", "orange", "green", "red", "purple", "sky", "yellow", "gray")
-
-
 def fact_views(domain: Domain, problem: Problem) -> dict[str, FactView]:
     """Return how facts of each predicate are drawn that an action changes."""
     changed = _changes(domain)
@@ -101,7 +99,7 @@ def fact_views(domain: Domain, problem: Problem) -> dict[str, FactView]:
 
 
 def _chosen(domain: Domain, note: Note, view: FactView) -> FactView:
-    show = next((word for word in note.phrases if word in (PLACE, ZONE, BADGE, HIDE)), view.show)
+    show = next((word for word in note.phrases if word in VIEWS), view.show)
     n_params = len(domain.predicates[note.name].params)
     if show == PLACE and n_params > 1 and view.at is None:
         return _located(domain, note.name, 0)
@@ -162,12 +160,23 @@ def _zones(domain: Domain, problem: Problem, movers: Mapping[str, int]) -> list[
             for (name, _), (other, i) in (pair, pair[::-1]):
                 if len(domain.predicates[name].params) == 1:
                     votes[name] += 10 if movers.get(other) == i else movers.get(other) is None
-    strongest_first = sorted((n for n in votes if votes[n]), key=lambda name: (-votes[name], name))
+    names = {name for name in votes if votes[name]} - _come_with_a_place(domain, movers)
+    strongest_first = sorted(names, key=lambda name: (-votes[name], name))
     zones: list[str] = []
     for name in strongest_first:
         if not any(_hold_together(problem, name, other) for other in zones):
             zones.append(name)
     return zones if len(zones) > 1 or any(votes[name] >= 10 for name in zones) else []
+
+
+def _come_with_a_place(domain: Domain, movers: Mapping[str, int]) -> set[str]:
+    """Return predicates whose facts an action adds together with the place of the same object."""
+    names = set()
+    for action in domain.actions:
+        come = [e.target for e in action.effects if e.kind == "add" and isinstance(e.target, Atom)]
+        placed = {atom.args[movers[atom.name]] for atom in come if atom.name in movers}
+        names |= {atom.name for atom in come if len(atom.args) == 1 and atom.args[0] in placed}
+    return names
 
 
 def _hold_together(problem: Problem, name: str, other: str) -> bool:

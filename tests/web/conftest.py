@@ -109,10 +109,7 @@ def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Client]:
     port = listener.getsockname()[1]
     board = Board()
     sessions = Sessions(Path(folder) / "sessions", Banks(), board.notify)
-    rules = AccessRules(frozenset([f"127.0.0.1:{port}"]), # A browser is needed for these; `tools/test --all` installs one and names it.
-collect_ignore = [] if "HRCPLAN_CHROMIUM" in os.environ else ["test_browser.py"]
-
-TOKEN, COOKIE)
+    rules = AccessRules(frozenset([f"127.0.0.1:{port}"]), TOKEN, COOKIE)
     config = uvicorn.Config(PageApp(sessions, board, rules).asgi(), log_level="critical",
                             lifespan="off", timeout_graceful_shutdown=1)  # fmt: skip
     server = uvicorn.Server(config)
