@@ -35,10 +35,8 @@ from hrcplan.search.relaxed_plans import N_PLANS, RelaxedPlans, RelaxedPlanShare
 from hrcplan.task.conditions import Test
 
 # Chosen by cross-validation over four domains (docs/papers/goal-inference.md).
-NEW_FACT = 2.0  # log odds of an action per needed fact that it makes true for the first time
-IN_PLAN = 3.0  # log odds of an action that is in all plans of a goal
-MISTAKES = 0.05  # the share of actions that have nothing to do with the goal
-UNOBSERVED = 0.1  # prior probability that actions of some names are never observed
+NEW_FACT, IN_PLAN, MISTAKES = 2.0, 3.0, 0.05
+UNOBSERVED = 0.1
 HAZARD = 0.01
 LOST = 10.0  # log odds against a goal that an action puts out of reach
 PROGRESS = 1e-3  # between goals that are otherwise alike, the one that is nearer to its end
@@ -80,6 +78,9 @@ class CostBelief:
         goals: The goals.
         hazard: The probability of a change of goal before each action.
         never: The prior probability that the goal never changes.
+        new_fact: Log odds of an action per needed fact that it makes true for the first time.
+        in_plan: Log odds of an action that is in all plans of a goal.
+        mistakes: The share of actions that have nothing to do with the goal.
         unobserved: The prior probability that actions of some names are never observed.
         n_plans: How many relaxed plans of a goal are looked at.
         max_expansions: The most states that are expanded to explain one action.
@@ -90,7 +91,8 @@ class CostBelief:
 
     def __init__(
         self, goals: Goals, timeout_s: float | None = None, hazard: float = HAZARD,
-        never: float = NEVER, unobserved: float = UNOBSERVED, n_plans: int = N_PLANS,
+        never: float = NEVER, new_fact: float = NEW_FACT, in_plan: float = IN_PLAN,
+        mistakes: float = MISTAKES, unobserved: float = UNOBSERVED, n_plans: int = N_PLANS,
         max_expansions: int = MAX_EXPANSIONS,
     ) -> None:  # fmt: skip
         if timeout_s is not None:
@@ -99,6 +101,7 @@ class CostBelief:
         self.steps = StepTable(goals.task)
         self.ops = self.steps.ops
         self.max_expansions = max_expansions
+        self.new_fact, self.in_plan, self.mistakes = new_fact, in_plan, mistakes
         self.plans = RelaxedPlans(self.ops, goals.tests, n_plans)
         kinds = (1 - unobserved, unobserved) if unobserved else (1.0,)
         self.filter = ChangeFilter(len(goals), len(kinds), hazard, never, kinds=kinds)
@@ -227,11 +230,11 @@ class CostBelief:
         for i, op in enumerate(ops):
             facts = self.ops[op].apply(world) & ~state.seen
             fresh[i, [fact for fact in positions(facts) if fact < self.plans.n_facts]] = 1
-        gains = NEW_FACT * fresh @ self._first.facts
-        scores = gains + IN_PLAN * np.array([shares.ops[ops] for shares in state.shares])
+        gains = self.new_fact * fresh @ self._first.facts
+        scores = gains + self.in_plan * np.array([shares.ops[ops] for shares in state.shares])
         weights = np.exp(scores - scores.max(axis=1, keepdims=True, initial=0))
         policy = weights / weights.sum(axis=1, keepdims=True)
-        return steps, (1 - MISTAKES) * policy + MISTAKES / max(1, len(steps))
+        return steps, (1 - self.mistakes) * policy + self.mistakes / max(1, len(steps))
 
     def _enabled(self, step: int, world: int) -> int:
         ops = self._ops_of[step]

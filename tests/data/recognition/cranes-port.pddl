@@ -1,0 +1,7 @@
+(define (problem port) (:domain cranes)
+  (:objects dock yard store - place t1 - truck k1 k2 k3 - crane q1 q2 q3 q4 - pallet c1 c2 c3 c4 - crate)
+  (:init (truck-at t1 dock) (crane-at k1 dock) (crane-at k2 yard) (crane-at k3 store) (free k1) (free k2) (free k3)
+    (surface-at q1 dock) (surface-at q2 yard) (surface-at q3 store) (surface-at q4 store)
+    (surface-at c1 dock) (on c1 q1) (surface-at c2 dock) (on c2 c1) (clear c2)
+    (surface-at c3 yard) (on c3 q2) (surface-at c4 yard) (on c4 c3) (clear c4) (clear q3) (clear q4))
+  (:goal (on c1 q3)))

@@ -1,0 +1,10 @@
+(define (problem campus) (:domain errands)
+  (:objects gate library cafe bank lab gym office - place
+    nothing money coffee book swim test form - task)
+  (:init (here gate) (done nothing) (near gate library) (near library gate) (near gate cafe) (near cafe gate)
+    (near cafe bank) (near bank cafe) (near library lab) (near lab library) (near lab gym) (near gym lab)
+    (near bank office) (near office bank) (near gym office) (near office gym) (near library office) (near office library)
+    (possible money bank) (possible coffee cafe) (possible book library) (possible swim gym) (possible test lab)
+    (possible form office) (after money nothing) (after coffee money) (after book nothing) (after swim money)
+    (after test book) (after form book))
+  (:goal (done coffee)))

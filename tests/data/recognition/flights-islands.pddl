@@ -1,0 +1,5 @@
+(define (problem islands) (:domain flights)
+  (:objects rome oslo bonn lima - city jet prop - aircraft ann ben cleo dan eve - person l0 l1 l2 - level)
+  (:init (plane-at jet rome) (plane-at prop lima) (fuel jet l1) (fuel prop l0) (below l0 l1) (below l1 l2)
+    (person-at ann rome) (person-at ben oslo) (person-at cleo bonn) (person-at dan lima) (person-at eve oslo))
+  (:goal (person-at ann oslo)))

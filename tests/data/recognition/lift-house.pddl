@@ -1,0 +1,6 @@
+(define (problem house) (:domain lift)
+  (:objects f0 f1 f2 f3 f4 f5 f6 - floor a b c d e f g h - person)
+  (:init (lift-at f3) (next f0 f1) (next f1 f2) (next f2 f3) (next f3 f4) (next f4 f5) (next f5 f6)
+    (waits a f0) (wants a f4) (waits b f1) (wants b f6) (waits c f2) (wants c f0) (waits d f3) (wants d f5)
+    (waits e f4) (wants e f1) (waits f f5) (wants f f2) (waits g f6) (wants g f3) (waits h f0) (wants h f5))
+  (:goal (arrived a)))

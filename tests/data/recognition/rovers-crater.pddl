@@ -1,0 +1,7 @@
+(define (problem crater) (:domain rovers)
+  (:objects r1 r2 - rover s0 s1 s2 s3 s4 s5 - site rock clay ice dust - sample)
+  (:init (at r1 s0) (at r2 s4) (empty r1) (empty r2) (has-camera r2) (has-camera r1) (in-sight s0) (in-sight s3)
+    (lies rock s1) (lies clay s2) (lies ice s5) (lies dust s4)
+    (way r1 s0 s1) (way r1 s1 s0) (way r1 s1 s2) (way r1 s2 s1) (way r1 s2 s3) (way r1 s3 s2)
+    (way r2 s3 s4) (way r2 s4 s3) (way r2 s4 s5) (way r2 s5 s4) (way r2 s0 s5) (way r2 s5 s0) (way r1 s3 s4) (way r1 s4 s3))
+  (:goal (sent rock)))
