@@ -10,6 +10,9 @@ drawn. The observed actions are drawn uniformly from all its optimal plans. With
 actions are those of one goal up to a turn drawn uniformly, and then those of an optimal plan of
 another goal from there; ``change.json`` says which and when, and as many instances have no change.
 
+A change leaves a trace: the run has at least two actions more than an optimal plan of its last
+goal.
+
 The format is that of Ramírez and Geffner. The same arguments write the same files.
 """
 
@@ -19,7 +22,7 @@ import argparse
 import json
 import random
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -40,8 +43,8 @@ from hrcplan.task import Task
 from hrcplan.task.conditions import Test
 from hrcplan.task.steps import StepTable
 
-N_GOALS, LEAST_STEPS, MOST_STEPS = 10, 5, 40
-WALK_BEFORE, WALK_TO_GOALS, MAX_TRIES = 12, 400, 4000
+MOST_STEPS, LEAST_DETOUR = 40, 2
+WALK_BEFORE, WALK_TO_GOALS, MAX_TRIES = 12, 400, 400
 LIMITS = BuildLimits(mib=128)
 
 
@@ -54,20 +57,25 @@ class GoalSource:
     n_facts: int
     objects: frozenset[str]
     hidden: frozenset[str]
+    n_goals: int = 10
+    least_steps: int = 5
+    most_shared: int = 99
 
     def is_goal_fact(self, fact: Fact) -> bool:
         """Return whether a goal may hold this fact."""
         return fact[0] in self.predicates and (not self.objects or fact[1] in self.objects)
 
 
-def sources(path: Path) -> Iterator[tuple[str, GoalSource]]:
+def sources(
+    path: Path, n_facts: int | None, limits: Mapping[str, int]
+) -> Iterator[tuple[str, GoalSource]]:
     """Yield the worlds of a file by name."""
     for name, table in read_toml(path, "bad-sets").items():
         problem = read(str(path.parent / f"{name}.pddl"), str(path.parent / table["problem"]))
-        yield name, GoalSource(
-            problem, frozenset(table["goals"]), table["facts"], frozenset(table.get("only", ())),
-            frozenset(table.get("hidden", ())),
-        )  # fmt: skip
+        words = (frozenset(table.get(key, ())) for key in ("goals", "only", "hidden"))
+        predicates, objects, hidden = words
+        size = n_facts or table["facts"]
+        yield name, GoalSource(problem, predicates, size, objects, hidden, **limits)
 
 
 class World:
@@ -97,17 +105,19 @@ class World:
         goals: list[tuple[frozenset[Fact], PlanGraph]] = []
         before = self.task.facts_of(self.task.initial)
         for _ in range(MAX_TRIES):
-            if len(goals) == N_GOALS:
+            if len(goals) == self.source.n_goals:
                 break
             end = self._walk(self.task, self.task.initial, self.rng.randrange(WALK_TO_GOALS))
             options = sorted(filter(self.source.is_goal_fact, self.task.facts_of(end) - before))
             if len(options) < self.source.n_facts:
                 continue
             facts = frozenset(self.rng.sample(options, self.source.n_facts))
-            if any(facts <= other or other <= facts for other, _ in goals):
+            shared = [len(facts & other) for other, _ in goals]
+            if any(n > self.source.most_shared or facts <= other or other <= facts
+                   for n, (other, _) in zip(shared, goals, strict=True)):  # fmt: skip
                 continue
             graph = self.graph(facts, self.task.initial)
-            if graph is not None and LEAST_STEPS <= graph.steps_left[0] <= MOST_STEPS:
+            if graph is not None and self.source.least_steps <= graph.steps_left[0] <= MOST_STEPS:
                 goals.append((facts, graph))
         return goals
 
@@ -142,7 +152,7 @@ def _unchanged(world: World) -> tuple[str, int, dict[str, int | None]]:
 
 
 def _changed(world: World) -> tuple[str, int, dict[str, int | None]] | None:
-    """Return a run in which the goal changes; None if it would be reached by accident."""
+    """Return a run in which the goal changes; None if the change leaves no trace."""
     first, second = world.rng.sample(range(len(world.goals)), 2)
     plan = world.plan(world.goals[first][1])
     at = world.rng.randrange(2, len(plan) - 1)
@@ -152,7 +162,8 @@ def _changed(world: World) -> tuple[str, int, dict[str, int | None]] | None:
         assert after is not None
         state = after
     graph = world.graph(world.goals[second][0], state)
-    if graph is None or graph.steps_left[0] < 2:
+    direct = world.goals[second][1].steps_left[0]
+    if graph is None or at + graph.steps_left[0] < direct + LEAST_DETOUR:
         return None
     steps = plan[:at] + world.plan(graph)
     n_seen = world.observed(steps[:at]).count("\n")
@@ -177,7 +188,7 @@ def make(source: GoalSource, seed: str, changes: bool, folder: Path) -> None:
     """Write one instance, and with changes also the run of its world that has none."""
     for attempt in range(MAX_TRIES):
         world = World(source, random.Random(f"{seed} {attempt}"))
-        if len(world.goals) < N_GOALS // 2:
+        if len(world.goals) < source.n_goals // 2:
             continue
         runs = {"": _unchanged(world)} if not changes else {
             "-unchanged": _unchanged(world), "-changed": _changed(world),
@@ -199,12 +210,17 @@ def main() -> int:
     parser.add_argument("sets", type=Path)
     parser.add_argument("-n", type=int, default=8, help="instances of each domain")
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--goals", type=int, default=10, help="goals of an instance, at most")
+    parser.add_argument("--facts", type=int, help="facts of a goal, instead of those of the file")
+    parser.add_argument("--steps", type=int, default=5, help="least steps of a goal's plan")
+    parser.add_argument("--shared", type=int, default=99, help="most facts that two goals share")
     parser.add_argument("--only", action="append", help="one domain; may be repeated")
     parser.add_argument("--changes", action="store_true", help="runs with and without a change")
     parser.add_argument("-o", "--output", type=Path, required=True)
     args = parser.parse_args()
+    limits = {"n_goals": args.goals, "least_steps": args.steps, "most_shared": args.shared}
     try:
-        for name, source in sources(args.sets):
+        for name, source in sources(args.sets, args.facts, limits):
             for i in range(args.n) if not args.only or name in args.only else ():
                 make(
                     source, f"{args.seed} {name} {i}", args.changes, args.output / name / f"{i:02}"
