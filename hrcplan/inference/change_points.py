@@ -39,10 +39,12 @@ class ChangePoints:
         likelihoods: (steps, rates, goals): how likely each human step is under a goal that is
             pursued with a rate of mistakes.
         prior: The prior probability that the goal changes.
+        reported: The probability above which `changes` reports a change.
     """
 
     likelihoods: Floats
     prior: float = PRIOR
+    reported: float = REPORTED
 
     @property
     def n_steps(self) -> int:
@@ -68,14 +70,14 @@ class ChangePoints:
         return min(1.0, float(self.counts[1:].sum()))
 
     def changes(self) -> tuple[GoalChange, ...]:
-        """Return the changes that more probably happened than not, in order of time.
+        """Return the changes that are more probable than ``reported``, in order of time.
 
         The i-th change has the probability that there were at least i. Its place, its interval and
         its goals are those of the posterior in which there are as many changes as are returned.
         ``at``, ``first`` and ``last`` count human steps; ``before`` and ``after`` are indices.
         """
         at_least = np.cumsum(self.counts[::-1])[::-1]
-        n = int((at_least[1:] > REPORTED).sum())
+        n = int((at_least[1:] > self.reported).sum())
         changes: list[GoalChange] = []
         following = self._following(n)
         for i in range(n):

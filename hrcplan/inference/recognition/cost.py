@@ -21,13 +21,8 @@ from hrcplan.core.bits import positions
 from hrcplan.core.deprecation import warn_old_name
 from hrcplan.core.text import plural
 from hrcplan.inference.belief import IMPOSSIBLE, UNCHANGED, GoalChange
-from hrcplan.inference.changes import (
-    NEVER,
-    ChangeFilter,
-    FilterState,
-    change_points,
-    changes_before,
-)
+from hrcplan.inference.change_points import ChangePoints
+from hrcplan.inference.changes import NEVER, ChangeFilter, FilterState, change_points
 from hrcplan.inference.probabilities import normalized
 from hrcplan.pddl.conventions import people
 from hrcplan.search.bridge import MAX_EXPANSIONS, find_bridge
@@ -38,6 +33,9 @@ from hrcplan.task.conditions import Test
 NEW_FACT, IN_PLAN, MISTAKES = 2.0, 3.0, 0.05
 UNOBSERVED = 0.1
 HAZARD = 0.01
+# The settings above make guesses right; in the read-out of changes, log likelihoods count more.
+SHARPNESS = 1.5
+REPORTED = 0.7
 LOST = 10.0  # log odds against a goal that an action puts out of reach
 PROGRESS = 1e-3  # between goals that are otherwise alike, the one that is nearer to its end
 
@@ -256,8 +254,16 @@ class CostBelief:
 
     def changes(self, states: Sequence[CostState]) -> tuple[GoalChange, ...]:
         """Return the changes that are probable given all observations."""
-        return changes_before(states)
+        places, points = self._change_points(states)
+        return tuple(change.moved(places) for change in points.changes())
 
     def changed(self, states: Sequence[CostState]) -> float:
         """Return the probability, given all observations, that the goal has changed at all."""
-        return change_points(states)[1].changed
+        return self._change_points(states)[1].changed
+
+    def _change_points(self, states: Sequence[CostState]) -> tuple[list[int], ChangePoints]:
+        places, points = change_points(states)
+        likelihoods = points.likelihoods**SHARPNESS
+        if places:
+            likelihoods[0] *= np.array(self.filter.kinds)[:, None]
+        return places, ChangePoints(likelihoods, reported=REPORTED)
