@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Changes of goal that are reported, on runs with and without one.
 
-    tools/bench_goal_changes.py FOLDER
+    tools/bench_goal_changes.py FOLDER [--method cost]
 
 FOLDER is what tools/make_recognition.py --changes writes. A change is detected if one is reported,
 and within one step if the most probable place is at most one observed action off.
@@ -35,10 +35,10 @@ class Row:
     is_second_right: bool = False
 
 
-def judged(place: Path) -> Row:
+def judged(place: Path, method: str) -> Row:
     """Return what came out of a run; of several reported changes the nearest counts."""
     truth = json.loads(place.read_text())
-    inference = infer(str(place.parent))
+    inference = infer(str(place.parent), method=method)
     domain = place.parent.parent.name
     if truth["at"] is None or not inference.changes:
         return Row(domain, truth["at"] is not None, bool(inference.changes))
@@ -69,8 +69,9 @@ def _line(domain: str, rows: Sequence[Row]) -> str:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("folder", type=Path)
+    parser.add_argument("--method", default="cost")
     args = parser.parse_args()
-    rows = [judged(place) for place in sorted(args.folder.glob("*/*/change.json"))]
+    rows = [judged(place, args.method) for place in sorted(args.folder.glob("*/*/change.json"))]
     heads = ("detected", "false", "within 1", "interval", "from", "to")
     print(f"{'domain':<12}{'runs':>5}" + "".join(f"{head:>10}" for head in heads) + "   width")
     for domain in sorted({row.domain for row in rows}):
