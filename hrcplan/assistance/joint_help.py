@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from hrcplan.assistance.assistant import AssistantState
+from hrcplan.assistance.bounded_roots import BoundedBelief
 from hrcplan.assistance.expected_help import ExpectedHelp
 from hrcplan.assistance.explanation import StepChoice
 from hrcplan.assistance.priced_help import PricedHelp, PricedSteps, PricedTeam
@@ -29,7 +30,6 @@ from hrcplan.bank import Bank
 from hrcplan.bank.progress import Evidence, Progress
 from hrcplan.core.arrays import Bools, Floats
 from hrcplan.core.numbers import Number
-from hrcplan.inference.adaptive import AdaptiveBelief
 from hrcplan.inference.belief import (
     IMPOSSIBLE,
     Belief,
@@ -111,12 +111,12 @@ class JointHelp(ExpectedHelp):
 
     Args:
         bank: The plans.
-        belief: What is believed about the goal; the adaptive filter by default.
+        belief: What is believed about the goal; the adaptive filter by default, in bounded time.
         asks: Whether it asks people what they want.
     """
 
     def __init__(self, bank: Bank, belief: Belief[Any] | None = None, asks: bool = True) -> None:
-        super().__init__(bank, belief)
+        super().__init__(bank, BoundedBelief(bank) if belief is None else belief)
         self.asks = asks
         self.price_model = PriceModel(bank)
         self._helpers: dict[Changes, PricedHelp] = {}
@@ -282,7 +282,7 @@ class JointOracle(JointHelp):
         return replace(state, certain_goal=goal, none=0.0)
 
 
-class UniformBelief(AdaptiveBelief):
+class UniformBelief(BoundedBelief):
     """A belief to which no step says anything: all goals stay as likely as others."""
 
     def likelihood(self, progress: Progress, step: int | None, evidence: Evidence) -> Floats:

@@ -12,6 +12,7 @@ from typing import Protocol
 
 import numpy as np
 
+from hrcplan.assistance.bounded_roots import unrooted
 from hrcplan.assistance.explanation import StepChoice
 from hrcplan.assistance.step_prices import StepPrices
 from hrcplan.assistance.step_values import NextSteps, StepValues
@@ -82,6 +83,10 @@ class PricedSteps:
         return self._last[2]
 
     def _options(self, progress: Progress, weights: Floats) -> StepChoice:
+        missing = unrooted(progress)
+        if missing:
+            weights = weights.copy()
+            weights[missing] = 0.0  # nothing is known of what they need
         next_steps = self.values.next_steps(progress)
         steps = self.values.candidates(progress, next_steps)
         savings, needs = self.values.expected_saving(progress, next_steps, steps, weights)

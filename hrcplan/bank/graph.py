@@ -23,6 +23,33 @@ from hrcplan.search.packed_states import FactPacking
 BIG = float(1 << 62)  # above it counts are Python integers, below it 64-bit ones: both are exact
 
 PathCounts = NDArray[Any]
+FEW = 32  # nodes that are looked for among the rows, before a dictionary of all is made
+
+
+class _NodeIndex:
+    """Finds the first node of a state; where only a few are looked for, that takes no dictionary.
+
+    Args:
+        packing: How states are packed.
+        rows: The states of the nodes.
+    """
+
+    def __init__(self, packing: FactPacking, rows: Words) -> None:
+        self._packing, self._rows = packing, rows
+        self._n_searches = 0
+        self._node_of: dict[int, int] | None = None
+
+    def find(self, state: int) -> int | None:
+        """Return the first node of a state; None if there is none."""
+        if self._node_of is None and self._n_searches < FEW:
+            self._n_searches += 1
+            hits = np.flatnonzero((self._rows == self._packing.row(state)).all(axis=1))
+            return int(hits[0]) if len(hits) else None
+        if self._node_of is None:
+            self._node_of = {}
+            for node, other in enumerate(self._packing.states(self._rows)):
+                self._node_of.setdefault(other, node)
+        return self._node_of.get(state)
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,11 +123,8 @@ class PlanGraph:
     # Where a history leads.
 
     @cached_property
-    def _nodes(self) -> dict[int, int]:
-        node_of: dict[int, int] = {}
-        for node, state in enumerate(self.packing.states(self.rows)):
-            node_of.setdefault(state, node)
-        return node_of
+    def _nodes(self) -> _NodeIndex:
+        return _NodeIndex(self.packing, self.rows)
 
     @cached_property
     def _in_turn(self) -> dict[tuple[int, int], int]:
@@ -115,7 +139,7 @@ class PlanGraph:
             turn: Whose turn it is, as an index of the team's agents; None if that is not known.
         """
         state &= self.relevant_facts
-        return self._nodes.get(state) if turn is None else self._in_turn.get((state, turn))
+        return self._nodes.find(state) if turn is None else self._in_turn.get((state, turn))
 
     def turn_of(self, node: int) -> int:
         """Return whose turn it is in a node, as an index of the team's agents; 0 without turns."""

@@ -5,6 +5,7 @@ from functools import lru_cache
 import numpy as np
 import pytest
 
+from hrcplan.assistance.bounded_roots import unrooted
 from hrcplan.assistance.expected_help import ExpectedHelp
 from hrcplan.assistance.joint_help import JointHelp, Situation
 from hrcplan.assistance.priced_help import PricedMoves
@@ -147,3 +148,23 @@ def test_steps_that_no_goal_explains_point_to_a_goal_that_is_not_listed() -> Non
     assert advice.step is None or (
         robot.helper({}).n_helped(state.progress, advice.step, robot.posterior(state)) > 1
     )
+
+
+def test_few_graphs_are_made_after_one_step(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Sealing the red box first takes goals off their graphs; the likeliest gets a graph first."""
+    monkeypatch.setattr("hrcplan.assistance.bounded_roots.MAX_ROOTS", 1)
+    bank = build(world(WORKSHOP, PACKED, PARCELS))
+    robot = JointHelp(bank)
+    state = robot.start()
+    missing: list[int] = []
+    for words in (("unfold", "blue"), ("unfold", "red"), ("seal", "blue"), ("cut", "rope")):
+        step = bank.table.find(words)
+        assert step is not None
+        before, state = state, robot.observe(state, step)
+        made = [g for g, place in state.progress.off.items() if place.graph is not None]
+        known = [g for g, place in before.progress.off.items() if place.graph is not None]
+        assert len(made) <= len(known) + 1
+        missing.append(len(unrooted(state.progress)))
+        assert robot.posterior(state).sum() == pytest.approx(1)
+        assert robot.advise(state, Situation()) is not None
+    assert missing == [0, 0, 1, 1]  # of two goals that have left their graphs
