@@ -16,6 +16,7 @@ from hrcplan.core.numbers import exact
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.constructs import ALL
 from hrcplan.pddl.model import TRUE, Domain
+from hrcplan.pddl.walks import lifted_names
 from hrcplan.planners.contract import Answer, Capabilities, OwnPlanner, Request, Status
 from hrcplan.planners.exact.weights import metric
 from hrcplan.planners.lowering import lower
@@ -47,8 +48,8 @@ class RelaxedBound(OwnPlanner):
 
         Raises:
             LimitError: if there is too little time or memory.
-            UnsupportedError: if the metric is not a sum of costs and time, or if there are too many
-                actions.
+            UnsupportedError: if the metric is not a sum of costs and time, if there are too many
+                actions, or if an action's start may undo what its end needs.
         """
         if not request.lazy_task.is_ready or request.problem.domain.is_temporal:
             deadline = time.monotonic() + request.time_left_s / 2
@@ -83,6 +84,7 @@ def _temporal(task: Task) -> Answer:
         cost = _least_cost(task, costs)
         time_ops = list(_halves(task, ticks))
     else:
+        _check_ends(task.problem.domain)
         no_time = [0] * len(costs)
         cost = _sum_of_cuts(task, list(_events(task, costs, no_time)))
         time_ops = list(_events(task, no_time, ticks))
@@ -105,6 +107,18 @@ def _has_chains(domain: Domain) -> bool:
     early = any(e.when == "start" and e.kind == "add" and action.durative
                 for action in domain.actions for e in action.effects)  # fmt: skip
     return not (holds and early)
+
+
+def _check_ends(domain: Domain) -> None:
+    """Raise if the start of an action may undo what it needs at its end.
+
+    Ground tasks leave such actions out, since they can only run where another one helps.
+    """
+    for action in domain.actions:
+        starts = {effect.target.name for effect in action.effects if effect.when == "start"}
+        ends = (c.formula for c in action.conditions if c.when == "end")
+        if any(not starts.isdisjoint(lifted_names(formula)) for formula in ends):
+            raise UnsupportedError(f"the start of '{action.name}' may undo what its end needs")
 
 
 def _least_cost(task: Task, costs: Sequence[int]) -> int | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.inputs import read
 from hrcplan.planners.contract import Request, Status
 from hrcplan.planners.relaxed_bound import RelaxedBound
@@ -90,3 +91,11 @@ def test_in_a_portfolio_a_temporal_plan_has_a_bound() -> None:
     best = solve(problem_from(MATCH, MATCH_P), timeout_s=20)
     assert best.bound is not None
     assert best.gap is not None
+
+
+def test_an_end_that_needs_what_its_start_undoes_is_left_to_others() -> None:
+    """Ground tasks lack such actions, so the relaxed task would promise too much."""
+    text = DOOR.replace(":effect (at end (is-open))", ":effect (and (at start (not (turned))) "
+                        "(at end (is-open)))")  # fmt: skip
+    with pytest.raises(UnsupportedError, match="undo what its end needs"):
+        RelaxedBound().solve(Request(problem_from(text, DOOR_P)))
