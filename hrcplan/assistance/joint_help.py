@@ -16,7 +16,7 @@ import numpy as np
 from hrcplan.assistance.assistant import AssistantState
 from hrcplan.assistance.bounded_roots import BoundedBelief
 from hrcplan.assistance.expected_help import ExpectedHelp
-from hrcplan.assistance.explanation import StepChoice
+from hrcplan.assistance.explanation import Explanation, StepChoice, explanation_of
 from hrcplan.assistance.priced_help import PricedHelp, PricedSteps, PricedTeam
 from hrcplan.assistance.questions import (
     AskingRecord,
@@ -35,6 +35,7 @@ from hrcplan.inference.belief import (
     Belief,
     PredictsSteps,
     after_evidence,
+    n_declared,
     with_progress,
 )
 from hrcplan.pddl.conventions import people
@@ -172,6 +173,16 @@ class JointHelp(ExpectedHelp):
     ) -> float:
         after = self.helper(action.values).to_go(progress, weights)
         return action.success * (helper.to_go(progress, weights) - after) - action.price
+
+    def explain_at(
+        self, state: JointState, values: Values, n_goals: int = 3, n_steps: int = 5
+    ) -> Explanation:
+        """Return what it weighs, with an agent state; see ``explain``."""
+        weights = self.posterior(state)
+        choice = self.helper(values).options(state.progress, weights)
+        return explanation_of(
+            self.step_values, state.progress, weights, choice, n_declared(state), n_goals, n_steps
+        )
 
     # What was seen.
 

@@ -103,7 +103,7 @@ class Narrator:
                 _print(f"· done: {', '.join(options)}. Was that all? (yes, no, or go on)")
             case shared.Ask(_, shared.GOAL, options):
                 _print("· what do you want to do?")
-                for n, option in enumerate((*options, shared.OTHER), start=1):
+                for n, option in enumerate(options, start=1):
                     _print(f"  {n}  {option}")
             case shared.Ask(_, _, (option,)):
                 words = self.words(tuple(option.strip("()").split()))
@@ -128,7 +128,7 @@ class Narrator:
         self, run: CompanionRun, event: shared.Chosen, commands: tuple[SharedCommand, ...]
     ) -> None:
         dispatch = next((c for c in commands if isinstance(c, ev.Dispatch)), None)
-        goals = goals_text(event.goals)
+        goals = goals_text(event.goals) if event.claims else "none of the goals seems to be yours"
         if dispatch is None:
             if self._is_in_turns() and event.asks:
                 return

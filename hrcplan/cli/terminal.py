@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 
+from hrcplan.assistance.joint_help import JointState
 from hrcplan.cli import output
 from hrcplan.cli.lines import MAX_LINE, InputLines
 from hrcplan.cli.narrator import Narrator, goals_text
@@ -98,8 +99,8 @@ class Terminal:
             return None
         options = question.options
         if question.question == shared.GOAL:
-            options = (*options, shared.OTHER)
-            if (goal := _named(" ".join(words), options)) is not None:
+            goal = _named(" ".join(words), options)
+            if goal is not None:
                 return shared.Answered(run.t, goal)
         if words[0].isdecimal() and 0 <= (place := int(words[0][:4]) - 1) < len(options):
             return shared.Answered(run.t, options[place])
@@ -186,12 +187,16 @@ class Terminal:
     def _goals(self, run: CompanionRun, words: list[str]) -> PersonEvent | None:
         if self.setup.has_one_goal:
             return self._say(f"· there is one goal: {next(iter(self.setup.goals))}")
-        goals = self.adviser.likeliest(self.adviser.fold.state(run.history))
+        state = self.adviser.fold.state(run.history)
+        goals = self.adviser.likeliest(state)
+        none = state.none if isinstance(state, JointState) else 0.0
         if output.JSON:
-            output.document({"goals": dict(goals)})
+            output.document({"goals": dict(goals), **({"none_of_these": none} if none else {})})
             return None
         for name, p in goals[:N_GOALS_LISTED]:
             output.result(f"{100 * p:5.1f} %  {name}")
+        if none:
+            self._say(f"· or, with {100 * none:.0f} %, none of these")
         return None
 
     def _why(self, run: CompanionRun, words: list[str]) -> PersonEvent | None:

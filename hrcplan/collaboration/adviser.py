@@ -11,7 +11,7 @@ import numpy as np
 
 from hrcplan.assistance.assistant import Assistant, BankAssistant, Explains
 from hrcplan.assistance.explanation import Explanation
-from hrcplan.assistance.joint_help import JointHelp
+from hrcplan.assistance.joint_help import JointHelp, JointState
 from hrcplan.assistance.step_values import NextSteps
 from hrcplan.bank import Bank
 from hrcplan.collaboration import events as shared
@@ -176,6 +176,8 @@ class Adviser:
 
     def explain(self, state: BeliefState) -> Explanation | None:
         """Return what the assistant weighs in a state; None if it does not say."""
+        if isinstance(self.assistant, JointHelp) and isinstance(state, JointState):
+            return self.assistant.explain_at(state, self.joint.values(self.history))
         return self.assistant.explain(state) if isinstance(self.assistant, Explains) else None
 
     # What people can do, and what they mean.

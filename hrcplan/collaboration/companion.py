@@ -192,7 +192,7 @@ class Companion:
         notes = self._change_notes(run, event)
         run = replace(run, phase=CompanionPhase.LISTENING, belief=event, n_asked_again=0)
         if event.asks:
-            question = shared.Ask(run.t, shared.GOAL, event.asks)
+            question = shared.Ask(run.t, shared.GOAL, (*event.asks, shared.OTHER))
             run = replace(run, phase=CompanionPhase.ASKING, question=question)
             return run, (*notes, question)
         step = self.reports.actions.step(PlannedAction(event.action, event.args))

@@ -16,6 +16,7 @@ ACT, ASK, NONE = "act", "ask", "none"
 READINGS = (ACT, ASK, NONE)
 DONE, WHICH, GOAL = "done", "which", "goal"
 OTHER = "something else"
+HALF = 0.5
 YES, NO = "yes", "no"
 
 
@@ -132,6 +133,11 @@ class Chosen:
     takes_over: str = ""
     none_of_these: float = 0.0
 
+    @property
+    def claims(self) -> bool:
+        """Whether people probably want one of the listed goals."""
+        return self.none_of_these <= HALF
+
 
 @dataclass(frozen=True, slots=True)
 class AskStep:
@@ -155,7 +161,7 @@ class Ask:
     """A question to a person.
 
     ``done``: do these goals end it? ``which``: which of these actions? ``goal``: which of these
-    goals, or something else?
+    goals (the last option is `OTHER`: none of them)?
     """
 
     t: float

@@ -87,6 +87,10 @@ class JointAdviser:
                 return self._with_action(chosen, state, action, agents)
         return chosen
 
+    def values(self, history: History) -> Values:
+        """Return the agent state after a history, as function values that planners get."""
+        return self.agents.values(self.agents.belief(history)) if self.weighs_agents else {}
+
     def _action(
         self, state: JointState, advice: Advice, doers: frozenset[str]
     ) -> PlannedAction | None:
@@ -108,6 +112,8 @@ class JointAdviser:
         agents: AgentBelief | None,
     ) -> shared.Chosen:
         chosen = self._explain(chosen, state, action)
+        if not chosen.claims:
+            chosen = replace(chosen, helps=())
         why = "" if agents is None else self._takes_over(action, agents)
         return replace(chosen, takes_over=why)
 

@@ -162,7 +162,7 @@ class Reports:
                 return _told(companion, "unknown-answer", f"'{event.choice}' was no option")
             return self._begun_text(self._closed(companion), event.choice)
         if question.question == shared.GOAL:
-            if event.choice not in (*question.options, shared.OTHER):
+            if event.choice not in question.options:
                 return _told(companion, "unknown-answer", f"'{event.choice}' was no option")
             return self._closed(companion, event.choice), ()
         if event.choice != shared.YES:
@@ -183,7 +183,8 @@ class Reports:
             return companion
         denied = companion.denied
         if question.question == shared.GOAL:
-            companion = companion.plus(AskedGoal(question.options, answer))
+            goals = tuple(o for o in question.options if o != shared.OTHER)
+            companion = companion.plus(AskedGoal(goals, answer))
         if question.question == shared.DONE:
             denied = denied | frozenset(question.options)
             if self.setup.is_joint:

@@ -186,17 +186,21 @@ class Story:
             return f"{', '.join(options)}: done. Was that all?"
         if question == shared.WHICH:
             return f"Which do you mean: {', '.join(map(self.words_of, options))}?"
+        if question == shared.GOAL:
+            return "What do you want to do?"
         return f"{question}: {', '.join(options)}?"
 
     def _reason(self, event: shared.Chosen, commands: tuple[SharedCommand, ...]) -> str:
         """Return what the robot does now, for which goals, and what it believes."""
         goals = ", ".join(f"{name} {100 * p:.0f} %" for name, p in event.goals[:3])
+        goals = goals if event.claims else "none of the goals seems to be yours"
         dispatch = next((c for c in commands if isinstance(c, ev.Dispatch)), None)
         if dispatch is None:
-            return f"robot waits · {goals}"
+            return f"robot {'asks' if event.asks else 'waits'} · {goals}"
         text = self.words(dispatch.agent, dispatch.action, dispatch.args)
         helps = f", for {', '.join(event.helps)}" if event.helps else ""
-        return f"{dispatch.agent or 'robot'}: {text}{helps} · {goals}"
+        because = f", because {event.takes_over}" if event.takes_over else ""
+        return f"{dispatch.agent or 'robot'}: {text}{helps}{because} · {goals}"
 
     # Facts.
 
