@@ -1,4 +1,4 @@
-"""How robots do in collaborations by themselves: who finishes, how soon, and with how many questions.
+"""How robots do in collaborations by themselves: who finishes, how soon, with how many questions.
 
     .venv/bin/python tools/bench_collaborate.py DOMAIN GOALS N [FIRST_SEED [ROBOT,ROBOT...]]
 
@@ -54,7 +54,7 @@ class Figures:
 
 
 class Watch:
-    """Counts the human's actions from the change of goal until the robot believes in the new one."""
+    """Counts the human's actions from the change of goal until the robot follows."""
 
     def __init__(self, course: Course, names: tuple[str, ...]) -> None:
         self.goal, self.turn = names[course.goals[-1]], max(course.turns, default=0)
