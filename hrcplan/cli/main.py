@@ -37,6 +37,7 @@ COMMANDS = {
     "check": "hrcplan.cli.check",
     "format": "hrcplan.cli.format",
     "lsp": "hrcplan.cli.lsp",
+    "mcp": "hrcplan.cli.mcp",
     "new-problem": "hrcplan.cli.new_problem",
     "bank": "hrcplan.cli.bank",
     "infer": "hrcplan.cli.infer",

@@ -1,0 +1,1 @@
+"""Tools for language models: hrcplan's commands over the Model Context Protocol."""
