@@ -1,4 +1,4 @@
-"""Commands of hrcplan run for somebody who may only read the files of some folders."""
+"""Commands of hrcplan for a caller who may read the files of some folders only."""
 
 from __future__ import annotations
 

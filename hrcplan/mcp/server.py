@@ -17,9 +17,9 @@ from hrcplan.mcp.commands import MAX_SECONDS, FolderCommands
 from hrcplan.planners.registry import names
 
 _ELEMENT = re.compile(r"[\w-]+( [\w-]+)*")
-Domain = Annotated[str, Field(description="A PDDL domain: its text, a file, or a shipped name such "
+DomainInput = Annotated[str, Field(description="A PDDL domain: its text, a file, or a shipped name such "
                               "as transport")]  # fmt: skip
-Problem = Annotated[str, Field(description="A PDDL problem of the domain: its text, a file, or a "
+ProblemInput = Annotated[str, Field(description="A PDDL problem of the domain: its text, a file, or a "
                                "shipped name such as two-boxes")]  # fmt: skip
 Seconds = Annotated[float, Field(gt=0, le=MAX_SECONDS, description="Seconds for the answer")]
 Settings = Annotated[list[str], Field(description="Values that replace those of the initial state, "
@@ -50,7 +50,7 @@ def _add_pddl_tools(server: MCPServer, commands: FolderCommands) -> None:
 
     @server.tool()
     def plan(
-        domain: Domain, problem: Problem, planner: str = "auto", timeout_s: Seconds = 60,
+        domain: DomainInput, problem: ProblemInput, planner: str = "auto", timeout_s: Seconds = 60,
         any_plan: bool = False, settings: Settings = [],  # noqa: B006 - a default of a schema
     ) -> dict[str, Any]:  # fmt: skip
         """Find a plan, replayed in PDDL's own semantics, with its cost, bound and proof."""
@@ -63,7 +63,7 @@ def _add_pddl_tools(server: MCPServer, commands: FolderCommands) -> None:
 
     @server.tool()
     def validate(
-        domain: Domain, problem: Problem,
+        domain: DomainInput, problem: ProblemInput,
         plan: Annotated[str, Field(description="The plan: its text or a file")],
     ) -> dict[str, Any]:  # fmt: skip
         """Replay a plan step by step: is it valid, what does it cost, or where does it fail?"""
@@ -74,7 +74,7 @@ def _add_pddl_tools(server: MCPServer, commands: FolderCommands) -> None:
 def _add_people_tools(server: MCPServer, commands: FolderCommands) -> None:
     @server.tool()
     def allocation(
-        domain: Domain, problem: Problem,
+        domain: DomainInput, problem: ProblemInput,
         element: Annotated[str, Field(description="An element of an agent's state, as in "
                                       "'motivation human'")],
         timeout_s: Seconds = 60, settings: Settings = [],  # noqa: B006 - a default of a schema
@@ -88,7 +88,7 @@ def _add_people_tools(server: MCPServer, commands: FolderCommands) -> None:
 
     @server.tool()
     def infer(
-        domain: Domain,
+        domain: DomainInput,
         actions: Annotated[list[str], Field(description="Observed ground actions in their order, "
                                             "as in '(get human yogurt)'")],
         goals: Annotated[str | None, Field(description="A folder with a problem per goal, or a "
