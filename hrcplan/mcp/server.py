@@ -17,10 +17,12 @@ from hrcplan.mcp.commands import MAX_SECONDS, FolderCommands
 from hrcplan.planners.registry import names
 
 _ELEMENT = re.compile(r"[\w-]+( [\w-]+)*")
-DomainInput = Annotated[str, Field(description="A PDDL domain: its text, a file, or a shipped name such "
-                              "as transport")]  # fmt: skip
-ProblemInput = Annotated[str, Field(description="A PDDL problem of the domain: its text, a file, or a "
-                               "shipped name such as two-boxes")]  # fmt: skip
+DomainInput = Annotated[
+    str, Field(description="A PDDL domain: its text, a file, or a shipped name such as transport")
+]
+ProblemInput = Annotated[
+    str, Field(description="A PDDL problem: its text, a file, or a shipped name such as two-boxes")
+]
 Seconds = Annotated[float, Field(gt=0, le=MAX_SECONDS, description="Seconds for the answer")]
 Settings = Annotated[list[str], Field(description="Values that replace those of the initial state, "
                                       "as in 'motivation human=10'")]  # fmt: skip
