@@ -19,9 +19,11 @@ if TYPE_CHECKING:
     from hrcplan.collaboration.events import SharedCommand, SharedEvent
     from hrcplan.collaboration.run import CompanionRun
     from hrcplan.collaboration.setup import CollaborationSetup
+    from hrcplan.core.json_values import JsonValue
+    from hrcplan.execution.links import RobotLink
 
 TURNS = "turns"
-ME, SIMULATED = "me", "simulated"
+ME, LINK, SIMULATED = "me", "link", "simulated"
 EXIT_NO = 1
 
 
@@ -29,7 +31,8 @@ EXIT_NO = 1
     "collaborate",
     epilog=options.notes(
         options.GOALS,
-        "HUMAN: me (you type what you do), simulated (frontier), cc-htn, plans, or module:Class.",
+        "HUMAN: me (you type what you do), link (the robot's program says it), simulated "
+        "(frontier), cc-htn, plans, or module:Class.",
         "PACE: turns (first you, then the robot; a step lasts 1), or free (every agent begins at "
         "any time, and actions take their durations). With one goal the plan says who begins when.",
         options.ROBOTS,
@@ -47,14 +50,24 @@ EXIT_NO = 1
               help="When agents begin: turns or free.")  # fmt: skip
 @click.option("--method", default="hrcplan", show_default=True, metavar="METHOD",
               help="Which robot helps.")  # fmt: skip
+@click.option(
+    "--robot", metavar="LINK",
+    help="What carries out the robots' actions, in real time: 'cmd:PROGRAM' (speaks JSON lines), "
+    "ros:MAPPING.toml, plansys2, simulated, an installed link, or module:Class.",
+)  # fmt: skip
+@options.ros_python
+@click.option(
+    "--speed", type=options.FiniteNumber(0, min_open=True), default=1.0, metavar="X",
+    help="With --robot: seconds of the collaboration per second.",
+)  # fmt: skip
 @click.option("--journal", type=click.Path(path_type=Path), metavar="FILE",
               help="Write everything down, to go on later and to replay it.")  # fmt: skip
 @click.option("--resume", is_flag=True, help="Go on with the collaboration in the journal.")
 @options.seed("Random seed of a simulated human.")
 @output.common_options
 def command(
-    domain: str, goals: str | None, human: str, pace: str, method: str, journal: Path | None,
-    resume: bool, seed: int,
+    domain: str, goals: str | None, human: str, pace: str, method: str, robot: str | None,
+    ros_python: str | None, speed: float, journal: Path | None, resume: bool, seed: int,
 ) -> int:  # fmt: skip
     """Work together with a robot that does not know your goal.
 
@@ -64,14 +77,25 @@ def command(
     """
     from hrcplan.bank.sources import goals_named
     from hrcplan.cli.lines import EndOfInputError
-    from hrcplan.collaboration.collaborate import bank_for, carry_out_collaboration, make_setup
+    from hrcplan.collaboration.collaborate import (
+        WITH_ROBOT,
+        bank_for,
+        carry_out_collaboration,
+        make_setup,
+    )
+    from hrcplan.execution.links import make_link
 
     output.LINES = output.JSON
     bank = bank_for(goals_named(domain, goals))
-    spec = {"name": "frontier" if human == SIMULATED else human}
+    spec: dict[str, JsonValue] = {"name": "frontier" if human == SIMULATED else human}
+    if robot is not None:
+        spec[WITH_ROBOT] = True
     setup = make_setup(bank, pace=pace, method=method, seed=seed, human=spec)
     _check_method(setup, len(bank.names))
-    session = _Session(bank, journal if resume else None)
+    if human == LINK and robot is None:
+        raise UsageError("--human link needs a robot that says what people do", hint="--robot")
+    link = None if robot is None else make_link(robot, setup.problem, ros_python)
+    session = _Session(bank, journal if resume else None, link, speed)
     try:
         done = carry_out_collaboration(
             setup, session.make_parts, journal=journal, resume=resume, watch=session.watch
@@ -112,8 +136,10 @@ def _check_method(setup: CollaborationSetup, n_goals: int) -> None:
 class _Session:
     """The parts of one collaboration, made for the setup that it has in the end."""
 
-    def __init__(self, bank: Bank, past: Path | None) -> None:
-        self.bank, self.past = bank, past
+    def __init__(
+        self, bank: Bank, past: Path | None, robot: RobotLink | None, speed: float
+    ) -> None:
+        self.bank, self.past, self.robot, self.speed = bank, past, robot, speed
         self.narrator: Narrator | None = None
 
     def make_parts(self, setup: CollaborationSetup) -> CollaborationParts:
@@ -123,17 +149,22 @@ class _Session:
         from hrcplan.cli.terminal import Terminal
         from hrcplan.collaboration import collaborate
         from hrcplan.collaboration.adviser import Adviser
+        from hrcplan.collaboration.persons import ReportedPerson
 
         human = str(setup.human["name"])
-        if human != ME:
+        if human not in (ME, LINK):
             course = collaborate.course_of(self.bank, setup.seed)
-            parts = collaborate.simulated(setup, self.bank, course, human)
+            parts = collaborate.simulated(
+                setup, self.bank, course, human, robot=self.robot, speed=self.speed
+            )
             self.narrator = Narrator(setup, parts.adviser)
         else:
             adviser = Adviser(setup, self.bank, collaborate.assistant_of(setup))
             self.narrator = Narrator(setup, adviser)
-            terminal = Terminal(self.narrator, InputLines())
-            parts = collaborate.parts_with(setup, self.bank, adviser, terminal)
+            person = ReportedPerson() if human == LINK else Terminal(self.narrator, InputLines())
+            parts = collaborate.parts_with(
+                setup, self.bank, adviser, person, robot=self.robot, speed=self.speed
+            )
         _begin(setup)
         if self.past is not None and not output.JSON:
             output.result(output.fold(f"· going on with {self.past}"))

@@ -6,10 +6,12 @@ from collections.abc import Callable, Mapping, Sequence
 
 from hrcplan.assistance.joint_help import JointState
 from hrcplan.cli import output
-from hrcplan.cli.lines import MAX_LINE, InputLines
+from hrcplan.cli.lines import MAX_LINE, InputLines, InterruptedInputError
 from hrcplan.cli.narrator import Narrator, goals_text
 from hrcplan.collaboration import events as shared
 from hrcplan.collaboration.events import PersonEvent
+from hrcplan.collaboration.history import History
+from hrcplan.collaboration.persons import NO_WORDS, YES_WORDS
 from hrcplan.collaboration.reading import ActionWords
 from hrcplan.collaboration.run import CompanionRun
 from hrcplan.core.numbers import number_text
@@ -20,8 +22,6 @@ from hrcplan.pddl.model import FluentKey, fact_text
 N_SHOWN = 6  # steps that are offered before each of the person's turns
 N_GOALS_LISTED = 12
 N_ALONE = 2  # words of an agent state that depends on its agent alone
-YES = ("yes", "y", "ja", "j")
-NO = ("no", "n", "nein")
 HELP = """Say what you do in your own words{step}, or give its number.
 Enter   do nothing now
 NAME:   whose step it is, if several people are here
@@ -31,7 +31,8 @@ failed  my last step was done, but failed
 goals   what the robot believes
 why     what the robot weighs
 state   what holds now{state}
-pause   the robot waits
+pause   the robot begins nothing more
+stop    it also stops what it does
 go      it goes on
 quit    end"""
 
@@ -49,25 +50,34 @@ class Terminal:
     def __init__(self, narrator: Narrator, lines: InputLines) -> None:
         self.narrator, self.lines = narrator, lines
         self.setup, self.adviser = narrator.setup, narrator.adviser
+        self.interrupt: Callable[[float], bool] | None = None
         self._listed: list[ActionWords] = []
+        self._offered: tuple[History, tuple[str, ...]] | None = None
         self._commands: Mapping[str, Callable[[CompanionRun, list[str]], PersonEvent | None]] = {
             "undo": self._undo, "failed": self._failed, "why": self._why, "goals": self._goals,
             "steps": self._steps, "state": self._state, "help": self._help,
             "pause": lambda run, _: shared.Paused(run.t),
+            "stop": lambda run, _: shared.Stopped(run.t),
             "go": lambda run, _: shared.Continued(run.t),
             "quit": lambda run, _: ev.StopAsked(run.t, "quit"),
         }  # fmt: skip
 
     def act(self, run: CompanionRun, agents: tuple[str, ...]) -> tuple[PersonEvent, ...]:
-        """Return what these people do now.
+        """Return what these people do now; nothing if something else happens meanwhile.
 
         Raises:
             EndOfInputError: if there are no more lines.
         """
-        if run.question is None:
+        if run.question is None and self._offered != (run.history, agents):
             self._offer(run, agents)
+            self._offered = run.history, agents
         while True:
-            text = self.lines.next(f"{agents[0]}> " if len(self.setup.people) > 1 else "> ")
+            prompt = f"{agents[0]}> " if len(self.setup.people) > 1 else "> "
+            try:
+                text = self.lines.next(prompt, self.interrupt)
+            except InterruptedInputError:
+                return ()
+            self._offered = None
             event = self._event(run, agents, text)
             if event is not None:
                 return (event,)
@@ -90,10 +100,14 @@ class Terminal:
     def _answer(
         self, run: CompanionRun, question: shared.Ask, words: list[str]
     ) -> PersonEvent | None:
-        if question.question == shared.DONE and words[0] in (*YES, *NO):
-            choice = shared.YES if words[0] in YES else shared.NO
+        if question.question == shared.DONE and words[0] in (*YES_WORDS, *NO_WORDS):
+            choice = shared.YES if words[0] in YES_WORDS else shared.NO
             return shared.Answered(run.t, choice)
-        if question.question == shared.WHICH and len(question.options) == 1 and words[0] in YES:
+        if (
+            question.question == shared.WHICH
+            and len(question.options) == 1
+            and words[0] in YES_WORDS
+        ):
             return shared.Answered(run.t, question.options[0])
         if question.question == shared.DONE:
             return None

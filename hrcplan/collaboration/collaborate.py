@@ -35,10 +35,14 @@ from hrcplan.episodes.humans import HUMANS, Course
 from hrcplan.errors import UsageError
 from hrcplan.execution.driver import Driver, NullRecord, RunRecord
 from hrcplan.execution.journal import Journal, JournalWriter, open_journal
+from hrcplan.execution.links import RobotLink, make_link
+from hrcplan.execution.links.resumed import ResumedWorld
 from hrcplan.execution.worlds.simulated import Nature
 
 CollaborationWatch = Callable[[CompanionRun, SharedEvent, tuple[SharedCommand, ...]], None]
 ROBOT = "hrcplan"
+WITH_ROBOT = "with_robot"  # in a journal, about who is there: whether a robot's program is
+ANSWERS = tuple(SHARED_QUESTIONS.values())
 
 
 def make_setup(
@@ -91,20 +95,24 @@ class CollaborationParts:
     world: SharedWorld
 
     def run(
-        self, record: RunRecord | None = None, watch: CollaborationWatch | None = None
-    ) -> CompanionRun:
-        """Return the finished run."""
+        self, record: RunRecord | None = None, watch: CollaborationWatch | None = None,
+        past: Journal | None = None,
+    ) -> CompanionRun:  # fmt: skip
+        """Return the finished run; with a robot, ``past`` says what happened so far."""
+        world: SharedWorld | ResumedWorld[CompanionRun, SharedEvent, SharedCommand] = self.world
+        if past is not None and self.world.keeps_deadlines:
+            world = ResumedWorld(past, self.world, ANSWERS, KINDS, self.world.watch)
 
         def all_of(
             run: CompanionRun, event: SharedEvent, commands: tuple[SharedCommand, ...]
         ) -> None:
             self.adviser.watch(run, event, commands)
-            self.world.watch(run, event, commands)
+            world.watch(run, event, commands)
             if watch is not None:
                 watch(run, event, commands)
 
         return Driver(
-            Companion(self.setup), self.world, self.adviser, record or NullRecord(), all_of,
+            Companion(self.setup), world, self.adviser, record or NullRecord(), all_of,
             SHARED_QUESTIONS,
         ).run()  # fmt: skip
 
@@ -117,22 +125,23 @@ def assistant_of(setup: CollaborationSetup) -> Callable[[Bank], Assistant[Any]]:
 def simulated(
     setup: CollaborationSetup, bank: Bank, course: Course, human: str = "frontier",
     make_assistant: Callable[[Bank], Assistant[Any]] | None = None, nature: Nature | None = None,
+    robot: RobotLink | None = None, speed: float = 1.0,
 ) -> CollaborationParts:  # fmt: skip
     """Return the parts of a collaboration with a simulated human of turn-taking episodes."""
     adviser = Adviser(setup, bank, make_assistant or assistant_of(setup))
     if setup.has_one_goal:
-        return parts_with(setup, bank, adviser, CooperativePerson(), nature)
+        return parts_with(setup, bank, adviser, CooperativePerson(), nature, robot, speed)
     tells = isinstance(adviser.assistant, KnowsGoal)
     person = SimulatedPerson(setup, bank, HUMANS.make(human, bank, course), course, tells)
-    return parts_with(setup, bank, adviser, person, nature)
+    return parts_with(setup, bank, adviser, person, nature, robot, speed)
 
 
 def parts_with(
     setup: CollaborationSetup, bank: Bank, adviser: Adviser, person: Person,
-    nature: Nature | None = None,
+    nature: Nature | None = None, robot: RobotLink | None = None, speed: float = 1.0,
 ) -> CollaborationParts:  # fmt: skip
     """Return the parts of a collaboration in which an object acts for the people."""
-    world = SharedWorld(setup, nature or Nature(setup.seed), person)
+    world = SharedWorld(setup, nature or Nature(setup.seed), person, robot, speed)
     return CollaborationParts(setup, bank, adviser, world)
 
 
@@ -204,23 +213,27 @@ def carry_out_collaboration(
         UsageError: if it exists and ``resume`` was not asked for, or cannot be written.
     """
     file, past = open_journal(journal, resume)
+    parts: CollaborationParts | None = None
     try:
         if past is not None:
             setup = _with_setup_of(past, setup)
         parts = make_parts(setup)
-        if past is not None and parts.world.person.is_live:
+        has_robot = parts.world.keeps_deadlines
+        if past is not None and parts.world.person.is_live and not has_robot:
             parts.world.person = RecordedPerson(past, parts.world.person)
         writer = None
         if file is not None and past is None:
             writer = JournalWriter.begin(file, setup, FORMAT, KINDS)
         elif file is not None and past is not None:
             writer = JournalWriter.resume(file, past, KINDS)
-        run = parts.run(writer, watch if watch_all else _watch_after(writer, watch))
+        run = parts.run(writer, watch if watch_all else _watch_after(writer, watch), past)
         outcome = collaboration_outcome(run)
         if writer is not None:
             writer.finish(outcome)
         return Collaboration(outcome, run, setup, 0 if past is None else len(past.lines))
     finally:
+        if parts is not None:
+            parts.world.close()
         if file is not None:
             file.close()
 
@@ -250,6 +263,11 @@ def _with_setup_of(past: Journal, setup: CollaborationSetup) -> CollaborationSet
     """
     check_same_goals(past, setup)
     theirs = setup_of(past)
+    if bool(theirs.human.get(WITH_ROBOT)) != bool(setup.human.get(WITH_ROBOT)):
+        has_robot = bool(theirs.human.get(WITH_ROBOT))
+        message = f"the journal is of a {'run with a robot' if has_robot else 'simulation'}"
+        hint = "name the robot with --robot" if has_robot else "leave --robot out"
+        raise UsageError(message, path=str(past.path), hint=hint)
     if theirs.method != setup.method:
         check_robot(theirs.method, is_typed=False)  # a journal must not choose which code runs
     return replace(theirs, problem=setup.problem, goals=setup.goals)
@@ -259,7 +277,8 @@ def collaborate(
     source: str | Bank, goals: str | None = None, *, human: str | Person = "frontier",
     pace: str = TURNS, method: str = ROBOT, seed: int = 0,
     journal: str | os.PathLike[str] | None = None, resume: bool = False,
-    watch: CollaborationWatch | None = None,
+    watch: CollaborationWatch | None = None, robot: str | RobotLink | None = None,
+    speed: float = 1.0,
 ) -> Collaboration:  # fmt: skip
     """Let a robot help people whose goal it does not know, and return what came of it.
 
@@ -275,9 +294,13 @@ def collaborate(
         journal: Where to write it down.
         resume: Continue the collaboration in the journal, if there is one.
         watch: Is called with the run, the event and the commands after every step.
+        robot: What carries out the robots' actions instead of a simulation, in real time; see
+            `execute`.
+        speed: With a robot: seconds of the run in a real second.
 
     Raises:
         InputError: if a file is missing or has faults.
+        PlannerError: if the robot's program is missing or does not start.
         UsageError: if a name is unknown.
         UnsupportedError: if a construct in the PDDL is not held.
         LimitError: if the plans of a goal do not fit.
@@ -286,13 +309,20 @@ def collaborate(
     'goal reached'
     """
     bank = source if isinstance(source, Bank) else bank_for(read_goals(source, goals))
-    spec = {"name": human} if isinstance(human, str) else {"name": type(human).__name__}
+    name = human if isinstance(human, str) else type(human).__name__
+    spec: dict[str, Any] = {"name": name}
+    if robot is not None:
+        spec[WITH_ROBOT] = True
     setup = make_setup(bank, pace=pace, method=method, seed=seed, human=spec)
+
+    link = None if robot is None else make_link(robot, setup.problem)
 
     def make_parts(setup: CollaborationSetup) -> CollaborationParts:
         if isinstance(human, str):
-            return simulated(setup, bank, course_of(bank, setup.seed), human)
-        return parts_with(setup, bank, Adviser(setup, bank, assistant_of(setup)), human)
+            course = course_of(bank, setup.seed)
+            return simulated(setup, bank, course, human, robot=link, speed=speed)
+        adviser = Adviser(setup, bank, assistant_of(setup))
+        return parts_with(setup, bank, adviser, human, robot=link, speed=speed)
 
     path = None if journal is None else Path(journal)
     return carry_out_collaboration(setup, make_parts, journal=path, resume=resume, watch=watch)

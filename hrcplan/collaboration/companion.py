@@ -76,6 +76,8 @@ class Companion:
                 return self._sensed(run, event)
             case shared.Wanted():
                 return run.plus(WantedGoal(event.goal)), ()
+            case shared.Stopped():
+                return replace(run, is_paused=True), self._cancels(run)
             case shared.Paused() | shared.Continued():
                 return replace(run, is_paused=isinstance(event, shared.Paused)), ()
             case shared.Chosen():
@@ -86,6 +88,11 @@ class Companion:
                 return self._ended(run, event)
             case _:
                 return self._observed(run, event)
+
+    def _cancels(self, run: CompanionRun) -> tuple[ev.Cancel, ...]:
+        """Return the commands that break off what robots do."""
+        own = (action for action in run.running if action.step.agent in self.setup.robots)
+        return tuple(ev.Cancel(run.t, action.number) for action in own)
 
     def _ended(self, run: CompanionRun, event: ev.Ended | ev.Overdue) -> CompanionStep:
         is_running = run.run.running_action(event.number) is not None

@@ -101,6 +101,13 @@ class Paused:
 
 
 @dataclass(frozen=True, slots=True)
+class Stopped:
+    """The robot is to stop what it does, and to begin nothing more."""
+
+    t: float
+
+
+@dataclass(frozen=True, slots=True)
 class Continued:
     """The pause is over."""
 
@@ -180,7 +187,8 @@ class Correct:
 
 
 PersonEvent = (
-    Begun | Passed | Said | Answered | Undone | StateTold | Wanted | Paused | Continued
+    Begun | Passed | Said | Answered | Undone | StateTold | Wanted | Paused | Stopped
+    | Continued
     | ev.StopAsked
 )  # fmt: skip
 SharedEvent = Event | PersonEvent | Read | Chosen
@@ -189,7 +197,7 @@ SharedCommand = Command | AskStep | AskReading | Ask | Correct
 KINDS: Mapping[str, type] = {
     **codec.KINDS,
     **{kind.__name__.lower(): kind
-       for kind in (Begun, Passed, Said, Read, Answered, Undone, StateTold, Wanted, Paused,
+       for kind in (Begun, Passed, Said, Read, Answered, Undone, StateTold, Wanted, Paused, Stopped,
                     Continued, Chosen, AskStep, AskReading, Ask, Correct)},
 }  # fmt: skip
 SHARED_QUESTIONS: Mapping[type, type] = {**QUESTIONS, AskStep: Chosen, AskReading: Read}

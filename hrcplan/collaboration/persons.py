@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Protocol
+from collections.abc import Callable
+from typing import Protocol, runtime_checkable
 
 from hrcplan.bank import Bank
 from hrcplan.bank.team_moves import Moment, TeamMoves
@@ -21,6 +22,10 @@ from hrcplan.collaboration.setup import TURNS, CollaborationSetup
 from hrcplan.episodes.episode import PATIENCE, ROUNDS
 from hrcplan.episodes.humans import Course, EpisodeHuman, HumanMove, TakesTurns
 from hrcplan.execution import events as ev
+from hrcplan.execution.links.messages import PersonSaid
+
+YES_WORDS = ("yes", "y", "ja", "j")
+NO_WORDS = ("no", "n", "nein")
 
 
 class Person(Protocol):
@@ -31,6 +36,37 @@ class Person(Protocol):
 
     def act(self, run: CompanionRun, agents: tuple[str, ...]) -> tuple[PersonEvent, ...]:
         """Return what these people do now; nothing if they do not act before something happens."""
+
+
+@runtime_checkable
+class Interruptible(Protocol):
+    """A person at a terminal, whose decision ends without an action if something happens."""
+
+    interrupt: Callable[[float], bool] | None
+    """Waits for some seconds at most, and returns whether something has happened."""
+
+
+class ReportedPerson:
+    """People whose actions and words the robot's program reports; they never act otherwise."""
+
+    is_live = True
+
+    def act(self, run: CompanionRun, agents: tuple[str, ...]) -> tuple[PersonEvent, ...]:
+        """Return nothing."""
+        return ()
+
+
+def reported_words(run: CompanionRun, t: float, report: PersonSaid) -> PersonEvent:
+    """Return what words mean: an answer if a question is open, else words to be read."""
+    words = report.text.strip().lower().rstrip(".!")
+    question = run.question
+    if question is not None:
+        answers = {option.lower(): option for option in question.options}
+        if question.question == shared.DONE:
+            answers = dict.fromkeys(YES_WORDS, shared.YES) | dict.fromkeys(NO_WORDS, shared.NO)
+        if words in answers:
+            return shared.Answered(t, answers[words])
+    return shared.Said(t, report.agent, report.text)
 
 
 class CooperativePerson:

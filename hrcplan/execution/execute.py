@@ -20,6 +20,7 @@ from hrcplan.execution.driver import PlanProvider, RunWatch
 from hrcplan.execution.events import FAILED, Command, Event
 from hrcplan.execution.journal import Journal, JournalFile, JournalWriter, RunSetup, open_journal
 from hrcplan.execution.links import RobotLink, make_link
+from hrcplan.execution.links.resumed import ResumedWorld
 from hrcplan.execution.links.world import LinkWorld
 from hrcplan.execution.model import ExecutionModel
 from hrcplan.execution.monitor import Monitor
@@ -250,14 +251,18 @@ def _carry_out(
         begin, resume = JournalWriter.begin, JournalWriter.resume
         writer = begin(file, setup) if past is None else resume(file, past)
     timeline = Timeline()
-
-    def both(run: Run, event: Event, commands: tuple[Command, ...]) -> None:
-        timeline.watch(run, event, commands)
+    with _world(prepared_run, past) as world:
+        watches: list[RunWatch] = [timeline.watch]
+        if isinstance(world, ResumedWorld):
+            watches.append(world.watch)
         if watch is not None:
-            watch(run, event, commands)
+            watches.append(watch)
 
-    with _world(prepared_run) as world:
-        run = engine.run(setup.nature, writer, both, world)
+        def all_of(run: Run, event: Event, commands: tuple[Command, ...]) -> None:
+            for one in watches:
+                one(run, event, commands)
+
+        run = engine.run(setup.nature, writer, all_of, world)
     outcome = engine.outcome(run)
     if writer is not None:
         writer.finish(outcome)
@@ -265,7 +270,7 @@ def _carry_out(
 
 
 @contextmanager
-def _world(prepared_run: PreparedRun) -> Iterator[EventWorld]:
+def _world(prepared_run: PreparedRun, past: Journal | None) -> Iterator[EventWorld]:
     """Yield the world of a run; a robot is let go of at the end, whatever happens."""
     setup, model = prepared_run.setup, prepared_run.engine.model
     if prepared_run.robot is None:
@@ -273,7 +278,7 @@ def _world(prepared_run: PreparedRun) -> Iterator[EventWorld]:
         return
     world = LinkWorld(model, setup.nature, prepared_run.robot, speed=prepared_run.speed)
     try:
-        yield world
+        yield world if past is None else ResumedWorld(past, world)
     finally:
         world.close()
 
@@ -285,9 +290,11 @@ def _with_setup_of(past: Journal, prepared_run: PreparedRun) -> PreparedRun:
         UsageError: if the journal is of another problem, or names code that the user did not name.
     """
     setup, own_setup = past.setup(), prepared_run.setup
-    if ROBOT in (setup.world, own_setup.world):
-        hint = "hrcplan replay JOURNAL shows the run"
-        raise UsageError("a run with a robot cannot be resumed", path=str(past.path), hint=hint)
+    if (setup.world == ROBOT) != (own_setup.world == ROBOT):
+        has_robot = setup.world == ROBOT
+        message = f"the journal is of a {'run with a robot' if has_robot else 'simulation'}"
+        hint = "name the robot with --robot" if has_robot else "leave --robot out"
+        raise UsageError(message, path=str(past.path), hint=hint)
     ours, theirs = own_setup.problem, setup.problem
     if (ours.domain.name, ours.name) != (theirs.domain.name, theirs.name):
         message = f"the journal is of {theirs.domain.name}/{theirs.name}"

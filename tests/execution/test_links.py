@@ -187,8 +187,55 @@ def test_a_run_with_a_robot_can_be_replayed(tmp_path: Path) -> None:
     done = run("fail", journal=path)
     again = replay(read_journal(path))
     assert (again.row, again.difference) == (done.outcome, None)
-    with pytest.raises(UsageError, match="cannot be resumed"):
-        run("fail", journal=path, resume=True)
+
+
+@pytest.mark.parametrize("part", [0.1, 0.3, 0.5, 0.7])
+def test_a_run_with_a_robot_can_be_resumed(tmp_path: Path, part: float) -> None:
+    """What was under way has an unknown outcome, and no effect of it is assumed."""
+    path = tmp_path / "run.jsonl"
+    run("plain", journal=path)
+    lines = path.read_text().splitlines(keepends=True)
+    kept = lines[: int(part * len(lines))]
+    path.write_text("".join(kept))
+    done = run("plain", journal=path, resume=True)
+    assert done.outcome.ending == ev.GOAL
+    assert replay(read_journal(path)).difference is None
+    under_way = {
+        item["number"]
+        for line in map(json.loads, kept)
+        for item in line.get("decided", ())
+        if item["kind"] == "dispatch"
+    } - {
+        line["event"]["number"]
+        for line in map(json.loads, kept)
+        if line.get("event", {}).get("kind") == "ended"
+    }
+    unknown = {n for n, bar in done.timeline.bars.items() if bar.outcome == ev.UNKNOWN}
+    assert unknown == under_way
+    assert "goes on from its journal" in messages(done)
+
+
+def test_what_a_robot_observes_counts_when_a_run_is_resumed(tmp_path: Path) -> None:
+    path = tmp_path / "run.jsonl"
+    run("unknown", journal=path)
+    lines = path.read_text().splitlines(keepends=True)
+    first = next(n for n, line in enumerate(lines) if '"kind":"dispatch"' in line)
+    path.write_text("".join(lines[: first + 1]))
+    done = run("unknown", journal=path, resume=True)  # it observes that it is at wp3
+    assert done.outcome.ending == ev.GOAL
+    moves = [b.args for b in done.timeline.bars.values() if b.args[:2] == ("robot", "wp0")]
+    assert moves == [("robot", "wp0", "wp3")]
+
+
+def test_a_journal_says_whether_a_robot_is_needed(tmp_path: Path) -> None:
+    path = tmp_path / "run.jsonl"
+    execute("transport/two-boxes", journal=path)
+    with pytest.raises(UsageError, match="of a simulation"):
+        run("plain", journal=path, resume=True)
+    path.unlink()
+    run("plain", journal=path)
+    with pytest.raises(UsageError, match="of a run with a robot"):
+        execute("transport/two-boxes", journal=path, resume=True)
 
 
 def test_two_runs_cannot_drive_one_robot() -> None:

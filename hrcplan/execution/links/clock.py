@@ -16,9 +16,10 @@ class RunClock:
         self._last_s = self._begun_s = 0.0
         self._stopped_s: float | None = None
 
-    def begin(self) -> None:
-        """Let the time of the run be 0 now."""
-        self._begun_s = self._real()
+    def begin(self, t: float = 0.0) -> None:
+        """Let the time of the run be ``t`` now."""
+        self._begun_s = self._real() - t / self.speed
+        self._last_s = t
 
     @property
     def now_s(self) -> float:

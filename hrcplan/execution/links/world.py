@@ -24,8 +24,10 @@ from hrcplan.execution.links import messages as msg
 from hrcplan.execution.links.clock import RunClock
 from hrcplan.execution.links.session import LinkSession
 from hrcplan.execution.model import ExecutionModel
+from hrcplan.execution.run import Run
 from hrcplan.execution.worlds.simulated import FactChange, Nature, SimulatedWorld, StateChange
 from hrcplan.pddl.model import FluentKey
+from hrcplan.pddl.semantics import LiftedState
 
 ACCEPT_S = 2.0  # how long it may take to accept or refuse an action, to cancel, and to observe
 MAX_TRIES = 3  # how often an action is asked for
@@ -60,6 +62,8 @@ class LinkWorld:
     Attributes:
         reports: What people have said and begun, as the link says, if ``hears_people``.
         hears_people: Whether these reports are taken.
+        waits_for_people: Whether nothing but these reports says what people do.
+        is_repeating: Whether a journal still says what happens, so that commands do nothing.
     """
 
     keeps_deadlines = True
@@ -77,8 +81,9 @@ class LinkWorld:
         self._outcomes: dict[int, str] = {}  # of the actions that have ended
         self._waiting: list[Command] = []  # while an emergency stop lasts
         self._n_faults = 0
+        self._events: list[Event] = []  # that were taken in before they were asked for
         self.reports: deque[msg.PersonSaid | msg.PersonBegun] = deque()
-        self.hears_people = False
+        self.hears_people = self.waits_for_people = self.is_repeating = False
 
     def begin(self) -> tuple[Event, ...]:
         """Start the link and return what is seen at time 0.
@@ -91,6 +96,45 @@ class LinkWorld:
         self.clock.begin()
         return self.simulated.begin()
 
+    def resume(self, run: Run, new: Sequence[ev.Dispatch]) -> tuple[Event, ...]:
+        """Start the link in the middle of a run, and return what is seen then.
+
+        What was dispatched before and has not ended has an unknown outcome: the link is asked what
+        it observes, and no effect is assumed.
+
+        Args:
+            run: The run as it is now.
+            new: Dispatches that no world has seen yet; `do` begins them afterwards.
+
+        Raises:
+            PlannerError: as `begin`.
+            UsageError: as `begin`.
+        """
+        self.session.start()
+        self.clock.begin(run.t)
+        numbers = {command.number for command in new}
+        state = run.state
+        for action in reversed(run.running):
+            if action.number in numbers:
+                state = self.model.actions.revert(state, action.start_effects)
+        old = [action for action in run.running if action.number not in numbers]
+        self.simulated.resume(run.t, state, run.sensed_values, old)
+        self._outcomes = dict.fromkeys(range(run.n_dispatched), ev.UNKNOWN)
+        events: list[Event] = [
+            event for action in old for event in self._end(action.number, ev.UNKNOWN)
+        ]
+        return (*events, *self._look(), self.simulated.observation())
+
+    @property
+    def state(self) -> LiftedState:
+        """What is believed to hold."""
+        return self.simulated.state
+
+    @state.setter
+    def state(self, state: LiftedState) -> None:
+        """Believe that this holds."""
+        self.simulated.state = state
+
     def close(self) -> None:
         """Cancel what is under way, and end the link."""
         for number in list(self._requests):
@@ -101,6 +145,10 @@ class LinkWorld:
 
     def do(self, command: Command) -> None:
         """Begin or break off an action; during an emergency stop actions wait for its release."""
+        if self.is_repeating:
+            return
+        if isinstance(command, ev.Dispatch):
+            self._events += self._link_events()  # an emergency stop may have come meanwhile
         match command:
             case ev.Dispatch() if self.clock.is_stopped:
                 self._waiting.append(command)
@@ -156,13 +204,25 @@ class LinkWorld:
                 events = [replace(event, t=t) for event in events]
                 events.append(replace(self.simulated.observation(), t=t))
                 return tuple(sorted(events, key=lambda event: ev.RANK[type(event)]))
-            if self._is_idle():
+            if self.reports or self._is_idle():
                 return ()
             self.session.wait(self._wait_s())
 
+    def has_news(self, wait_s: float) -> bool:
+        """Return whether something happens within a time, or people have reported something."""
+        self._events = self._happened()
+        if not self._events and not self.reports:
+            self.session.wait(min(wait_s, self._wait_s()))
+            self._events = self._happened()
+        return bool(self._events or self.reports)
+
+    def _link_events(self) -> list[Event]:
+        return [event for message in self.session.messages() for event in self._take(message)]
+
     def _happened(self) -> list[Event]:
         """Return what has happened until now, at the link and on the simulated clock."""
-        events = [event for message in self.session.messages() for event in self._take(message)]
+        events, self._events = self._events, []
+        events += self._link_events()
         while (due := self.simulated.next_s) is not None and due <= self.clock.now_s:
             events += self.simulated.next()
         for number, request in list(self._requests.items()):
@@ -176,6 +236,8 @@ class LinkWorld:
         return events
 
     def _is_idle(self) -> bool:
+        if self.waits_for_people:
+            return self.session.is_lost
         is_due = self.simulated.next_s is not None
         return not (self.clock.is_stopped or self._requests or is_due)
 

@@ -7,6 +7,7 @@ not it was sensed. Robots do not fail. Nothing is drawn here but from ``chance``
 from __future__ import annotations
 
 import heapq
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -16,6 +17,7 @@ from hrcplan.execution.action_model import BoundAction, StartEffects
 from hrcplan.execution.codec import exact_number
 from hrcplan.execution.events import Command, Event
 from hrcplan.execution.model import ExecutionModel
+from hrcplan.execution.run import RunningAction
 from hrcplan.execution.worlds import chance
 from hrcplan.pddl.model import Fact, FluentKey
 from hrcplan.pddl.semantics import LiftedState
@@ -149,6 +151,29 @@ class SimulatedWorld:
         """Let facts begin or cease to hold, and numbers take values, for any reason."""
         facts = frozenset(self.state.facts) - deletes | adds
         self.state = LiftedState(facts, {**self.state.values, **(numbers or {})})
+
+    def resume(
+        self, t: float, state: LiftedState, values: Mapping[FluentKey, Number],
+        running: Sequence[RunningAction],
+    ) -> None:  # fmt: skip
+        """Go on in the middle of a run; its running actions end by `end_action` only.
+
+        Args:
+            t: When that is; changes of before have happened.
+            state: What holds.
+            values: Agent state that was sensed.
+            running: The actions that have begun.
+        """
+        self._now, self.state = t, state
+        self.values.update(values)
+        self._clock = [entry for entry in self._clock if entry[0] > t]
+        heapq.heapify(self._clock)
+        self._outcomes = {}
+        for action in running:
+            duration: Number = exact_number(action.duration_s)  # type: ignore[assignment]
+            self._outcomes[action.number] = _ActionOutcome(
+                action.step, duration, math.inf, action.start_effects
+            )
 
     @property
     def running(self) -> tuple[int, ...]:

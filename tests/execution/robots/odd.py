@@ -3,6 +3,7 @@
 import json
 import os
 import sys
+import threading
 import time
 
 MODE = sys.argv[1] if len(sys.argv) > 1 else ""
@@ -33,9 +34,9 @@ def first(n: int) -> None:
     match MODE:
         case "reject":
             say("rejected", n=n, why="the path is blocked")
-        case "endless" | "late":
+        case "endless" | "late" | "endless-alone":
             say("accepted", n=n)
-        case "fail":
+        case "fail" | "alone-fail":
             say("accepted", n=n)
             end(n, "failed", why="slipped")
         case "unknown":
@@ -88,7 +89,27 @@ def first(n: int) -> None:
             end(n)
 
 
-AGENTS = {"stranger": ["nobody"], "stop": ["robot"]}
+AGENTS = {
+    "stranger": ["nobody"], "stop": ["robot"], "kitchen": [], "alone": ["robot"],
+    "alone-fail": ["robot"], "endless-alone": ["robot"], "reports": ["robot"],
+}  # fmt: skip
+REPORTS = [("move", "wp1", "wp4"), ("grasp", "blue", "wp4"), ("move", "wp4", "wp5"),
+           ("place", "blue", "wp5")]  # fmt: skip
+
+
+def report() -> None:
+    """Say what the person does: some of it as an action, some in words, and that it was all."""
+    for n, (action, *args) in enumerate(REPORTS):
+        if n % 2:
+            say("said", agent="human", text=f"({action} human {' '.join(args)})")
+        else:
+            say("begun", agent="human", action=action, args=["human", *args])
+        time.sleep(0.2)
+    for _ in range(3):
+        say("said", agent="human", text="Yes!")
+        time.sleep(0.1)
+
+
 PENDING: set[int] = set()
 
 
@@ -103,6 +124,8 @@ def main() -> None:
                 say("ready", agents=AGENTS.get(MODE, ["robot", "human"]))
             case "dispatch":
                 n_actions += 1
+                if MODE == "reports" and n_actions == 1:
+                    threading.Thread(target=report, daemon=True).start()
                 if MODE == "deaf" and n_actions > 1:
                     continue
                 if command["n"] in PENDING:

@@ -14,6 +14,7 @@ from __future__ import annotations
 import glob
 import json
 import os
+import signal
 import sys
 import threading
 import time
@@ -43,6 +44,7 @@ SERVERS_S = 8.0  # how long action servers may take to appear
 TICK_S = 0.1
 FRESH_S = 2.0  # a message of this age still says what is true
 CANCEL_S = 2.0
+LAST_S = 0.2  # how long the last cancels may take
 SUCCEEDED, CANCELED = 4, 5  # of action_msgs/msg/GoalStatus
 HUB, PERFORMERS = "actions_hub", "performers_status"  # of PlanSys2
 PERFORMER_RUNS = 2  # the state of a performer that carries an action out
@@ -501,10 +503,14 @@ class Bridge:
 
     def run(self) -> None:
         """Serve until standard input ends, or the end is commanded."""
+        signal.signal(signal.SIGTERM, self.stop)
         threading.Thread(target=self._read, daemon=True).start()
         self.node.create_timer(TICK_S, lambda: self.executive.tick())
         while not self.is_over:
             self.executor.spin_once(timeout_sec=1.0)
+        until = time.monotonic() + LAST_S
+        while self.executive.actions and time.monotonic() < until:
+            self.executor.spin_once(timeout_sec=TICK_S)
 
     def _read(self) -> None:
         for line in sys.stdin:
@@ -549,7 +555,14 @@ class Bridge:
         say("configured")
 
     def _end(self, message: Mapping[str, Any]) -> None:
+        for n in list(self.executive.actions):
+            self.executive.cancel(n)
         self.is_over = True
+
+    def stop(self, *_: Any) -> None:
+        """End soon: everything is cancelled first."""
+        self.lines.append('{"do": "end"}')
+        self.wake.trigger()
 
 
 def main() -> int:
