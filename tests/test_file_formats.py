@@ -66,6 +66,7 @@ RARE_IN_COLLABORATIONS = [
     shared.StateTold(0.0, {("motivation", "human"): 8}),
     shared.Wanted(0.0, "parfait-nut"),
     shared.Paused(0.0),
+    shared.Stopped(0.0),
     shared.Continued(0.0),
     shared.AskReading(0.0, ("human",), "the milk, please"),
     shared.Ask(0.0, shared.DONE, ("parfait-nut",)),
