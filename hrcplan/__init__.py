@@ -53,8 +53,10 @@ if TYPE_CHECKING:
     from hrcplan.pddl.inputs import read
     from hrcplan.pddl.model import Domain, Problem
     from hrcplan.planners.contract import Answer, Capabilities, Planner, Request, Status
+    from hrcplan.planners.from_up import from_up
     from hrcplan.planners.plan import plan
     from hrcplan.planners.solve import Result
+    from hrcplan.planners.up import to_up
     from hrcplan.plans import Plan, PlannedAction
     from hrcplan.studies import run_study
     from hrcplan.task import Task
@@ -107,6 +109,7 @@ __all__ = [
     "collaborate",
     "event_worlds",
     "execute",
+    "from_up",
     "ground",
     "humans",
     "infer",
@@ -118,6 +121,7 @@ __all__ = [
     "play",
     "read",
     "run_study",
+    "to_up",
     "validate",
     "worlds",
 ]
@@ -146,8 +150,10 @@ _HOMES = {
     "hrcplan.pddl.model": ("Domain", "Problem"),
     "hrcplan.planners": ("planners=",),
     "hrcplan.planners.contract": ("Answer", "Capabilities", "Planner", "Request", "Status"),
+    "hrcplan.planners.from_up": ("from_up",),
     "hrcplan.planners.plan": ("plan",),
     "hrcplan.planners.solve": ("Result",),
+    "hrcplan.planners.up": ("to_up",),
     "hrcplan.plans": ("Plan", "PlannedAction"),
     "hrcplan.studies": ("run_study",),
     "hrcplan.task": ("Task",),

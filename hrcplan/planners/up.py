@@ -24,7 +24,7 @@ from hrcplan.errors import (
 )
 from hrcplan.pddl import inlining
 from hrcplan.pddl.dialect import with_effects
-from hrcplan.pddl.model import TOTAL_COST, Function, Problem
+from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, Function, Problem
 from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
 from hrcplan.planners.handover import Handover
@@ -187,8 +187,13 @@ def engines(timeout_s: float = 30) -> Mapping[str, str | None]:
     return dict(reply)
 
 
-def to_up(problem: Problem) -> UpProblem:
+def to_up(problem: Problem, *, with_time: bool = False) -> UpProblem:
     """Return a problem as unified-planning's ``Problem``, to go on with there.
+
+    Args:
+        problem: The problem.
+        with_time: Hold PDDL's total-time as a fluent of that name, for a metric that weighs it
+            against costs. Only hrcplan's engine knows what it means; for others it is 0.
 
     Raises:
         UnsupportedError: if unified-planning cannot hold the problem (a metric of cost and time,
@@ -199,11 +204,24 @@ def to_up(problem: Problem) -> UpProblem:
         from unified_planning.exceptions import UPException
     except ImportError as error:
         raise MissingPlannerError(f"unified-planning cannot be imported: {error}") from error
+    texts = domain_text(problem.domain), problem_text(problem)
+    if with_time:
+        texts = _declare_time(*texts)
     try:
-        return _read(domain_text(problem.domain), problem_text(problem))
+        return _read(*texts)
     except (UPException, SyntaxError, AssertionError, NotImplementedError) as error:
         message = f"unified-planning cannot hold this problem: {error}"
         raise UnsupportedError(message) from error
+
+
+def _declare_time(domain: str, problem: str) -> tuple[str, str]:
+    """Return the texts with total-time as a function of their own, which is 0."""
+    time = f"({TOTAL_TIME})"
+    if "(:functions" in domain:
+        domain = domain.replace("(:functions", f"(:functions {time}", 1)
+    else:
+        domain = f"{domain.rstrip()[:-1]} (:functions {time}))"
+    return domain, problem.replace("(:init", f"(:init (= {time} 0)", 1)
 
 
 def _read(domain: str, problem: str) -> UpProblem:
