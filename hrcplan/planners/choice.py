@@ -138,7 +138,8 @@ def _is_numeric(request: Request) -> bool:
 def _rank(job: Job, request: Request) -> tuple[bool, float]:
     """Return a sort key for jobs: built-in ones by the table, others by what they can prove."""
     card, order = job.planner.card, _ANY if request.any_plan else _BEST
-    sequences = request.problem.domain.is_temporal and not card.temporal
+    temporal = request.problem.domain.is_temporal
+    sequences = temporal and not card.temporal and not request.any_plan
     late = card.own and card.numeric and _is_numeric(request)  # it has no heuristic
     key = (card.name, job.any_plan)
     if key in order:

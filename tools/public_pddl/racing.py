@@ -23,6 +23,8 @@ from public_pddl.archive import Pair
 
 TIMEOUT_S = 60
 OVERRUN_S = 1
+REPEATS = 2
+"""Rounds of all calls of a task, one after the other; the quickest of each counts."""
 OURS = "hrcplan"
 
 
@@ -102,13 +104,23 @@ def report(readable: Sequence[Pair], n: int, seed: int) -> None:
     for kind, pair in tasks(readable, n, seed):
         with TemporaryDirectory() as folder:
             calls = commands(pair, kind)
-            runs = {name: call(argv, Path(folder)) for name, argv in calls.items()}
+            rounds = [
+                {name: call(argv, Path(folder)) for name, argv in calls.items()}
+                for _ in range(REPEATS)
+            ]
+        runs = {name: _quickest([runs[name] for runs in rounds]) for name in calls}
         ours = runs.pop(OURS)
-        name = min(runs, key=lambda name: (not runs[name].solved, runs[name].elapsed_s))
+        name = min(runs, key=lambda name: (not runs[name].solved, runs[name].cpu_s))
         results.append((ours, runs[name]))
         print(f"| {pair.domain.parent.name}/{pair.problem.stem} | {kind} | {_cell(ours)} ", end="")
         print(f"| {name} {_cell(runs[name])} |", flush=True)
     _summary(results)
+
+
+def _quickest(runs: Sequence[Run]) -> Run:
+    """Return the least of both times over several calls that solve the task, if any does."""
+    best = [run for run in runs if run.solved] or runs
+    return Run(best[0].solved, min(r.elapsed_s for r in best), min(r.cpu_s for r in best))
 
 
 def _cell(run: Run) -> str:
@@ -131,6 +143,8 @@ def _summary(results: Sequence[tuple[Run, Run]]) -> None:
 
 def _added(kind: str, times: Sequence[tuple[float, float]]) -> None:
     added = [ours - best for ours, best in times]
+    near = median(ours - 1.2 * best for ours, best in times)
     within = sum(ours <= 2 * best + 1 for ours, best in times)
     print(f"added {kind}: median {median(added):.2f} s, at most {max(added):.2f} s; ", end="")
+    print(f"median beyond 1.2 times the best {near:.2f} s; ", end="")
     print(f"within twice + 1 s: {within} of {len(times)}", flush=True)
