@@ -86,7 +86,7 @@ def _action(node: GroupNode, scope: Scope) -> Action | None:
         condition, preferences = read_preferences(condition, inner, durative)
     effect = parts.get(":effect")
     if effect is None or (
-        isinstance(effect, GroupNode) and effect[1:] == [] and effect.head in "and"
+        isinstance(effect, GroupNode) and effect[1:] == [] and effect.head in ("", "and")
     ):
         source.warn(node.at, "no-effect", f"action {quote(node[1])} has no effect")
     return Action(

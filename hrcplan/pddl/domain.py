@@ -197,12 +197,15 @@ def _types(section: GroupNode | None, source: SourceText) -> dict[str, tuple[str
             source.warn(name.at, "duplicate-type", message, hint)
         both = [*types.get(str(name), ()), *parents]
         types[str(name)] = tuple(dict.fromkeys(p for p in both if p != OBJECT)) or (OBJECT,)
+    declared = [str(name) for name, _ in entries]
     for name, parents in entries:
         for parent in parents:
             if parent != OBJECT and parent not in types:
                 types[parent] = (OBJECT,)
                 message = f"type {quote(parent)} is only named as a supertype"
-                hint = f"add '{parent} - object' to (:types …)"
+                close = nearest_name(parent, [n for n in declared if n != name], 0.8)
+                cure = f"add '{parent} - object' to (:types …)"
+                hint = f"did you mean {quote(close)}? else {cure}" if close else cure
                 source.warn(name.at, "undeclared-supertype", message, hint)
     _report_cycles(types, entries, source)
     return types
@@ -226,23 +229,27 @@ def _report_cycles(
             open_parents[child] -= 1
             if not open_parents[child]:
                 ready.append(child)
+    reported: set[str] = set()
     for name, _ in entries:
-        if name in types and name not in acyclic and _is_own_ancestor(name, types):
+        if name not in types or name in acyclic or name in reported:
+            continue
+        ancestors = _ancestors(name, types)
+        if name in ancestors:
+            reported |= ancestors  # the other types of the cycle
             message = f"type {quote(name)} is below itself"
             source.error(name.at, "cyclic-types", message, f"write '{name} - object' apart")
 
 
-def _is_own_ancestor(name: str, types: dict[str, tuple[str, ...]]) -> bool:
+def _ancestors(name: str, types: dict[str, tuple[str, ...]]) -> set[str]:
+    """Return the types above a type; itself only if it is below itself."""
     ancestors: set[str] = set()
     waiting = list(types[name])
     while waiting:
         above = waiting.pop()
-        if above == name:
-            return True
         if above not in ancestors:
             ancestors.add(above)
             waiting.extend(types.get(above, ()))
-    return False
+    return ancestors
 
 
 def _signatures(

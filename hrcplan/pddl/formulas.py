@@ -112,6 +112,8 @@ def shown(node: GroupNode) -> str:
 def loose_cure(node: ParseNode, kind: str) -> str | None:
     """Return how to write what has no head: a bare word, or a group of groups."""
     if isinstance(node, WordNode):
+        if node in FOREIGN or node in ("and", "or"):
+            return FOREIGN.get(str(node), f"write ({node} A B)")
         return PREFIXES.get(str(node), f"write ({node})")
     if len(node) == 1:
         return "one pair of parentheses is too much"

@@ -155,3 +155,28 @@ def test_missing_types_are_reported_in_the_domain_and_not_again_in_its_problem(t
         (tmp_path / name).write_text(text)
     (fault,) = check_files([tmp_path / name for name in texts])
     assert (fault.code, fault.path) == ("unknown-type", str(tmp_path / "d.pddl"))
+
+
+@pytest.mark.parametrize(
+    ("types", "code", "cure"),
+    [
+        ("a - b b - c c - a", "cyclic-types", "write 'a - object' apart"),
+        ("car vehicle truck - vehicel", "undeclared-supertype", "did you mean 'vehicle'?"),
+        ("car truck - vehicle", "undeclared-supertype", "add 'vehicle - object'"),
+        ("tool - tools", "undeclared-supertype", "add 'tools - object'"),
+    ],
+)
+def test_a_slip_in_a_hierarchy_of_types_is_one_message(tmp_path, types, code, cure):
+    (fault,) = faults(tmp_path, f"(define (domain d) (:requirements :typing) (:types {types}))")
+    assert fault.code == code
+    assert (fault.hint or "").startswith(cure)
+
+
+def test_an_effect_called_like_a_part_of_and_is_an_effect(tmp_path):
+    text = "(define (domain d) (:predicates (a)) (:action x :effect (a)))"
+    assert faults(tmp_path, text) == ()
+
+
+def test_a_bare_operator_is_told_to_stand_first(tmp_path):
+    (fault,) = errors(tmp_path, ONE_ACTION.format("(and (p ?x) && (q))", "(q)"))
+    assert fault.hint == "write and instead"

@@ -81,8 +81,11 @@ def changed(plan: Plan, kind: str, problem: Problem, rng: random.Random) -> Plan
 
 
 def _delayed(action: PlannedAction, kind: str, rng: random.Random) -> PlannedAction:
-    """Return an action that begins or ends at another time, sometimes hardly another."""
-    by = Fraction(rng.choice(("0.001", "0.01", "0.5", "3", "-0.5", "-0.001")))
+    """Return an action that begins or ends at another time.
+
+    VAL's tolerance is 0.001, and it counts in floats: a change is clearly below or above that.
+    """
+    by = Fraction(rng.choice(("0.0004", "0.01", "0.5", "3", "-0.5", "-0.0004")))
     if kind == "longer":
         return replace(action, duration_s=exact(max(Fraction(0), (action.duration_s or 0) + by)))
     return replace(action, start_s=exact(max(Fraction(0), (action.start_s or 0) + by)))
