@@ -36,7 +36,8 @@ HELP = """Carry out DOMAIN PROBLEM with a simulated human, and replan before act
 
 \b
 --change WHAT@SECONDS, any number of times
-  FUNCTION OBJECT…=NUMBER@SECONDS    "motivation human=9@0"     an agent state, 0 to 10
+  FUNCTION OBJECT…=NUMBER@SECONDS    "motivation human=9@0"     an agent state, 0 to 10,
+                                                                or any other number
   PREDICATE OBJECT…@SECONDS          "box-at blue wp0@60"       a fact begins to hold
   not PREDICATE OBJECT…@SECONDS      "not box-at blue wp4@60"   a fact ceases to hold
 """

@@ -1,6 +1,7 @@
 """Changes of the world at given times: as text, as on the command line, or as objects.
 
 "motivation human=9@0"    at 0 s an agent state changes to this value (0 to 10)
+"fuel truck=3@60"         at 60 s any other number has this value
 "box-at blue wp0@60"      at 60 s a fact begins to hold
 "not box-at blue wp4@60"  at 60 s a fact ceases to hold
 """
@@ -11,15 +12,18 @@ import math
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 
+from hrcplan.core.numbers import Number, exact
 from hrcplan.core.text import type_text
 from hrcplan.errors import UsageError
 from hrcplan.execution.model import ExecutionModel
 from hrcplan.execution.worlds.simulated import FactChange, StateChange
 from hrcplan.pddl.conventions import CONTROLLABLE
+from hrcplan.pddl.model import TOTAL_COST, FluentKey
 from hrcplan.pddl.settings import check_fact, check_function, parse_fact, parse_setting
 
 WorldChange = StateChange | FactChange
 _CODE = "bad-change"
+_APPEARS = "an object that may appear has to stand in :objects of the problem from the beginning"
 _HINT = 'as in "motivation human=9@0", "box-at blue wp0@60" or "not box-at blue wp4@60"'
 
 
@@ -80,7 +84,7 @@ def _check(change: WorldChange, model: ExecutionModel) -> WorldChange:
         if isinstance(change, StateChange):
             for key in change.values:
                 check_function(key, model.problem)
-            values = {key: model.agents.check(key, v) for key, v in change.values.items()}
+            values = {key: _checked_value(key, v, model) for key, v in change.values.items()}
             return StateChange(change.t, values)
         for fact in change.adds | change.deletes:
             check_fact(fact, model.problem)
@@ -90,6 +94,22 @@ def _check(change: WorldChange, model: ExecutionModel) -> WorldChange:
     return change
 
 
+def _checked_value(key: FluentKey, value: float | Number, model: ExecutionModel) -> Number:
+    """Return the value of an agent state, or of any other number, as an exact number.
+
+    Raises:
+        UsageError: if it is out of range, or the number is no part of the world.
+    """
+    if key in model.agents.low:
+        return model.agents.check(key, value)
+    if key[0] == TOTAL_COST:
+        hint = "change what the cost depends on, such as an agent state"
+        raise UsageError(f"({TOTAL_COST}) is what a plan costs, not a part of the world", hint=hint)
+    if not math.isfinite(value):
+        raise UsageError(f"{value} is no finite number")
+    return exact(repr(value)) if isinstance(value, float) else value
+
+
 @contextmanager
 def _about(text: str) -> Iterator[None]:
     """Let errors say which change they are about."""
@@ -97,7 +117,8 @@ def _about(text: str) -> Iterator[None]:
         yield
     except UsageError as error:
         message = f"change '{text}': {error.message}"
-        raise UsageError(message, code=_CODE, hint=error.hint) from None
+        hint = f"{error.hint}; {_APPEARS}" if "of the problem" in error.message else error.hint
+        raise UsageError(message, code=_CODE, hint=hint) from None
 
 
 def _text(change: WorldChange) -> str:

@@ -94,7 +94,7 @@ def _check_objects(
     for name, param in zip(words[1:], params, strict=True):
         objects = problem.objects_of(param.types)
         if name not in objects:
-            hint = nearest(name, objects) or f"one of: {', '.join(objects)}"
+            hint = nearest(name, objects) or f"one of: {', '.join(objects) or 'none'}"
             message = f"'{name}' is no {' or '.join(param.types)} of the problem"
             raise UsageError(message, code=code, hint=hint)
 

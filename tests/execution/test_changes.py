@@ -135,3 +135,46 @@ def test_runs_are_short_in_print() -> None:
     assert len(repr(done)) < 200
     assert repr(done.run).startswith("Run(goal reached, t=200, 8 actions done, 0 failed")
     assert repr(done.outcome) == "Outcome(goal reached, 200 s, 0 replans, 8 actions done, 0 failed)"
+
+
+HAUL = """(define (domain haul) (:requirements :strips :typing :numeric-fluents :durative-actions)
+ (:types agent place - object)
+ (:predicates (controllable ?a - agent) (at ?a - agent ?p - place) (road ?x ?y - place))
+ (:functions (fuel ?a - agent) (far ?x ?y - place))
+ (:durative-action go :parameters (?a - agent ?x ?y - place) :duration (= ?duration (far ?x ?y))
+  :condition (and (at start (at ?a ?x)) (at start (road ?x ?y)) (at start (>= (fuel ?a) 2)))
+  :effect (and (at start (not (at ?a ?x))) (at end (at ?a ?y)) (at start (decrease (fuel ?a) 2))))
+ (:durative-action refuel :parameters (?a - agent ?x - place) :duration (= ?duration 5)
+  :condition (over all (at ?a ?x)) :effect (at end (increase (fuel ?a) 4))))"""
+HAUL_PROBLEM = """(define (problem one) (:domain haul) (:objects r - agent a b c d - place)
+ (:init (controllable r) (at r a) (road a b) (road b d) (road b c) (road c d) (= (fuel r) 4)
+  (= (far a b) 10) (= (far b d) 10) (= (far b c) 11) (= (far c d) 11))
+ (:goal (at r d)) (:metric minimize (total-time)))"""
+
+
+@pytest.mark.parametrize(
+    ("change", "reason", "roads"),
+    [
+        ("fuel r=0@3", "(fuel r) is 0", ["a b", "b d"]),
+        ("far b d=100@3", "(far b d) is 100", ["a b", "b c", "c d"]),
+        ("not road b d@3", "(road b d) does not hold", ["a b", "b c", "c d"]),
+    ],
+)
+def test_numbers_and_static_facts_are_planned_with_before_an_action_fails(
+    change: str, reason: str, roads: list[str], tmp_path: Path
+) -> None:
+    path = tmp_path / "run.jsonl"
+    done = execute(HAUL, HAUL_PROBLEM, changes=[change], journal=path)
+    assert done.outcome.success
+    assert done.outcome.failed_robot == 0
+    bars = done.timeline.bars.values()
+    assert [" ".join(bar.args[1:]) for bar in bars if bar.action == "go"] == roads
+    assert [bar.action for bar in bars].count("refuel") == 1
+    assert [plan.why for plan in done.timeline.plans] == ["", f"deviation: {reason}"]
+    assert replay(read_journal(path)).difference is None
+
+
+def test_an_object_that_appears_is_refused_with_what_to_do() -> None:
+    with pytest.raises(UsageError, match="'red' is no box of the problem") as caught:
+        execute(TASK, changes=["box-at red wp2@10"])
+    assert "has to stand in :objects" in (caught.value.hint or "")

@@ -78,7 +78,7 @@ def test_replay_names_the_first_difference(tmp_path: Path) -> None:
         (["--change", "motivation human=9@soon"], 2, "'soon' is no number"),
         (["--change", "motivation human=9@nan"], 2, "not a number from 0 on"),
         (["--change", "motivation humn=9@0"], 2, "'humn' is no agent of the problem"),
-        (["--change", "total-cost=3@0"], 2, "(total-cost) is no agent state here"),
+        (["--change", "total-cost=3@0"], 2, "(total-cost) is what a plan costs"),
         (["--change", "box-att blue wp0@0"], 2, "did you mean 'box-at'?"),
         (["--change", "box-at blue@0"], 2, "'box-at' takes 2 objects, not 1"),
         (["--change", "not box-at blue wp9@0"], 2, "'wp9' is no wp of the problem"),

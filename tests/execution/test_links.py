@@ -173,6 +173,16 @@ def test_what_is_observed_and_not_believed_is_planned_from() -> None:
     assert "no fact" in messages(done)
 
 
+def test_a_static_fact_that_a_robot_denies_is_planned_with() -> None:
+    done = run("close")
+    assert done.outcome.ending == ev.GOAL
+    moves = [bar.args for bar in done.timeline.bars.values() if bar.action == "move"]
+    assert ("robot", "wp3", "wp2") not in moves
+    assert done.outcome.replans_deviation == 1
+    assert "'red' is no box of the problem" in messages(done)
+    assert "has to stand in :objects" in messages(done)
+
+
 def test_a_result_after_the_cancelling_of_a_late_action() -> None:
     """The driver gives an action up after three times its duration; then the robot says done."""
     done = run("late")

@@ -356,7 +356,7 @@ class LinkWorld:
         try:
             checked_changes([change], self.model)
         except UsageError as error:
-            return self._fault(f"observed: {error.message}")
+            return self._fault(f"observed: {_with_hint(error)}")
         self.simulated.set_state(change.adds, change.deletes)
         return [self.simulated.observation()]
 
@@ -366,15 +366,15 @@ class LinkWorld:
 
     def _sense_value(self, key: FluentKey, value: Number) -> Iterable[Event]:
         t = self.clock.now_s
-        if key in self.simulated.state.values:
-            self.simulated.set_state(frozenset(), frozenset(), {key: value})
-            return [self.simulated.observation()]
         try:
             checked_changes([StateChange(t, {key: value})], self.model)
         except UsageError as error:
-            return self._fault(f"sensed: {error.message}")
-        self.simulated.values[key] = value
-        return [ev.Sensed(t, {key: value})]
+            return self._fault(f"sensed: {_with_hint(error)}")
+        if key in self.model.agents.low:
+            self.simulated.values[key] = value
+            return [ev.Sensed(t, {key: value})]
+        self.simulated.set_state(frozenset(), frozenset(), {key: value})
+        return [self.simulated.observation()]
 
     # Emergency stop.
 
@@ -423,3 +423,7 @@ class LinkWorld:
 
     def _notice(self, code: str, message: str) -> ev.Noticed:
         return ev.Noticed(self.clock.now_s, code, message)
+
+
+def _with_hint(error: UsageError) -> str:
+    return f"{error.message} ({error.hint})" if error.hint else error.message

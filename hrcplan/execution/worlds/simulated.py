@@ -229,8 +229,7 @@ class SimulatedWorld:
             self.set_state(what.adds, what.deletes)
             return [self.observation()]
         if isinstance(what, StateChange):
-            self._change(t, what.values)
-            return []
+            return self._change(t, what.values)
         if kind == _SENSE:
             return self._sense(t)
         return [self.observation()]
@@ -280,7 +279,18 @@ class SimulatedWorld:
             if (p := self.agents.failure_probability(key, self.values)) > 0
         )
 
-    def _change(self, t: float, values: Mapping[FluentKey, Number]) -> None:
+    def _change(self, t: float, values: Mapping[FluentKey, Number]) -> Sequence[Event]:
+        """Change agent state, which is sensed later, and other numbers, which are seen at once."""
+        numbers = {key: value for key, value in values.items() if key not in self.agents.low}
+        values = {key: value for key, value in values.items() if key not in numbers}
+        if values:
+            self._change_agent_state(t, values)
+        if not numbers:
+            return []
+        self.set_state(frozenset(), frozenset(), numbers)
+        return [self.observation()]
+
+    def _change_agent_state(self, t: float, values: Mapping[FluentKey, Number]) -> None:
         self.values.update(values)
         self._news.update(values)
         if self.nature.sensed == BEFORE:

@@ -80,6 +80,11 @@ def first(n: int) -> None:
             say("accepted", n=n)
             say("sensed", values={"motivation human": 9, "nonsense x": 1})
             end(n)
+        case "close":
+            say("accepted", n=n)
+            say("observed", absent=["reach robot wp2"])
+            say("observed", facts=["box-at red wp2"])
+            end(n)
         case "teleport":
             end(n, "failed")
             say("observed", facts=["at robot wp5"], absent=["(at robot wp0)"])
