@@ -139,6 +139,13 @@ def _pairs(rows: list[list[Any]]) -> tuple[tuple[Any, ...], ...]:
 
 
 def _same(value: JsonValue) -> JsonValue:
+    """Return a value that JSON has a type for; a table is none of them.
+
+    Raises:
+        TypeError: if it is a table.
+    """
+    if isinstance(value, dict):
+        raise TypeError(f"a table stands for a value: {value!r:.80}")
     return value
 
 

@@ -284,3 +284,8 @@ def test_a_line_that_holds_something_else_is_an_input_error(
     path.write_text("".join(json.dumps(line) + "\n" for line in lines))
     with pytest.raises(InputError, match="journal"):
         eventful(path, resume=True)
+
+
+def test_a_table_in_place_of_a_value_is_no_event():
+    with pytest.raises(ValueError, match="a table stands for a value"):
+        from_json({"kind": "ended", "t": 0.0, "number": 1, "outcome": {"done": {}}})
