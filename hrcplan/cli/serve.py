@@ -24,21 +24,35 @@ from hrcplan.core.extras import require
 @click.option("--folder", type=click.Path(path_type=Path), default=Path("hrcplan-serve"),
               show_default=True, metavar="DIR",
               help="Where journals are; the server goes on with those that it finds.")  # fmt: skip
+@click.option("--study", type=click.Path(path_type=Path), metavar="FILE",
+              help="Also run a study with participants; FILE says which.")  # fmt: skip
 @output.common_options
-def command(port: int | None, host: str, folder: Path) -> int:
+def command(port: int | None, host: str, folder: Path, study: Path | None) -> int:
     """Serve a page in which you work together with a robot. Ctrl-C ends it."""
-    for module in ("starlette", "uvicorn", "sse_starlette"):
-        require(module, "the server of pages")
-    from hrcplan.web.server import ServerOptions, serve
+    require_web()
+    from hrcplan.web.server import PageService, ServerOptions
+    from hrcplan.web.trials.study_file import read_study_file
 
     output.LINES = output.JSON
-
-    def say_link(link: str) -> None:
+    trial_study = None if study is None else read_study_file(study)
+    with PageService(ServerOptions(folder, host, port, trial_study)) as service:
         if output.JSON:
-            output.document({"url": link, "folder": str(folder)})
+            output.document({"url": service.link, "folder": str(folder),
+                             "participants": service.invitation})  # fmt: skip
         else:
-            output.result(link)
+            output.result(service.link)
+            if service.invitation is not None:
+                output.result(f"participants: {service.invitation}")
             output.note(f"journals are in {folder}; Ctrl-C ends the server")
-
-    serve(ServerOptions(folder, host, port), say_link)
+        service.run()
     return 0
+
+
+def require_web() -> None:
+    """Return if the packages of the server are installed.
+
+    Raises:
+        UsageError: with the command that installs them, if they are missing.
+    """
+    for module in ("starlette", "uvicorn", "sse_starlette"):
+        require(module, "the server of pages")

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import rich_click as click
 
-from hrcplan.cli import options, output, play
+from hrcplan.cli import options, output, play, trials
 
 if TYPE_CHECKING:
     from types import TracebackType
@@ -24,6 +24,8 @@ def command() -> None:
 
 
 command.add_command(play.command)
+command.add_command(trials.rehearse)
+command.add_command(trials.collect_command)
 
 
 @command.command(

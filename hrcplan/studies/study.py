@@ -193,6 +193,7 @@ STUDIES: ObjectRegistry[Study] = ObjectRegistry(
     {
         "failure-anticipation": "hrcplan.studies.failure_anticipation:STUDY",
         "changed-mind": "hrcplan.studies.changed_mind:STUDY",
+        "participants": "hrcplan.studies.participants:STUDY",
     },
     "hrcplan.studies",
     Study,

@@ -148,7 +148,7 @@ class Guard:
         token = self._token(scope, headers)
         if not self._is_open(scope["path"]) and not self.rules.knows(token):
             raise RefusalError(403, "open the link that 'hrcplan serve' has printed")
-        caller = token if self.rules.knows(token) else f"{scope['path'][:40]}"
+        caller = token if self.rules.knows(token) else "/".join(scope["path"].split("/")[:3])[:80]
         if not self.limit.take(caller):
             raise RefusalError(429, "too many requests at once")
 

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import contextlib
 import os
 import secrets
 import socket
-from collections.abc import Callable, Iterator
+import threading
 from dataclasses import dataclass
 from pathlib import Path
 from types import FrameType
@@ -20,6 +19,11 @@ from hrcplan.web.banks import Banks
 from hrcplan.web.board import Board
 from hrcplan.web.safety import AccessRules
 from hrcplan.web.sessions import Sessions
+from hrcplan.web.streams import Streams
+from hrcplan.web.trials.rehearsal import RehearsalOutcome, rehearse
+from hrcplan.web.trials.study_file import TrialStudy
+from hrcplan.web.trials.trial_desk import TrialDesk
+from hrcplan.web.trials.trial_routes import TrialRoutes
 
 LOOPBACK, PORT, HTTP_PORT = "127.0.0.1", 8765, 80
 _TOKEN_FILE = "serve-token"
@@ -34,11 +38,13 @@ class ServerOptions:
         folder: Holds journals, and the token, so that a page goes on after a restart.
         host: The address to listen at.
         port: The port; None for the usual one, or a free one if that is taken.
+        study: A study with participants.
     """
 
     folder: Path
     host: str = LOOPBACK
     port: int | None = None
+    study: TrialStudy | None = None
 
 
 class PageServer(uvicorn.Server):
@@ -54,32 +60,82 @@ class PageServer(uvicorn.Server):
         super().handle_exit(sig, frame)
 
 
-def serve(options: ServerOptions, say_link: Callable[[str], None]) -> None:
-    """Serve until a signal comes.
+class PageService:
+    """A server of pages that listens already; a context manager.
 
     Args:
         options: Where.
-        say_link: Gets the link to open.
 
     Raises:
-        UsageError: if the port is taken, or the folder cannot be written.
+        UsageError: if the port is taken, the folder cannot be written, or the study names goals
+            that do not exist.
     """
-    board = Board()
-    sessions = Sessions(options.folder / "sessions", Banks(), board.notify)
-    with _listening(options) as listener:
-        port = listener.getsockname()[1]
-        rules = AccessRules(_hosts(options.host, port), _token(options.folder), f"hrcplan-{port}")
-        app = PageApp(sessions, board, rules).asgi()
-        say_link(f"http://{_shown(options.host)}:{port}/?token={rules.token}")
-        config = uvicorn.Config(
+
+    def __init__(self, options: ServerOptions) -> None:
+        self.options = options
+        self.board = Board()
+        self.sessions = Sessions(options.folder / "sessions", Banks(), self.board.notify)
+        self.desk: TrialDesk | None = None
+        if options.study is not None:
+            self.desk = TrialDesk(options.study, options.folder, self.sessions)
+        token = _token(options.folder)
+        self._listener = _listener(options)
+        self.port: int = self._listener.getsockname()[1]
+        self.rules = AccessRules(_hosts(options.host, self.port), token, f"hrcplan-{self.port}")
+        self._server = PageServer(self._config(), self.board)
+
+    def __enter__(self) -> PageService:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self._listener.close()
+        self.sessions.close()
+
+    @property
+    def link(self) -> str:
+        """The link to open; it holds the token."""
+        return f"{self._address}/?token={self.rules.token}"
+
+    @property
+    def invitation(self) -> str | None:
+        """The link for participants; None without a study."""
+        return None if self.desk is None else f"{self._address}/p/{self.desk.invitation}"
+
+    @property
+    def _address(self) -> str:
+        return f"http://{_shown(self.options.host)}:{self.port}"
+
+    def run(self) -> None:
+        """Serve until a signal comes."""
+        self._server.run(sockets=[self._listener])
+
+    def rehearse(self, n: int) -> RehearsalOutcome:
+        """Return what came of simulated participants, for whom it serves.
+
+        Raises:
+            UsageError: if there is no study, or a page is not as it should be.
+        """
+        if self.desk is None:
+            raise UsageError("there is no study to rehearse")
+        thread = threading.Thread(target=self.run)
+        thread.start()
+        try:
+            path = f"/p/{self.desk.invitation}"
+            return rehearse(self.desk.bank, (LOOPBACK, self.port), path, n)
+        finally:
+            self.board.close()
+            self._server.should_exit = True
+            thread.join()
+
+    def _config(self) -> uvicorn.Config:
+        streams = Streams(self.board)
+        trials = None if self.desk is None else TrialRoutes(self.desk, streams)
+        app = PageApp(self.sessions, streams, self.rules, trials).asgi()
+        return uvicorn.Config(
             app, log_level="critical", access_log=False, server_header=False, ws="none",
             timeout_graceful_shutdown=1, h11_max_incomplete_event_size=_HEADER_BYTES,
             lifespan="off", http="h11", loop="asyncio",
         )  # fmt: skip
-        try:
-            PageServer(config, board).run(sockets=[listener])
-        finally:
-            sessions.close()
 
 
 def _shown(host: str) -> str:
@@ -94,9 +150,8 @@ def _hosts(host: str, port: int) -> frozenset[str]:
     return frozenset({f"{name}:{port}" for name in names} | bare)
 
 
-@contextlib.contextmanager
-def _listening(options: ServerOptions) -> Iterator[socket.socket]:
-    """Hold a socket that listens.
+def _listener(options: ServerOptions) -> socket.socket:
+    """Return a socket that listens.
 
     Raises:
         UsageError: if the port is taken.
@@ -111,13 +166,12 @@ def _listening(options: ServerOptions) -> Iterator[socket.socket]:
             listener.listen(128)
         except OSError as error:
             listener.close()
-            if port == ports[-1]:
-                message = f"cannot listen at {options.host}:{port}: {reason_of(error)}"
-                raise UsageError(message, code="port", hint="another --port N") from None
-            continue
-        with listener:
-            yield listener
-        return
+            if port != ports[-1]:
+                continue
+            message = f"cannot listen at {options.host}:{port}: {reason_of(error)}"
+            raise UsageError(message, code="port", hint="another --port N") from None
+        return listener
+    raise AssertionError("there is always a last port")
 
 
 def _token(folder: Path) -> str:

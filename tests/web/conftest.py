@@ -19,6 +19,7 @@ from hrcplan.web.banks import Banks
 from hrcplan.web.board import Board
 from hrcplan.web.safety import AccessRules
 from hrcplan.web.sessions import Sessions
+from hrcplan.web.streams import Streams
 
 # A browser is needed for these; `tools/test --all` installs one and names it.
 collect_ignore = [] if "HRCPLAN_CHROMIUM" in os.environ else ["test_browser.py"]
@@ -110,7 +111,7 @@ def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Client]:
     board = Board()
     sessions = Sessions(Path(folder) / "sessions", Banks(), board.notify)
     rules = AccessRules(frozenset([f"127.0.0.1:{port}"]), TOKEN, COOKIE)
-    config = uvicorn.Config(PageApp(sessions, board, rules).asgi(), log_level="critical",
+    config = uvicorn.Config(PageApp(sessions, Streams(board), rules).asgi(), log_level="critical",
                             lifespan="off", timeout_graceful_shutdown=1)  # fmt: skip
     server = uvicorn.Server(config)
     thread = threading.Thread(target=server.run, args=([listener],))

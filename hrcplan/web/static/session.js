@@ -29,6 +29,7 @@ export class Session {
 		const { head } = this;
 		this.run = new RunView(head, `${head.domain}-${this.name}`);
 		this.say = h("input", { type: "text", maxlength: 2000, "aria-label": "say what you do", placeholder: "what you do, or a number; Enter: wait" });
+		this.task = h("h2");
 		this.ask = h("div", { class: "ask", role: "group", hidden: true });
 		this.note = h("p", { class: "bad", role: "status" });
 		this.groups = h("div", { class: "groups" });
@@ -38,12 +39,12 @@ export class Session {
 		this.failed = button("failed", () => this.send({ kind: "failed" }), "it was tried, but failed");
 		this.pause = button("pause", () => this.send({ kind: this.now.paused ? "continued" : "paused" }));
 		this.why = h("div");
-		this.act = h("section", { class: "card" }, h("h2", {}, "Your turn"), this.ask,
+		this.act = h("section", { class: "card" }, h("h2", {}, "Your turn"), this.task, this.ask,
 			h("form", { class: "row", onsubmit: (event) => { event.preventDefault(); this.line(this.say.value.trim()); } }, this.say, h("button", { class: "main", type: "submit" }, "say")),
 			this.note,
-			h("div", { class: "row" }, button("wait", () => this.send({ kind: "passed" }), "do nothing now"), this.undo, this.failed,
-				this.options.plain ? null : button("why?", () => this.tellWhy(), "what the robot weighs"), this.pause,
-				button("end", () => this.send({ kind: "stop" }), "end without a goal"), this.groupBy),
+			h("div", { class: "row" }, button("wait", () => this.send({ kind: "passed" }), "do nothing"), this.undo, this.options.plain ? null : this.failed,
+				this.options.plain ? null : button("why?", () => this.tellWhy(), "its reasons"), this.pause,
+				button("end", () => this.send({ kind: "stop" }), "give up"), this.groupBy),
 			this.why, this.groups);
 		this.over = h("section", { class: "card", hidden: true, role: "status" });
 		const { run } = this;
@@ -86,6 +87,7 @@ export class Session {
 		this.undo.disabled = this.failed.disabled = !now.can_undo;
 		this.act.firstChild.textContent = now.agents.length === 1 && this.head.people.length > 1 ? `Turn of ${now.agents[0]}` : "Your turn";
 		this.drawQuestion(now.question);
+		this.task.textContent = now.task;
 		this.drawSteps(now.steps);
 		for (const [key, [input, value]] of this.inputs || []) {
 			if (document.activeElement !== input) input.value = this.view.values[key];
@@ -143,7 +145,7 @@ export class Session {
 		this.note.textContent = "";
 		this.why.replaceChildren();
 		const answer = await this.api("POST", `sessions/${this.name}/events`, { ...event, after: this.now.n });
-		if (answer.error) this.note.textContent = answer.error.code === "stale" ? "Something has happened meanwhile: look." : answer.error.message;
+		if (answer.error) this.note.textContent = answer.error.code === "stale" ? "Something has happened: look." : answer.error.message;
 		if (!this.node.contains(document.activeElement) && !this.options.narrow) this.say.focus({ preventScroll: true });
 	}
 
