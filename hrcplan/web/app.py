@@ -23,7 +23,7 @@ from hrcplan.web.trials.trial_routes import TrialRoutes
 from hrcplan.web.worlds import offers
 
 MAX_STREAMS = 8  # sessions that one page follows
-_STATUS = {"stale": 409, "over": 409, "too-many": 429, "not-found": 404,
+_STATUS = {"stale": 409, "over": 409, "too-many": 429, "not-found": 404, "slow": 504,
            "study-full": 409}  # fmt: skip
 
 

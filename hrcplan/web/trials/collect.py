@@ -99,7 +99,8 @@ def _store(desk: TrialDesk, output: Path, rows: list[tuple[Episode, StudyRow]]) 
         "inputs_sha256": study.sha256,
     }  # fmt: skip
     with Store.to_write(output, about, STUDY.tables) as store:
-        store.add(STUDY.tables[0], rows)
+        if rows:
+            store.add(STUDY.tables[0], rows)
 
 
 def _trial_lines(rows: list[tuple[Episode, StudyRow]]) -> list[list[str]]:

@@ -52,6 +52,9 @@ def rehearse(bank: Bank, address: tuple[str, int], invitation: str, n: int) -> R
     return RehearsalOutcome(sum(ends), tuple(s for person in people for s in person.answers_s))
 
 
+_LATER = (409, 504)  # something has happened since, or the robot still thinks: news will follow
+
+
 class _Form(HTMLParser):
     """The fields of a page's form, each with its options; and the session of a trial."""
 
@@ -117,7 +120,7 @@ class SimulatedParticipant:
         answer = connection.getresponse()
         text = answer.read().decode()
         connection.close()
-        if answer.status >= 400 and answer.status != 409:
+        if answer.status >= 400 and answer.status not in _LATER:
             raise UsageError(f"{path}: {answer.status} {text}", code="rehearsal")
         return answer.status, text, answer.getheader("Location") or ""
 

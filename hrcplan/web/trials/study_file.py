@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from hrcplan.assistance.assistant import KnowsGoal
 from hrcplan.assistance.registry import ASSISTANTS
 from hrcplan.core.text import nearest
 from hrcplan.core.toml import read_toml
@@ -145,7 +146,8 @@ def _study(table: Mapping[str, Any], sha256: str) -> TrialStudy:
     _check(table, _KEYS, "the study")
     conditions = tuple(map(str, table["conditions"]))
     for method in conditions:
-        ASSISTANTS.find(method)
+        if isinstance(ASSISTANTS.find(method), KnowsGoal):
+            raise ValueError(f"the robot '{method}' has to know the goal")
     tasks = tuple(_task(one) for one in table["tasks"])
     questions = tuple(_question(one) for one in table.get("questions", []))
     names = [question.name for question in questions]
