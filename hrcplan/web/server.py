@@ -8,7 +8,7 @@ import socket
 import threading
 from dataclasses import dataclass
 from pathlib import Path
-from types import FrameType
+from types import FrameType, TracebackType
 
 import uvicorn
 
@@ -87,7 +87,10 @@ class PageService:
     def __enter__(self) -> PageService:
         return self
 
-    def __exit__(self, *error: object) -> None:
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:  # fmt: skip
         self._listener.close()
         self.sessions.close()
 

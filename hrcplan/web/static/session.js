@@ -36,14 +36,14 @@ export class Session {
 		this.groupBy = h("select", { "aria-label": "group steps by", onchange: () => this.draw() }, ["object", "place", "action"].map((key) => h("option", { value: key }, `by ${key}`)));
 		const button = (text, onclick, title) => h("button", { onclick, title }, text);
 		this.undo = button("undo", () => this.send({ kind: "undone" }), "it was not done");
-		this.failed = button("failed", () => this.send({ kind: "failed" }), "it was tried, but failed");
+		this.failed = button("failed", () => this.send({ kind: "failed" }), "it failed");
 		this.pause = button("pause", () => this.send({ kind: this.now.paused ? "continued" : "paused" }));
 		this.why = h("div");
 		this.act = h("section", { class: "card" }, h("h2", {}, "Your turn"), this.task, this.ask,
 			h("form", { class: "row", onsubmit: (event) => { event.preventDefault(); this.line(this.say.value.trim()); } }, this.say, h("button", { class: "main", type: "submit" }, "say")),
 			this.note,
 			h("div", { class: "row" }, button("wait", () => this.send({ kind: "passed" }), "do nothing"), this.undo, this.options.plain ? null : this.failed,
-				this.options.plain ? null : button("why?", () => this.tellWhy(), "its reasons"), this.pause,
+				this.options.plain ? null : button("why?", () => this.tellWhy(), "reasons"), this.pause,
 				button("end", () => this.send({ kind: "stop" }), "give up"), this.groupBy),
 			this.why, this.groups);
 		this.over = h("section", { class: "card", hidden: true, role: "status" });
@@ -145,7 +145,7 @@ export class Session {
 		this.note.textContent = "";
 		this.why.replaceChildren();
 		const answer = await this.api("POST", `sessions/${this.name}/events`, { ...event, after: this.now.n });
-		if (answer.error) this.note.textContent = answer.error.code === "stale" ? "Something has happened: look." : answer.error.message;
+		if (answer.error) this.note.textContent = answer.error.code === "stale" ? "Look: something has happened." : answer.error.message;
 		if (!this.node.contains(document.activeElement) && !this.options.narrow) this.say.focus({ preventScroll: true });
 	}
 

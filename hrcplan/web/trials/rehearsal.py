@@ -96,7 +96,11 @@ class SimulatedParticipant:
         self.chance = random.Random(f"participant {self.seed}")
 
     def run(self) -> bool:
-        """Return whether the participant came to the end of the study."""
+        """Return whether the participant came to the end of the study.
+
+        Raises:
+            UsageError: if a page is not as it should be.
+        """
         for _ in range(MAX_PAGES):
             page = _Form(self._ask("GET", self.path)[1])
             if not page.has_form:
