@@ -25,6 +25,7 @@ from hrcplan.bank.team_moves import OUT_OF_REACH, Moment, TeamChoices, TeamMoves
 from hrcplan.core.arrays import Floats
 
 NEGLIGIBLE = 1e-3  # the probability of a goal whose costs are not priced
+MOST_TEAM, MOST_STEPS = 3, 12  # the likeliest goals whose costs are priced: a table takes a while
 
 
 class PricedHelp(Protocol):
@@ -39,7 +40,7 @@ class PricedHelp(Protocol):
         The constant is the same for all weights, in the mean over them.
         """
 
-    def least_costs(self, progress: Progress) -> Floats:
+    def least_costs(self, progress: Progress, weights: Floats) -> Floats:
         """Return ``least_cost`` for each goal if it were certain."""
 
     def to_go(self, progress: Progress, weights: Floats) -> float:
@@ -105,14 +106,15 @@ class PricedSteps:
     def _more_by_pair(self, progress: Progress, next_steps: NextSteps, weights: Floats) -> Floats:
         """Return how much more than one step each next step saves the goal that it belongs to."""
         goals, steps = next_steps.goals, next_steps.steps
-        self._price_goals(np.flatnonzero(weights > NEGLIGIBLE).tolist())
+        priced = _likeliest(weights, MOST_STEPS)
+        self._price_goals(priced)
         nodes = progress.nodes.take(goals)
         hit, places = self.graph.edges(nodes, steps)  # type: ignore[arg-type]  # one step for each
         targets = np.where(hit, self.graph.targets.take(places, mode="clip"), self.graph.off)
         more = self._costs[nodes] - self._costs[targets] - self.prices.robot[steps]
-        more = np.where(hit & np.isin(goals, list(self._priced)), more, 0.0)
+        more = np.where(hit & np.isin(goals, priced), more, 0.0)
         for goal, place in progress.off.items():
-            if weights[goal] > NEGLIGIBLE:
+            if goal in priced:
                 graph, node = self.values.tracker.graph_of(goal, place)
                 following = graph.next(node) if graph.n_nodes else {}
                 costs = self._costs_off(graph)
@@ -139,15 +141,13 @@ class PricedSteps:
         """Return what the best step costs compared with waiting."""
         return -max(0.0, 0.0, *self.options(progress, weights).values)
 
-    def least_costs(self, progress: Progress) -> Floats:
+    def least_costs(self, progress: Progress, weights: Floats) -> Floats:
         """Return for each goal what the best step costs if it is certain, compared with waiting."""
         next_steps = self.values.next_steps(progress)
         steps = self.values.candidates(progress, next_steps)
         worth = np.where(np.isin(next_steps.steps, steps), 1.0, 0.0)
         if self.prices.changes:
-            worth *= 1 + self._more_by_pair(
-                progress, next_steps, np.ones(len(self.values.bank.names))
-            )
+            worth *= 1 + self._more_by_pair(progress, next_steps, weights)
         costs = np.zeros(len(self.values.bank.names))
         np.minimum.at(costs, next_steps.goals, -worth)
         return costs
@@ -155,7 +155,7 @@ class PricedSteps:
     def to_go(self, progress: Progress, weights: Floats) -> float:
         """Return what is expected to be paid until the goal is reached, after a wait."""
         total = 0.0
-        goals = np.flatnonzero(weights > NEGLIGIBLE).tolist()
+        goals = _likeliest(weights, MOST_STEPS)
         self._price_goals(goals)
         for goal in goals:
             if int(progress.nodes[goal]) != self.graph.off:
@@ -199,7 +199,7 @@ class PricedTeam:
 
     def _moment(self, progress: Progress, weights: Floats) -> Moment:
         if self._priced is not None:
-            self._priced.price_goals(np.flatnonzero(weights > NEGLIGIBLE).tolist())
+            self._priced.price_goals(_likeliest(weights, MOST_TEAM))
         return self.values.next_robot(progress)
 
     def least_cost(self, progress: Progress, weights: Floats) -> float:
@@ -207,9 +207,9 @@ class PricedTeam:
         costs = self.help.costs(progress.world, self._moment(progress, weights), weights)
         return float(costs.min())
 
-    def least_costs(self, progress: Progress) -> Floats:
+    def least_costs(self, progress: Progress, weights: Floats) -> Floats:
         """Return what the best step or wait costs for each goal if that is certain."""
-        moment = self.values.next_robot(progress)
+        moment = self._moment(progress, weights)
         costs: Floats = self.moves.choices(progress.world, moment).costs.min(axis=1)
         return costs
 
@@ -250,6 +250,12 @@ class _RemembersCosts(TeamHelp):
         return self._last_costs
 
 
+def _likeliest(weights: Floats, most: int) -> list[int]:
+    """Return the likeliest goals, at most so many, without those that are out of the question."""
+    order = np.argsort(-weights, kind="stable")[:most]
+    return [int(goal) for goal in order if weights[goal] > NEGLIGIBLE]
+
+
 class PricedMoves(TeamMoves):
     """What agents do as without prices; what it costs with them.
 
@@ -264,17 +270,19 @@ class PricedMoves(TeamMoves):
         self.inner, self.extra = moves, prices.extra
         self.take_turns(moves.bank)
         self._tables: dict[int, Floats] = {}
+        self._goals: frozenset[int] = frozenset()
         self._by_moment: dict[tuple[int, Moment], TeamChoices] = {}
 
     def price_goals(self, goals: Sequence[int]) -> None:
-        """Look up what several goals cost, unless that is known."""
+        """Price several goals from now on, and no other ones: a table of each takes a while."""
         if isinstance(self.inner, SoloMoves):
             return
+        if self._goals != frozenset(goals):
+            self._goals, self._by_moment = frozenset(goals), {}
         for goal in goals:
             if goal not in self._tables:
                 extra = self.extra[[op.step for op in self.bank.table.ops]]
                 self._tables[goal] = self.inner.costs.priced(goal, extra + ACTION, 1.0)
-                self._by_moment = {}  # made without this goal's costs
 
     def knows(self, world: int) -> bool:
         """Return whether a state is one that the team can get to."""
@@ -294,12 +302,13 @@ class PricedMoves(TeamMoves):
         extra = np.append(self.extra[choices.steps], 0.0)
         costs = np.where(choices.costs >= OUT_OF_REACH, OUT_OF_REACH, choices.costs + extra)
         costs = np.where(choices.costs == 0, 0.0, costs)
-        if self._tables:
+        if self._goals:
             place = self.inner.costs.place(world)
             _, targets = self.inner.costs.actions(place, moment.turn)
             following, places = (moment.turn + 1) % self.n_turns, np.append(targets, place)
             own = np.append(np.full(len(targets), ACTION), 0.0) + 1 + extra
-            for goal, table in self._tables.items():
+            for goal in self._goals:
+                table = self._tables[goal]
                 after = table[following, places] + own
                 reached = table[moment.turn, place] == 0
                 costs[goal] = 0.0 if reached else np.minimum(after, OUT_OF_REACH)

@@ -69,7 +69,7 @@ def best_question(
         record: What a question costs, and how likely it is answered.
     """
     price, chance = record.price, record.chance_of_answer
-    now, certain = helper.least_cost(progress, weights), helper.least_costs(progress)
+    now, certain = helper.least_cost(progress, weights), helper.least_costs(progress, weights)
     if chance * (now - float(weights @ certain)) <= price:
         return None  # not even worth it if the answer named the goal
     order = np.argsort(-weights, kind="stable")[:MAX_ANSWERS]

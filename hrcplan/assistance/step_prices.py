@@ -21,7 +21,7 @@ from hrcplan.pddl.conventions import people
 from hrcplan.pddl.model import TOTAL_COST, FluentKey
 from hrcplan.pddl.semantics import Undefined, evaluate
 
-GRID = 1.5  # prices are powers of it, so that a slight change of an estimate changes nothing
+GRID = 2.0  # prices are powers of it, so that a slight change of an estimate changes nothing
 Changes = tuple[tuple[FluentKey, Number], ...]
 
 

@@ -136,6 +136,7 @@ class CostToGo:
         n_turns = len(self.bank.team)
         costs = np.where(self._is_goal[goal], 0.0, np.inf) * np.ones((n_turns, 1))
         ways = [prices[self._ops[mine]] + timestep for mine in self._by_turn]
+        targets = [self._targets[mine].astype(np.int32) for mine in self._by_turn]
         while True:
             before = costs.copy()
             for turn in reversed(range(n_turns)):
@@ -144,7 +145,7 @@ class CostToGo:
                 if not len(mine):
                     continue
                 sources, starts = self._groups[turn]
-                after = np.minimum.reduceat(ways[turn] + following[self._targets[mine]], starts)
+                after = np.minimum.reduceat(ways[turn] + following[targets[turn]], starts)
                 costs[turn][sources] = np.minimum(costs[turn][sources], after)
             if np.array_equal(before, costs):
                 return costs

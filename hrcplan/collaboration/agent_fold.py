@@ -30,11 +30,15 @@ _ALONE = 2  # the length of an element that depends on its agent alone
 
 @dataclass(frozen=True, slots=True)
 class AgentBelief:
-    """What is believed of the agents: sensed values, and what outcomes say."""
+    """What is believed of the agents: sensed values, and what outcomes say.
+
+    ``waiting`` are those who have done nothing since they did so last.
+    """
 
     sensed: Mapping[FluentKey, Number]
     experience: Experience
     running: Mapping[int, BegunAction] = field(default_factory=dict)
+    waiting: frozenset[str] = frozenset()
 
 
 class AgentFold:
@@ -103,7 +107,8 @@ class AgentFold:
     def _after(self, belief: AgentBelief, history: History, place: int) -> AgentBelief:
         match history[place]:
             case BegunAction() as mark:
-                return replace(belief, running={**belief.running, mark.number: mark})
+                running = {**belief.running, mark.number: mark}
+                return replace(belief, running=running, waiting=belief.waiting - {mark.agent})
             case EndedAction() as mark:
                 return self._after_end(belief, mark)
             case SensedValues(values):
@@ -136,8 +141,9 @@ class AgentFold:
 
     def _after_pause(self, belief: AgentBelief, before: History, agent: str) -> AgentBelief:
         experience = belief.experience
-        is_robot = agent in self.agents.robots
-        if is_robot or self._pause is None or not isinstance(experience, AgentStateEstimate):
+        is_news = agent not in belief.waiting and agent not in self.agents.robots
+        belief = replace(belief, waiting=belief.waiting | {agent})
+        if not is_news or self._pause is None or not isinstance(experience, AgentStateEstimate):
             return belief
         touched = [key for key in self.agents.elements(agent) if len(key) == _ALONE]
         usual = self._pause(before, agent)

@@ -24,7 +24,7 @@ from hrcplan.collaboration.collaborate import (
 )
 from hrcplan.collaboration.companion import Companion
 from hrcplan.collaboration.events import PersonEvent, SharedCommand, SharedEvent
-from hrcplan.collaboration.history import AskedGoal, BegunAction, DeniedGoals, PassedTurn
+from hrcplan.collaboration.history import AskedGoal, BegunAction, DeniedGoals, History, PassedTurn
 from hrcplan.collaboration.journal import replay_collaboration
 from hrcplan.collaboration.robots import JOINT_ROBOTS, check_robot
 from hrcplan.collaboration.run import CompanionRun
@@ -235,10 +235,14 @@ def test_a_pause_says_something_where_there_is_something_to_do() -> None:
                      lambda history, agent: 0.2)  # fmt: skip
     idle = AgentFold(Table("kitchen").setup.model, Table("kitchen").setup.profile,
                      lambda history, agent: 1.0)  # fmt: skip
-    pauses = (PassedTurn("human"),) * 3
-    tired = ("motivation", "human")
-    assert fold.risks(fold.belief(pauses))[tired] > 3 * idle.risks(idle.belief(pauses))[tired]
-    assert fold.risks(fold.belief((PassedTurn("robot"),) * 3)) == {}
+    pause, tired = (PassedTurn("human"),), ("motivation", "human")
+
+    def risk(fold: AgentFold, history: History) -> float:
+        return fold.belief(history).experience.failing()[tired]  # type: ignore[union-attr]
+
+    assert risk(fold, pause) > 3 * risk(idle, pause)
+    assert risk(fold, pause * 3) == risk(fold, pause)  # a pause that goes on is one pause
+    assert risk(fold, (PassedTurn("robot"),)) == risk(fold, ())
 
 
 def test_an_observed_state_corrects_the_beliefs_world() -> None:
