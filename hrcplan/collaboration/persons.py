@@ -27,6 +27,8 @@ from hrcplan.execution.links.messages import PersonSaid
 YES_WORDS = ("yes", "y", "ja", "j")
 NO_WORDS = ("no", "n", "nein")
 
+NOBODY_CAN_HELP = "no agent can help the goal any more"
+
 
 class Person(Protocol):
     """Acts for all people of a collaboration."""
@@ -143,11 +145,11 @@ class SimulatedPerson:
         marks = [m for m in run.history if isinstance(m, BegunAction | PassedTurn)]
         least = ROUNDS * len(self.setup.slots)
         if len(marks) >= least and all(isinstance(m, PassedTurn) for m in marks[-least:]):
-            return "no agent can help the goal any more"
+            return NOBODY_CAN_HELP
         return "it takes too long" if len(marks) > self._most else None
 
     def _move(self, run: CompanionRun, agents: tuple[str, ...], turn: int) -> HumanMove:
-        world, moment = _after(run.history, self.bank, self._moves)
+        world, moment = task_state_after(run.history, self.bank, self._moves)
         own = [a for a in actions_in(run.history) if a.agent in self._group(agents)]
         last = self.bank.table.find(own[-1].words) if own else None
         if self._moves is None or not isinstance(self.human, TakesTurns):
@@ -162,7 +164,7 @@ class SimulatedPerson:
     def _event(self, run: CompanionRun, agents: tuple[str, ...], move: HumanMove) -> PersonEvent:
         if move.step is None:
             return shared.Passed(run.t, agents[0])
-        world, _ = _after(run.history, self.bank, self._moves)
+        world, _ = task_state_after(run.history, self.bank, self._moves)
         table = self.bank.table
         action = table.doer(world, move.step, frozenset(agents))
         if action is None:
@@ -171,7 +173,9 @@ class SimulatedPerson:
         return shared.Begun(run.t, ground.agent or agents[0], ground.name, ground.args)
 
 
-def _after(history: History, bank: Bank, moves: TeamMoves | None) -> tuple[int, Moment]:
+def task_state_after(
+    history: History, bank: Bank, moves: TeamMoves | None
+) -> tuple[int, Moment]:
     """Return the state of the task after a history, and whose turn it is; what runs is done."""
     outcomes = {m.number: m.outcome for m in history if isinstance(m, EndedAction)}
     table, world, moment = bank.table, bank.initial, Moment()

@@ -194,6 +194,7 @@ STUDIES: ObjectRegistry[Study] = ObjectRegistry(
         "failure-anticipation": "hrcplan.studies.failure_anticipation:STUDY",
         "changed-mind": "hrcplan.studies.changed_mind:STUDY",
         "participants": "hrcplan.studies.participants:STUDY",
+        "collaboration": "hrcplan.studies.collaboration:STUDY",
     },
     "hrcplan.studies",
     Study,
