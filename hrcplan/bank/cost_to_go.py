@@ -46,6 +46,9 @@ class _Backward:
         return self.sources[begins + np.arange(len(begins))], np.repeat(states, lengths)
 
 
+MAX_PRICED_BYTES = 1 << 28  # of tables of prices that are remembered
+
+
 @dataclass(eq=False)
 class CostToGo:
     """The costs to go of all goals of a bank of team plans.
@@ -60,6 +63,7 @@ class CostToGo:
     bank: Bank
     max_states: int = MAX_STATES
     _places: dict[int, int] = field(default_factory=dict)
+    _priced: dict[tuple[int, bytes, float], Floats] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Find the states, and the actions between them."""
@@ -133,6 +137,16 @@ class CostToGo:
             prices: The price of each way to do a step, in the order of the table.
             timestep: The price of every timestep, also of a wait; positive.
         """
+        key = goal, prices.tobytes(), timestep
+        table = self._priced.pop(key, None)
+        if table is None:
+            table = self._least_prices(goal, prices, timestep)
+        self._priced[key] = table
+        while len(self._priced) > max(1, MAX_PRICED_BYTES // table.nbytes):
+            self._priced.pop(next(iter(self._priced)))
+        return table
+
+    def _least_prices(self, goal: int, prices: Floats, timestep: float) -> Floats:
         n_turns = len(self.bank.team)
         costs = np.where(self._is_goal[goal], 0.0, np.inf) * np.ones((n_turns, 1))
         ways = [prices[self._ops[mine]] + timestep for mine in self._by_turn]

@@ -32,11 +32,14 @@ command.add_command(trials.collect_command)
     "run",
     epilog=options.notes(
         "Q: a factor of at least 1, as in 1.2.",
-        "NAME: failure-anticipation, changed-mind, or module:NAME of your own study.",
+        "NAME: failure-anticipation, changed-mind, collaboration, or module:NAME of your own "
+        "study.",
         "DOMAIN, PROBLEM: paths, or the names of shipped files.",
         options.GOALS,
         options.ROBOTS,
-        "HUMAN: fixed, optimal or suboptimal (of the study changed-mind), or module:Class.",
+        "HUMAN: fixed, optimal or suboptimal (changed-mind), or module:Class; changing, erring or "
+        "steady (collaboration).",
+        options.JOINT_ROBOTS,
     ),
 )
 @click.argument("name", metavar="NAME")
@@ -44,8 +47,8 @@ command.add_command(trials.collect_command)
     "--runs",
     type=click.IntRange(1, 1_000_000),
     metavar="N",
-    help="Runs per cell; by default 1000 (failure-anticipation) or 3 per ordered pair of "
-    "goals (changed-mind).",
+    help="Runs per cell; by default 1000 (failure-anticipation), 3 per ordered pair of "
+    "goals (changed-mind), or 500 (collaboration).",
 )
 @options.seed("Random seed: everything random is derived from it.", least=None)
 @click.option(
@@ -63,13 +66,13 @@ command.add_command(trials.collect_command)
     help="Run only the first N episodes of the main table, spread evenly over cells, and at most "
     "as many of all other tables together.",
 )
-@click.option("--domain", metavar="DOMAIN", help="The domain; by default that of the paper.")
+@click.option("--domain", metavar="DOMAIN", help="The domain; by default those of the study.")
 @click.option(
     "--problem",
     metavar="PROBLEM",
     help="The problem; by default that of the paper. Only failure-anticipation.",
 )
-@click.option("--goals", metavar="GOALS", help="The goals. Only changed-mind.")
+@click.option("--goals", metavar="GOALS", help="The goals. Not failure-anticipation.")
 @click.option(
     "--quality",
     metavar="Q",
@@ -88,19 +91,25 @@ command.add_command(trials.collect_command)
     multiple=True,
     metavar="METHOD",
     help="Run this method only; repeatable. A module:Class alone is added to the "
-    "study's methods. Only changed-mind.",
+    "study's methods. Not failure-anticipation.",
 )
 @click.option(
     "--human",
     "humans",
     multiple=True,
     metavar="HUMAN",
-    help="Run this human only; repeatable. Only changed-mind.",
+    help="Run this human only; repeatable. Not failure-anticipation.",
 )
 @click.option(
     "--chooser",
     metavar="NAME",
-    help="How humans choose steps, such as frontier, habit or module:Class. Only changed-mind.",
+    help="How humans choose steps, such as frontier, habit or module:Class. "
+    "Not failure-anticipation.",
+)
+@click.option(
+    "--pace",
+    metavar="PACE",
+    help="free (agents act when they can) or turns. Only collaboration.",
 )
 @click.option(
     "--world",

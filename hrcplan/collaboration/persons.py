@@ -173,9 +173,7 @@ class SimulatedPerson:
         return shared.Begun(run.t, ground.agent or agents[0], ground.name, ground.args)
 
 
-def task_state_after(
-    history: History, bank: Bank, moves: TeamMoves | None
-) -> tuple[int, Moment]:
+def task_state_after(history: History, bank: Bank, moves: TeamMoves | None) -> tuple[int, Moment]:
     """Return the state of the task after a history, and whose turn it is; what runs is done."""
     outcomes = {m.number: m.outcome for m in history if isinstance(m, EndedAction)}
     table, world, moment = bank.table, bank.initial, Moment()

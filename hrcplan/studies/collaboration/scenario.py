@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import random
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import lru_cache
 from itertools import permutations
 from pathlib import Path
 
+from hrcplan.agents import Profile
 from hrcplan.bank import Bank, Goals, read_goals
 from hrcplan.bank.cache import cached_bank
 from hrcplan.bank.turn_moves import team_moves
@@ -38,7 +40,7 @@ data, defaults = SCENARIO.data, SCENARIO.defaults
 
 
 def cells(table: str, options: StudyOptions) -> list[Cell]:
-    """Return task and method of every cell of a table; a task's name says also whose human it is."""
+    """Return task and method of every cell of a table; a task's name also says who the human is."""
     methods = _chosen(options["methods"], data()["tables"][table]["methods"])
     names = _chosen(options["humans"], data()["tables"][table]["humans"], table == MAIN)
     tasks = [f"{task}{human_suffix(name)}" for name in names for task in tasks_of(options)]
@@ -62,7 +64,7 @@ def tasks_of(options: StudyOptions) -> list[str]:
 
 
 def human_suffix(human: str) -> str:
-    """Return what the name of a task has behind it for a human who is not that of the main table."""
+    """Return what follows the name of a task, of a human who is not that of the main table."""
     return "" if human == data()["tables"][MAIN]["humans"][0] else f", {human}"
 
 
@@ -133,9 +135,10 @@ class StudyTask:
     def setup(self, options: StudyOptions, method: str, seed: Seed) -> CollaborationSetup:
         """Return what the collaboration of a run depends on."""
         human = {"name": options["chooser"]}
-        return make_setup(
+        setup = make_setup(
             self.bank, pace=options["pace"], method=method, seed=seed.run, human=human
         )
+        return replace(setup, profile=Profile(**data()["profile"]))
 
 
 @lru_cache(maxsize=4)
@@ -154,7 +157,7 @@ def inputs(options: StudyOptions) -> str:
     goals = [goals_of(*files_of(options, task)) for task in tasks_of(options)]
     texts = [text for one in goals for text in (*one.names, *map(str, one.formulas))]
     texts.append(f"rows of format {ROW_FORMAT}")
-    keys = ("study", "humans", "tables")
+    keys = ("study", "profile", "humans", "tables")
     return SCENARIO.inputs(keys, [one.problem for one in goals], texts)
 
 
@@ -216,7 +219,8 @@ def _drifted(
     elements = agents.elements(chance.choice(persons))
     name = chance.choice(sorted({key[0] for key in elements}))
     of_function = [key for key in elements if key[0] == name]
-    some = chance.sample(of_function, (len(of_function) + 1) // 2)
+    half = (len(of_function) + 1) // 2
+    some = chance.choice([of_function[:half], of_function[-half:]])
     value = agents.clamp(some[0], chance.randint(*levels))
     return dict.fromkeys(some, value)
 
@@ -224,4 +228,3 @@ def _drifted(
 def runs(options: StudyOptions) -> int:
     """Return how many runs a cell has."""
     return int(data()["study"]["runs"])
-
