@@ -204,5 +204,12 @@ class Task:
 
     def find(self, name: str, args: Sequence[str]) -> list[int]:
         """Return the indices of the actions called ``(name *args)``; one per changing value."""
-        words = (name, *args)
-        return [a.index for a in self.actions if (a.name, *a.args) == words]
+        return self._by_words.get((name, *args), [])
+
+    @cached_property
+    def _by_words(self) -> dict[tuple[str, ...], list[int]]:
+        """The indices of the actions of each name and objects."""
+        by_words: dict[tuple[str, ...], list[int]] = {}
+        for action in self.actions:
+            by_words.setdefault((action.name, *action.args), []).append(action.index)
+        return by_words

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from dataclasses import asdict
 
-from hrcplan.collaboration.collaborate import CollaborationParts, simulated
+from hrcplan.collaboration.collaborate import simulated
 from hrcplan.collaboration.history import AskedGoal, EndedAction, actions_in
 from hrcplan.collaboration.run import CompanionRun
-from hrcplan.episodes.episode import PATIENCE, REACHED, STUCK, UNFINISHED
+from hrcplan.episodes.episode import PATIENCE, REACHED, STUCK, UNFINISHED, EpisodeRecord
 from hrcplan.episodes.humans import Course
 from hrcplan.episodes.measures import changes, guesses, n_wasted
 from hrcplan.execution import events as ev
 from hrcplan.studies.collaboration import scenario
 from hrcplan.studies.collaboration.measures import DETAILS, MEASURES
-from hrcplan.studies.collaboration.record import record_of
+from hrcplan.studies.collaboration.record import GuessLog, record_of
 from hrcplan.studies.collaboration.scenario import StudyTask
 from hrcplan.studies.study import Cell, Seed, StudyOptions, StudyRow
 
@@ -29,8 +29,7 @@ def simulate(options: StudyOptions, cell: Cell, seed: Seed) -> StudyRow:
     name, human = scenario.split_case(case)
     task = scenario.task_of(*scenario.files_of(options, name))
     course = scenario.course(task.bank, human, seed)
-    run, parts = _play(task, options, human, method, course, seed)
-    record = record_of(run, parts, course)
+    run, record = _play(task, options, human, method, course, seed)
     names = [task.bank.names[goal] for goal in course.goals]
     return {
         "first": names[0],
@@ -48,13 +47,17 @@ def simulate(options: StudyOptions, cell: Cell, seed: Seed) -> StudyRow:
 
 def _play(
     task: StudyTask, options: StudyOptions, human: str, method: str, course: Course, seed: Seed
-) -> tuple[CompanionRun, CollaborationParts]:
-    """Return a finished collaboration, and what carried it out."""
+) -> tuple[CompanionRun, EpisodeRecord]:
+    """Return a finished collaboration, and its record."""
     setup = task.setup(options, method, seed)
     lasts_s = _n_steps(task, course) * task.prices.mean_duration_s / len(setup.slots)
     nature = scenario.nature(setup, human, seed, lasts_s)
-    parts = simulated(setup, task.bank, course, options["chooser"], nature=nature)
-    return parts.run(), parts
+    parts = simulated(
+        setup, task.bank, course, options["chooser"], lambda bank: task.assistant(setup), nature
+    )
+    log = GuessLog(parts.adviser)
+    run = parts.run(watch=log.watch)
+    return run, record_of(run, parts, course, log)
 
 
 def _n_steps(task: StudyTask, course: Course) -> int:

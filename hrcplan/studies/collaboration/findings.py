@@ -120,9 +120,9 @@ def _readings() -> Section:
     level = f"{low}" if low == high else f"{low} to {high}"
     words = (
         "<p><em>Team cost</em> is the metric of the problem, of all attempts: an attempt costs "
-        "what the action costs while every agent state is low, also if it fails, and a question as much "
-        f"as {study['question_price']:g} average action. An episode that does not reach its last "
-        "goal costs at least four times as many average actions as its goals need. "
+        "what the action costs while every agent state is low, also if it fails, and a question as "
+        f"much as {study['question_price']:g} average action. An episode that does not reach its "
+        "last goal costs at least four times as many average actions as its goals need. "
         f"A drifted element has the value {level}: actions that it touches fail with a tenth of it "
         "as their probability, drawn at every attempt. Drifts are sensed during the first action "
         "under them. A guess is what a robot believes when an action of people has begun; "

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from hrcplan.bank.team_moves import Moment, TeamMoves
 from hrcplan.bank.turn_moves import team_moves
+from hrcplan.collaboration.adviser import Adviser
 from hrcplan.collaboration.collaborate import CollaborationParts
-from hrcplan.collaboration.history import BegunAction, History, PassedTurn, WantedGoal
+from hrcplan.collaboration.events import Begun, SharedCommand, SharedEvent, Wanted
+from hrcplan.collaboration.history import BegunAction, EndedAction, History, PassedTurn
 from hrcplan.collaboration.persons import NOBODY_CAN_HELP, task_state_after
 from hrcplan.collaboration.run import CompanionRun
 from hrcplan.collaboration.setup import TURNS
+from hrcplan.core.arrays import Floats
 from hrcplan.episodes.episode import REACHED, STUCK, UNFINISHED, EpisodeRecord, EpisodeTurn
 from hrcplan.episodes.humans import Course
 from hrcplan.execution import events as ev
@@ -22,39 +25,55 @@ def ending_of(run: CompanionRun) -> str:
     return STUCK if run.run.why == NOBODY_CAN_HELP else UNFINISHED
 
 
-def record_of(run: CompanionRun, parts: CollaborationParts, course: Course) -> EpisodeRecord:
+class GuessLog:
+    """Watches a collaboration: what the robot believes once each action of people has begun."""
+
+    def __init__(self, adviser: Adviser) -> None:
+        self.adviser = adviser
+        self.by_number: dict[int, tuple[Floats, int]] = {}
+
+    def watch(
+        self, run: CompanionRun, event: SharedEvent, commands: tuple[SharedCommand, ...]
+    ) -> None:
+        """Note the belief after an action of people, and after they have said what they want."""
+        if isinstance(event, Begun | Wanted) and (last := run.last_reported) is not None:
+            state = self.adviser.fold.state(run.history)
+            posterior = self.adviser.assistant.posterior(state)
+            self.by_number[last.number] = posterior, n_declared(state)
+
+
+def record_of(
+    run: CompanionRun, parts: CollaborationParts, course: Course, log: GuessLog
+) -> EpisodeRecord:
     """Return the record: one turn for each action that began, and for each wait of people.
 
-    A guess is what the robot believes once an action of people has begun. Attempts count, also if
-    they fail.
+    Attempts count, also if they fail.
     """
-    teller = _Teller(parts, course)
-    history = run.history
-    for place, mark in enumerate(history):
+    teller = _Teller(parts, course, log)
+    for place, mark in enumerate(run.history):
         if isinstance(mark, BegunAction):
-            teller.add_action(mark, history[:place], _with_wanted(history, place))
+            teller.add_action(mark)
         elif isinstance(mark, PassedTurn):
             teller.add_wait(mark)
+        if not isinstance(mark, EndedAction) or mark.outcome != ev.DONE:
+            teller.see(run.history[: place + 1])
     return EpisodeRecord(course, tuple(teller.turns), ending_of(run))
-
-
-def _with_wanted(history: History, place: int) -> History:
-    """Return a history up to a mark, with what people then said that they want."""
-    end = place + 1
-    while end < len(history) and isinstance(history[end], WantedGoal):
-        end += 1
-    return history[:end]
 
 
 class _Teller:
     """Makes the turns of one collaboration."""
 
-    def __init__(self, parts: CollaborationParts, course: Course) -> None:
-        self.adviser, self.bank, self.setup = parts.adviser, parts.bank, parts.setup
+    def __init__(self, parts: CollaborationParts, course: Course, log: GuessLog) -> None:
+        self.bank, self.setup, self.log = parts.bank, parts.setup, log
         self.course = course
         self.moves: TeamMoves | None = team_moves(parts.bank)
         self.turns: list[EpisodeTurn] = []
         self.n_human = 0
+        self.see(())
+
+    def see(self, history: History) -> None:
+        """Take in where the task is after a history."""
+        self.world, self.moment = task_state_after(history, self.bank, self.moves)
 
     @property
     def goal(self) -> int:
@@ -68,29 +87,28 @@ class _Teller:
         self.turns.append(EpisodeTurn(len(self.turns), is_human, None, self.goal, False))
         self.n_human += is_human
 
-    def add_action(self, mark: BegunAction, before: History, after: History) -> None:
+    def add_action(self, mark: BegunAction) -> None:
         """Add an action, with the robot's guess if it is one of people."""
         step = self.bank.table.find(mark.words)
         goal, t = self.goal, len(self.turns)
-        is_needed = step is not None and self._is_needed(step, goal, mark.agent, before)
-        if mark.is_robot:
-            self.turns.append(EpisodeTurn(t, False, step, goal, is_needed))
+        is_needed = step is not None and self._is_needed(step, goal, mark.agent)
+        self.n_human += not mark.is_robot
+        if mark.number not in self.log.by_number:
+            self.turns.append(EpisodeTurn(t, not mark.is_robot, step, goal, is_needed))
             return
-        self.n_human += 1
-        state = self.adviser.fold.state(after)
-        posterior = self.adviser.assistant.posterior(state)
+        posterior, n_known = self.log.by_number[mark.number]
         rank = int((posterior > posterior[goal]).sum())
         rank += int((posterior[:goal] == posterior[goal]).sum())
         self.turns.append(
             EpisodeTurn(
                 t, True, step, goal, is_needed, False, int(posterior.argmax()), rank,
-                n_declared(state),
+                n_known,
             )
         )  # fmt: skip
 
-    def _is_needed(self, step: int, goal: int, agent: str, before: History) -> bool:
+    def _is_needed(self, step: int, goal: int, agent: str) -> bool:
         """Return whether a valid plan of a goal has a step next."""
-        world, moment = task_state_after(before, self.bank, self.moves)
+        world, moment = self.world, self.moment
         if self.moves is None:
             graph, node = self.bank.locate(goal, world)
             return node is not None and step in graph.next(node)

@@ -8,12 +8,14 @@ from dataclasses import replace
 from functools import lru_cache
 from itertools import permutations
 from pathlib import Path
+from typing import Any
 
 from hrcplan.agents import Profile
+from hrcplan.assistance.assistant import Assistant
 from hrcplan.bank import Bank, Goals, read_goals
 from hrcplan.bank.cache import cached_bank
 from hrcplan.bank.turn_moves import team_moves
-from hrcplan.collaboration.collaborate import make_setup
+from hrcplan.collaboration.collaborate import assistant_of, make_setup
 from hrcplan.collaboration.robots import check_robot
 from hrcplan.collaboration.setup import CollaborationSetup
 from hrcplan.core.numbers import Number
@@ -131,6 +133,13 @@ class StudyTask:
                 raise UsageError(message, code="no-plan")
         self.moves = team_moves(self.bank)  # held: it is shared as long as one needs it
         self.prices = TaskPrices(self.bank)
+        self._assistants: dict[str, Assistant[Any]] = {}
+
+    def assistant(self, setup: CollaborationSetup) -> Assistant[Any]:
+        """Return the assistant of a robot; its states are immutable, so episodes share it."""
+        if setup.method not in self._assistants:
+            self._assistants[setup.method] = assistant_of(setup)(self.bank)
+        return self._assistants[setup.method]
 
     def setup(self, options: StudyOptions, method: str, seed: Seed) -> CollaborationSetup:
         """Return what the collaboration of a run depends on."""
