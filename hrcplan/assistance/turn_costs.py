@@ -23,6 +23,8 @@ def human_turn_costs(graph: PlanGraph, prices: StepPrices) -> Floats:
         graph: The plans of the goal.
         prices: The price of each step.
     """
+    if not graph.n_nodes:  # the goal is out of reach
+        return np.zeros(0)
     costs, robot_turn = np.zeros(graph.n_nodes), np.zeros(graph.n_nodes)
     by_human, by_robot = prices.human[graph.steps], prices.robot[graph.steps]
     ends = [*(first for _, first in graph.layers[1:]), graph.n_nodes]

@@ -40,6 +40,9 @@ QUICK: Mapping[str, dict[str, str | None]] = {
         "domain": str(WORKSHOP / "domain.pddl"), "goals": str(WORKSHOP),
         "methods": "recursive,oracle", "humans": "optimal",
     },
+    "collaboration": {
+        "domain": str(WORKSHOP / "domain.pddl"), "goals": str(WORKSHOP), "methods": "joint",
+    },
 }  # fmt: skip
 """Options with which the built-in studies are small; every other study is run as it is."""
 
