@@ -23,7 +23,7 @@ LEAD = (
     "the way; and it does not know how they are, which drifts: actions of people then fail. "
     "<em>goal-only</em> infers the goal and takes people as they were, <em>state-only</em> senses "
     "their state and takes every goal as equally likely, <em>joint</em> weighs both and may ask "
-    "what they want, <em>joint-without-asking</em> may not, and <em>joint-oracle</em> is told."
+    "what they want, <em>joint-without-asking</em> may not, and <em>joint-oracle</em> knows it."
 )
 
 
