@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 
@@ -72,6 +72,7 @@ class Bank:
     """Plan graphs of goals, in order; ``graphs[g]`` belongs to goal ``g``.
 
     ``table`` numbers the steps, alike for all goals. ``build_s`` is how long building took.
+    ``human`` is the only human who has these goals; None if all humans share one.
     """
 
     goals: Goals
@@ -79,6 +80,7 @@ class Bank:
     graphs: tuple[PlanGraph, ...]
     recipe: BuildOptions = OPTIMAL_PLANS
     build_s: float = 0.0
+    human: str | None = None
     _graphs: dict[tuple[int, int, int | None], PlanGraph] = field(default_factory=dict)
     _solo_facts_of: dict[tuple[int, int], int] = field(default_factory=dict)
 
@@ -100,6 +102,23 @@ class Bank:
     def initial(self) -> int:
         """The initial state that all goals share, as bits of the task."""
         return self.goals.task.initial
+
+    @cached_property
+    def humans(self) -> tuple[str, ...]:
+        """The humans, in the order of their turns."""
+        controllable = robots(self.goals.problem)
+        return tuple(a for a in turn_order(self.goals.problem) if a not in controllable)
+
+    def for_human(self, human: str) -> Bank:
+        """Return the same plans for a human who has a goal of its own, which no other human helps.
+
+        Raises:
+            UsageError: if there is no such human.
+        """
+        if human not in self.humans:
+            hint = nearest(human, self.humans) or f"humans: {', '.join(self.humans)}"
+            raise UsageError(f"there is no human '{human}'", code="unknown-human", hint=hint)
+        return self if len(self.humans) == 1 else replace(self, human=human)
 
     def goal_index(self, name: str) -> int:
         """Return the index of a goal.

@@ -126,7 +126,7 @@ class CombinedGraph:
         return users
 
 
-_SHARED: WeakValueDictionary[int, CombinedGraph] = WeakValueDictionary()
+_SHARED: WeakValueDictionary[tuple[int, int], CombinedGraph] = WeakValueDictionary()
 
 
 def combined_graph_of(bank: Bank) -> CombinedGraph:
@@ -134,9 +134,10 @@ def combined_graph_of(bank: Bank) -> CombinedGraph:
 
     Of 30 goals with 13,000 nodes each it takes 80 MB. The last belief frees it.
     """
-    graph = _SHARED.get(id(bank))  # while it lives, so does its bank: no other one has that id
+    key = id(bank.table), id(bank.graphs)  # the same for all humans of a bank
+    graph = _SHARED.get(key)  # while it lives, so does its bank: no other one has these ids
     if graph is None:
-        graph = _SHARED[id(bank)] = CombinedGraph(bank)
+        graph = _SHARED[key] = CombinedGraph(bank)
     return graph
 
 

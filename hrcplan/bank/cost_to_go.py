@@ -53,8 +53,8 @@ MAX_PRICED_BYTES = 1 << 28  # of tables of prices that are remembered
 class CostToGo:
     """The costs to go of all goals of a bank of team plans.
 
-    ``of(...)`` has one row per goal. Without robots they are those of a team whose robots only
-    wait.
+    ``of(...)`` has one row per goal. They are those of the whole team, or of a team in which the
+    robots, or all humans but one, only wait.
 
     Raises:
         LimitError: if the team can get to more than ``max_states`` states.
@@ -64,6 +64,7 @@ class CostToGo:
     max_states: int = MAX_STATES
     _places: dict[int, int] = field(default_factory=dict)
     _priced: dict[tuple[int, bytes, float], Floats] = field(default_factory=dict)
+    _costs: dict[frozenset[int], Costs] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Find the states, and the actions between them."""
@@ -115,15 +116,30 @@ class CostToGo:
         own: Floats = prices[self._ops[part][mine]]
         return own
 
-    def of(self, places: Ids | int, turn: int, *, with_robots: bool = True) -> Costs:
+    def of(
+        self, places: Ids | int, turn: int, *, with_robots: bool = True, human: str | None = None
+    ) -> Costs:
         """Return the cost to go: one row per goal, one column per place; `NEVER` if there is none.
 
         Args:
             places: Indices of states.
             turn: Whose turn it is, as an index of the team's agents.
             with_robots: Whether the robots act; if not, they wait in all their turns.
+            human: The only human who acts; by default all do.
         """
-        return (self._costs if with_robots else self._costs_alone)[:, turn, places]
+        acting = self._acting(with_robots, human)
+        costs = self._costs.get(acting)
+        if costs is None:
+            by_goal = [self._backward(goal, acting) for goal in range(len(self._is_goal))]
+            costs = self._costs[acting] = np.stack(by_goal)
+        return costs[:, turn, places]
+
+    def _acting(self, with_robots: bool, human: str | None) -> frozenset[int]:
+        """Return the agents that do not only wait, as indices of the team."""
+        humans = people(self.bank.goals.problem)
+        is_acting = {a: (a == human or human is None) if a in humans else with_robots
+                     for a in self.bank.team}  # fmt: skip
+        return frozenset(i for i, agent in enumerate(self.bank.team) if is_acting[agent])
 
     def is_goal(self, goal: int, place: int) -> bool:
         """Return whether a goal holds in a state, given by its index."""
@@ -179,20 +195,6 @@ class CostToGo:
         return np.flatnonzero((self._owners == turn) | (self._owners == ANY_AGENT))
 
     @cached_property
-    def _costs(self) -> Costs:
-        return np.stack([self._backward(goal, range(len(self.bank.team))) for goal in self._goals])
-
-    @cached_property
-    def _costs_alone(self) -> Costs:
-        humans = people(self.bank.goals.problem)
-        acting = [i for i, agent in enumerate(self.bank.team) if agent in humans]
-        return np.stack([self._backward(goal, acting) for goal in self._goals])
-
-    @property
-    def _goals(self) -> range:
-        return range(len(self._is_goal))
-
-    @cached_property
     def _into(self) -> list[_Backward]:
         """The actions of each agent, by the state they lead to."""
         return list(self._actions_into())
@@ -204,7 +206,7 @@ class CostToGo:
             first = self._targets[order].searchsorted(np.arange(len(self._keys) + 1))
             yield _Backward(first, self._sources[order])
 
-    def _backward(self, goal: int, acting: range | list[int]) -> Costs:
+    def _backward(self, goal: int, acting: frozenset[int]) -> Costs:
         """Return the cost to go to one goal, by turn and state."""
         n_turns = len(self.bank.team)
         costs = np.full((n_turns, len(self._keys)), NEVER, dtype=np.int32)
@@ -237,7 +239,7 @@ def _keys(rows: Words) -> NDArray[np.bytes_]:
     return wide.view(f"S{8 * rows.shape[1]}").ravel()
 
 
-_SHARED: WeakValueDictionary[int, CostToGo] = WeakValueDictionary()
+_SHARED: WeakValueDictionary[tuple[int, int], CostToGo] = WeakValueDictionary()
 
 
 def cost_to_go_of(bank: Bank) -> CostToGo:
@@ -246,7 +248,8 @@ def cost_to_go_of(bank: Bank) -> CostToGo:
     Raises:
         LimitError: if the team can get to too many states.
     """
-    costs = _SHARED.get(id(bank))
+    key = id(bank.table), id(bank.graphs)  # the same for all humans of a bank
+    costs = _SHARED.get(key)
     if costs is None:
-        costs = _SHARED[id(bank)] = CostToGo(bank)
+        costs = _SHARED[key] = CostToGo(bank)
     return costs

@@ -124,11 +124,15 @@ class ProgressTracker:
         doable = self._doable.after(progress.doable, before, world)
         return Progress(world, nodes, doable, off), evidence
 
-    def is_robots_turn(self, progress: Progress) -> bool:
-        """Return whether it is the turn of a robot; False where agents do not take turns."""
+    def is_intervention(self, progress: Progress) -> bool:
+        """Return whether it is the turn of a robot, or of a human with goals of its own.
+
+        What they do is no evidence. It is False where agents do not take turns.
+        """
         if self.moves is None or progress.moment is None:
             return False
-        return self.moves.is_robot[progress.moment.turn]
+        turn = progress.moment.turn
+        return self.moves.is_robot[turn] or self.moves.is_other[turn]
 
     def at_turn(self, progress: Progress, agent: str) -> Progress:
         """Return the progress as it is if it is an agent's turn, where agents take turns."""

@@ -50,6 +50,8 @@ class SoloMoves(TeamMoves):
         for goal in range(shape[0]):
             if not self.bank.goals.is_reached(goal, world):
                 is_next[goal], costs[goal] = self._for_goal(goal, world, turn, steps.tolist())
+            elif self.bank.human is not None:
+                is_next[goal, -1] = True  # others go on, with goals of their own
         odd = ~is_next / np.maximum(1, (~is_next).sum(axis=1, keepdims=True))
         with np.errstate(divide="ignore"):
             log_odds = np.log(odd)

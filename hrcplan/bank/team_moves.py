@@ -2,7 +2,8 @@
 
 A human does a step that loses the team nothing. If only waiting loses nothing, it waits; but if no
 robot has acted since its last turn, it counts on the robots no longer, and does the best step
-towards the goal without them.
+towards the goal without them. A human with a goal of its own does not count on the other humans:
+for its goal they only wait.
 """
 
 from __future__ import annotations
@@ -104,6 +105,8 @@ class TeamMoves:
         controllable = robots(bank.goals.problem)
         self.is_robot = [agent in controllable for agent in bank.team]
         self.has_humans = not all(self.is_robot)
+        others = {*bank.humans} - {bank.human} if bank.human is not None else set()
+        self.is_other = [agent in others for agent in bank.team]
         self._owners = step_owners(bank.table, bank.team)
 
     def after(self, moment: Moment, step: int | None) -> Moment:
@@ -150,7 +153,7 @@ class TeamMoves:
         """Return which steps come next for which goals: two arrays, one pair for each.
 
         They are those of the agent whose turn it is, and of others if the goal lets all between
-        wait.
+        wait. A human with other goals has none.
         """
         pairs: list[tuple[Ids, Ids]] = []
         can_wait = np.ones(len(self.bank.names), dtype=np.bool_)
@@ -158,7 +161,8 @@ class TeamMoves:
             choices = self.choices(world, moment)
             goals, places = np.nonzero(choices.is_next & can_wait[:, None])
             pairs.append((choices.steps[places], goals))
-            can_wait &= choices.costs[:, -1] <= choices.costs.min(axis=1)
+            if not self.is_other[moment.turn]:
+                can_wait &= choices.costs[:, -1] <= choices.costs.min(axis=1)
             moment = self.after(moment, None)
         steps, goals = (np.concatenate([pair[i] for pair in pairs]) for i in range(2))
         return steps, goals
@@ -179,18 +183,19 @@ class TeamMoves:
         return {} if len(choices) >= MAX_KNOWN else choices
 
     def _choices(self, place: int, turn: int, alone: bool) -> TeamChoices:
-        steps, targets = self.costs.actions(place, turn)
+        human, steps, targets = self.bank.human, *self.costs.actions(place, turn)
         following = (turn + 1) % self.n_turns
-        now = self.costs.of(np.array([place]), turn)
-        wait = self.costs.of(np.array([place]), following) + TIMESTEP
-        after = self.costs.of(targets, following) + TIMESTEP + 1
-        is_next = (after == now) & (now < NEVER)
-        if alone and len(steps):
-            own = self.costs.of(targets, following, with_robots=False)
+        now = self.costs.of(np.array([place]), turn, human=human)
+        wait = self.costs.of(np.array([place]), following, human=human) + TIMESTEP
+        after = self.costs.of(targets, following, human=human) + TIMESTEP + 1
+        is_next = (after == now) & (now < NEVER) & (not self.is_other[turn])
+        if alone and len(steps) and not self.is_other[turn]:
+            own = self.costs.of(targets, following, with_robots=False, human=human)
             best = own.min(axis=1, keepdims=True)
             is_stuck = ~is_next.any(axis=1, keepdims=True) & (best < NEVER) & (now > 0)
             is_next |= is_stuck & (own == best)
-        waits = ~is_next.any(axis=1) & (now[:, 0] > 0)  # who has reached its goal is not waiting
+        # Who has reached its goal is not waiting; but others may go on, with goals of their own.
+        waits = ~is_next.any(axis=1) & ((now[:, 0] > 0) | (human is not None))
         odd = _weights(np.concatenate([after, wait], axis=1), now)
         odd[np.concatenate([is_next, waits[:, None]], axis=1)] = 0
         totals = np.maximum(odd.sum(axis=1, keepdims=True), LOST)
@@ -204,7 +209,7 @@ class TeamMoves:
 
 def _weights(costs: Costs, now: Costs) -> Floats:
     """Return how likely mistakes are, from what they cost; the scale does not matter."""
-    loss = costs // TIMESTEP - now // TIMESTEP
+    loss = np.maximum(0, costs // TIMESTEP - now // TIMESTEP)  # other humans may save some
     return np.where(costs < NEVER, np.maximum(np.exp(-DECAY * loss), LOST), LOST)
 
 

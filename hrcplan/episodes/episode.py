@@ -6,8 +6,8 @@ Time is counted in turns: every action of either agent takes one timestep, and s
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 from typing import Generic, Protocol, SupportsIndex, runtime_checkable
 
 import numpy as np
@@ -64,7 +64,8 @@ class EpisodeTurn:
     ``step`` is None for a wait. After an action of the human, ``guess`` is the goal with the
     highest posterior, ``rank`` how many goals have a higher one than the right goal, and
     ``n_declared`` how many changes the robot has declared so far. ``is_needed`` says whether the
-    step is next in a valid plan of the goal.
+    step is next in a valid plan of the goal. ``round`` counts the turns of each agent from 0;
+    ``agent`` is who acts, where humans have goals of their own.
     """
 
     t: int
@@ -76,6 +77,8 @@ class EpisodeTurn:
     guess: int | None = None
     rank: int | None = None
     n_declared: int = 0
+    round: int = 0
+    agent: str | None = None
 
 
 @dataclass(frozen=True)
@@ -84,7 +87,8 @@ class EpisodeRecord:
 
     ``cap`` is the number of timesteps after which an episode ends in any case, and the cost of one
     that did not reach its goal. ``is_reachable`` says whether the last goal was reached, or could
-    still be at the end.
+    still be at the end. ``courses`` are those of humans with goals of their own; ``course`` is
+    then that of the first.
     """
 
     course: Course
@@ -93,6 +97,12 @@ class EpisodeRecord:
     decisions_ms: tuple[float, ...] = ()
     cap: int = 0
     is_reachable: bool = True
+    courses: Mapping[str, Course] = field(default_factory=dict)
+
+    def n_changes(self, turn: EpisodeTurn) -> int:
+        """Return how often the goal of who acts has changed up to a turn."""
+        course = self.courses.get(turn.agent or "", self.course)
+        return sum(turn.round >= change for change in course.turns)
 
     @property
     def n_turns(self) -> int:
@@ -135,11 +145,13 @@ def play(
     moves = team_moves(bank)
     world = world or SimulatedTurns(bank)
     if moves is None:
-        return _Play(bank, human, robot, course, world, watch).run()
+        return Play(bank, human, robot, course, world, watch).run()
     return _TeamPlay(bank, human, robot, course, world, watch, moves).run()
 
 
-class _Play(Generic[S]):
+class Play(Generic[S]):
+    """One episode as it happens; subclasses say whose turn it is, and what a robot hears."""
+
     def __init__(
         self, bank: Bank, human: EpisodeHuman, robot: Assistant[S], course: Course,
         world: TurnWorld, watch: EpisodeWatch[S] | None,
@@ -153,6 +165,7 @@ class _Play(Generic[S]):
         self.decisions_ms: list[float] = []
         self.last: int | None = None
         self.n_waits = 0
+        self.agent: str | None = None
 
     def run(self) -> EpisodeRecord:
         """Return the record."""
@@ -164,7 +177,7 @@ class _Play(Generic[S]):
             if self._is_over(turn):
                 ending = REACHED
                 break
-            self._robot(self.course.goal(turn))
+            self._robot(turn)
             turn += 1
         goal = self.course.goal(turn)
         is_reachable = ending == REACHED or self.bank.locate(goal, self.state)[1] is not None
@@ -204,28 +217,40 @@ class _Play(Generic[S]):
         is_needed = self._do(move.step, goal, self.people)
         if move.step is not None:
             self.last = move.step
-            self.belief = self.robot.observe(self.belief, move.step)
+            self._observe_human(move.step)
         else:
             self._observe_wait()
-        self.belief = inform(self.robot, self.belief, goal)
+        self._inform(goal)
         if move.step is None:
-            self._note(EpisodeTurn(len(self.turns), True, None, goal, False))
+            self._note(EpisodeTurn(len(self.turns), True, None, goal, False, round=turn))
             return
-        posterior = _posterior(self.robot, self.belief, len(self.bank.names))
+        posterior = _checked(self._posterior(), len(self.bank.names))
         likelier = posterior > posterior[goal]
         rank = int(likelier.sum() + (posterior[:goal] == posterior[goal]).sum())
         self._note(
             EpisodeTurn(
                 len(self.turns), True, move.step, goal, is_needed, move.is_mistake,
-                int(posterior.argmax()), rank, n_declared(self.belief),
+                int(posterior.argmax()), rank, self._n_declared(), turn,
             )
         )  # fmt: skip
+
+    def _observe_human(self, step: int) -> None:
+        self.belief = self.robot.observe(self.belief, step)
+
+    def _inform(self, goal: int) -> None:
+        self.belief = inform(self.robot, self.belief, goal)
+
+    def _posterior(self) -> Floats:
+        return self.robot.posterior(self.belief)
+
+    def _n_declared(self) -> int:
+        return n_declared(self.belief)
 
     def _choice(self) -> int | None:
         return self.robot.choose(self.belief)
 
-    def _robot(self, goal: int) -> None:
-        began = time.perf_counter()
+    def _robot(self, turn: int) -> None:
+        goal, began = self.course.goal(turn), time.perf_counter()
         step = self._choice()
         self.decisions_ms.append((time.perf_counter() - began) * 1e3)
         is_needed = self._do(step, goal, self.robots)
@@ -233,19 +258,31 @@ class _Play(Generic[S]):
             self.belief = self.robot.observe(self.belief, step, robot=True)
         else:
             self._observe_wait()
-        self._note(EpisodeTurn(len(self.turns), False, step, goal, is_needed))
+        self._note(EpisodeTurn(len(self.turns), False, step, goal, is_needed, round=turn))
 
     def _do(self, step: int | None, goal: int, agents: frozenset[str]) -> bool:
         """Do a step in the world; return whether it is next in a valid plan of a goal."""
         self.n_waits = self.n_waits + 1 if step is None else 0
         if step is None:
             return False
-        action = _action(self.bank.table, self.state, step, agents)
         graph, node = self.bank.locate(goal, self.state)
-        self.state = self.world.do(self.state, action)
+        self.state = self.act(step, agents)
         return node is not None and step in graph.next(node)
 
+    def act(self, step: int, agents: frozenset[str]) -> int:
+        """Return the state after a step that one of the agents does."""
+        return self.world.do(self.state, _action(self.bank.table, self.state, step, agents))
+
+    def own_choice(self, step: int | None, robots: frozenset[str]) -> int | None:
+        """Return the step of the robot whose turn it is; None if another robot has to do it."""
+        if not isinstance(step, int | np.integer) or not 0 <= step < len(self.bank.table):
+            return step
+        is_others = self.bank.table.doer(self.state, int(step), robots - self.robots)
+        can = self.bank.table.doer(self.state, int(step), self.robots)
+        return None if can is None and is_others is not None else step
+
     def _note(self, turn: EpisodeTurn) -> None:
+        turn = turn if self.agent is None else replace(turn, agent=self.agent)
         self.turns.append(turn)
         if self.watch is not None:
             self.watch(turn, self.belief)
@@ -254,7 +291,7 @@ class _Play(Generic[S]):
 ROUNDS = 3  # of nothing but waits, after which a team is stuck
 
 
-class _TeamPlay(_Play[S]):
+class _TeamPlay(Play[S]):
     """The same with any number of humans and robots, in the order of the team's turns.
 
     All humans have the same goals and are moved by one ``human``; ``robot`` moves all robots.
@@ -288,7 +325,7 @@ class _TeamPlay(_Play[S]):
             self.robots = self.people = frozenset({agent})
             self.last = self.lasts.get(agent)
             if is_robot:
-                self._robot(self.course.goal(turn))
+                self._robot(turn)
             else:
                 self._human(turn)
                 self.lasts[agent] = self.last
@@ -311,12 +348,7 @@ class _TeamPlay(_Play[S]):
 
     def _choice(self) -> int | None:
         """Return the step of the robot whose turn it is; None if another robot has to do it."""
-        step = super()._choice()
-        if not isinstance(step, int | np.integer) or not 0 <= step < len(self.bank.table):
-            return step
-        is_others = self.bank.table.doer(self.state, int(step), self.all_robots - self.robots)
-        can = self.bank.table.doer(self.state, int(step), self.robots)
-        return None if can is None and is_others is not None else step
+        return self.own_choice(super()._choice(), self.all_robots)
 
     def _observe_wait(self) -> None:
         self.belief = after_wait(self.robot, self.belief)
@@ -326,9 +358,8 @@ class _TeamPlay(_Play[S]):
         self.n_waits = self.n_waits + 1 if step is None else 0
         is_needed = False
         if step is not None:
-            action = _action(self.bank.table, self.state, step, agents)
             is_needed = step in self.moves.choices(self.state, self.moment).next_steps(goal)
-            self.state = self.world.do(self.state, action)
+            self.state = self.act(step, agents)
         self.moment = self.moves.after(self.moment, step)
         return is_needed
 
@@ -343,9 +374,9 @@ def _action(table: StepTable, state: int, step: SupportsIndex, agents: frozenset
     return action
 
 
-def _posterior(robot: Assistant[S], state: S, n_goals: int) -> Floats:
+def _checked(posterior: Floats, n_goals: int) -> Floats:
     """Return the posterior of a robot, which must have a probability for each goal."""
-    answer = np.asarray(robot.posterior(state), dtype=object)
+    answer = np.asarray(posterior, dtype=object)
     try:
         numbers: Floats = answer.astype(np.float64)
     except (TypeError, ValueError):

@@ -95,7 +95,7 @@ class Frontier:
 
     def __init__(self, bank: Bank, course: Course) -> None:
         self.bank, self.course = bank, course
-        self._doers = people(bank.goals.problem)
+        self._doers = people(bank.goals.problem) if bank.human is None else {bank.human}
         self._moves = team_moves(bank)
 
     def move_in_turn(self, turn: int, world: int, last: int | None, moment: Moment) -> HumanMove:

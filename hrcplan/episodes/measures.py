@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from hrcplan.episodes.episode import EpisodeRecord, EpisodeTurn
+from hrcplan.episodes.humans import Course
 
 TOP = 3  # goals that count as a right guess in ``top3_pct``
 
@@ -68,14 +69,25 @@ def guesses(record: EpisodeRecord) -> GuessMeasures:
 
 def _spans(record: EpisodeRecord) -> list[list[EpisodeTurn]]:
     """Return the guesses made under each goal that was changed to; of the only goal if none was."""
-    spans: list[list[EpisodeTurn]] = [[] for _ in record.course.goals]
-    human = 0
-    for turn in record.turns:
-        if turn.is_human:
+    spans: list[list[EpisodeTurn]] = []
+    for course, turns in _by_course(record):
+        own: list[list[EpisodeTurn]] = [[] for _ in course.goals]
+        for turn in turns:
             if turn.guess is not None:
-                spans[sum(human >= change for change in record.course.turns)].append(turn)
-            human += 1
-    return [span for span in spans[1:] or spans if span]
+                own[record.n_changes(turn)].append(turn)
+        spans += own[1:] or own
+    return [span for span in spans if span]
+
+
+def _by_course(record: EpisodeRecord) -> list[tuple[Course, list[EpisodeTurn]]]:
+    """Return the turns of the humans by what they wanted: together, or each for itself."""
+    humans = [turn for turn in record.turns if turn.is_human]
+    if not record.courses:
+        return [(record.course, humans)]
+    return [
+        (course, [turn for turn in humans if turn.agent == agent])
+        for agent, course in record.courses.items()
+    ]
 
 
 def _first_right(span: Sequence[EpisodeTurn], n_turns: int) -> int:
@@ -86,30 +98,27 @@ def _first_right(span: Sequence[EpisodeTurn], n_turns: int) -> int:
 def changes(record: EpisodeRecord) -> ChangeMeasures:
     """Return declared changes compared with the true ones."""
     delays: list[int] = []
-    n_found = n_false = n_before = human = 0
-    open_since: int | None = None  # the timestep of the true change that awaits declaration
-    is_new, n_known = False, 0
-    for turn in record.turns:
-        if not turn.is_human:
-            continue
-        is_new = is_new or human in record.course.turns
-        human += 1
-        if turn.step is None:
-            continue  # a wait shows nothing, so no change can be declared after it
-        if is_new:
-            if open_since is not None:
-                delays.append(record.n_turns - open_since)
-            open_since, is_new = turn.t, False
-        for _ in range(turn.n_declared - n_known):
-            if open_since is None:
-                n_false += 1
-                n_before += not record.course.turns or human <= min(record.course.turns)
-            else:
-                delays.append(turn.t - open_since)
-                n_found, open_since = n_found + 1, None
-        n_known = max(n_known, turn.n_declared)
-    if open_since is not None:
-        delays.append(record.n_turns - open_since)
+    n_found = n_false = n_before = 0
+    for _, turns in _by_course(record):
+        open_since: int | None = None  # the timestep of the true change that awaits declaration
+        n_noticed = n_known = 0
+        for turn in turns:
+            if turn.step is None:
+                continue  # a wait shows nothing, so no change can be declared after it
+            if record.n_changes(turn) > n_noticed:
+                if open_since is not None:
+                    delays.append(record.n_turns - open_since)
+                open_since, n_noticed = turn.t, record.n_changes(turn)
+            for _ in range(turn.n_declared - n_known):
+                if open_since is None:
+                    n_false += 1
+                    n_before += not record.n_changes(turn)
+                else:
+                    delays.append(turn.t - open_since)
+                    n_found, open_since = n_found + 1, None
+            n_known = max(n_known, turn.n_declared)
+        if open_since is not None:
+            delays.append(record.n_turns - open_since)
     return ChangeMeasures(sum(delays) / max(1, len(delays)), n_found, n_false, n_before)
 
 

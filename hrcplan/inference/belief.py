@@ -275,6 +275,14 @@ def after_evidence(belief: Belief[S], state: S, likelihood: Floats) -> S:
     return state
 
 
+def after_others_attempt(belief: Belief[S], state: S, step: int) -> S:
+    """Return a belief after a step that another agent tried to do: no evidence, no progress."""
+    progress = _progress_in(belief, state)
+    if progress is None:
+        return state
+    return _with_progress(state, progress[0].attempt(progress[1], step))
+
+
 def at_turn(belief: Belief[S], state: S, agent: str) -> S:
     """Return a belief as it is in an agent's turn; as it was if it does not tell turns apart."""
     if isinstance(belief, ActsInAnyTurn):

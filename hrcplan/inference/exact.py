@@ -77,7 +77,7 @@ class ExactBelief(PlanFollower):
         if move is None:
             return state
         progress, evidence = move
-        if self.tracker.is_robots_turn(state.progress) or not len(evidence.goals):
+        if self.tracker.is_intervention(state.progress) or not len(evidence.goals):
             return ExactState(progress, state.scores)
         return ExactState(progress, state.scores + self.log_likelihood(evidence))
 

@@ -117,7 +117,7 @@ class FilterBelief(PlanFollower, ABC, Generic[F]):
         move = self.tracker.wait(state.progress)
         if move is None:
             return state
-        return self._after(state, None, self.tracker.is_robots_turn(state.progress), *move)
+        return self._after(state, None, self.tracker.is_intervention(state.progress), *move)
 
     def _after(
         self, state: FilterBeliefState[F], step: int | None, robot: bool, progress: Progress,

@@ -156,7 +156,7 @@ class RecursiveBelief(PlanFollower):
         move = self.tracker.wait(state.progress)
         if move is None:
             return state
-        if self.tracker.is_robots_turn(state.progress):
+        if self.tracker.is_intervention(state.progress):
             return replace(state, progress=move[0])
         return self._after(state, None, *move)
 

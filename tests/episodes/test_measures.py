@@ -20,9 +20,9 @@ def record(course, *turns):
             rank = 0 if guess == goal else 1
         step = None if turn is None else 0
         made.append(
-            EpisodeTurn(t, True, step, goal, turn is not None, False, guess, rank, declared)
+            EpisodeTurn(t, True, step, goal, turn is not None, False, guess, rank, declared, human)
         )
-        made.append(EpisodeTurn(t + 1, False, 0, goal, True))
+        made.append(EpisodeTurn(t + 1, False, 0, goal, True, round=human))
     return EpisodeRecord(course, tuple(made), REACHED)
 
 
