@@ -101,6 +101,13 @@ command.add_command(trials.collect_command)
     help="Run this human only; repeatable. Not failure-anticipation.",
 )
 @click.option(
+    "--table",
+    "tables",
+    multiple=True,
+    metavar="TABLE",
+    help="Run this table only, such as rows (the main one) or choosers; repeatable.",
+)
+@click.option(
     "--chooser",
     metavar="NAME",
     help="How humans choose steps, such as frontier, habit or module:Class. "
@@ -128,7 +135,7 @@ command.add_command(trials.collect_command)
 @output.common_options
 def run(
     name: str, runs: int | None, seed: int, jobs: int, limit: int | None, folder: Path,
-    methods: tuple[str, ...], humans: tuple[str, ...], **choices: str | None,
+    methods: tuple[str, ...], humans: tuple[str, ...], tables: tuple[str, ...], **choices: str | None,
 ) -> int:  # fmt: skip
     """Run the study NAME, and write one row per episode to DIR.
 
@@ -140,7 +147,7 @@ def run(
     with _bar() as progress:
         n_new = run_study(
             name, folder, runs=runs, seed=seed, jobs=jobs, limit=limit, options=choices,
-            progress=progress, say=output.note,
+            tables=tables, progress=progress, say=output.note,
         )  # fmt: skip
     if output.JSON:
         output.document({"study": name, "folder": str(folder), "n_new": n_new})

@@ -6,7 +6,7 @@ import hashlib
 import os
 import threading
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import groupby
 from pathlib import Path
 
@@ -32,6 +32,7 @@ def run_study(
     jobs: int = 1,
     limit: int | None = None,
     options: Mapping[str, str | None] | None = None,
+    tables: Sequence[str] = (),
     progress: ReportProgress | None = None,
     say: Say = lambda text: None,
 ) -> int:
@@ -48,11 +49,12 @@ def run_study(
         limit: Episodes of the study's first table, spread evenly over its cells, and at most as
             many of all its other tables together.
         options: The study's own options; None values stand for its defaults.
+        tables: The only tables that are run; all by default.
         progress: Called with the numbers of rows done and wanted.
         say: Called with what is going on, where that takes long.
 
     Raises:
-        UsageError: if the study or an option is unknown, the folder holds other rows, or the extra
+        UsageError: if the study, a table or an option is unknown, the folder holds other rows, or the extra
             ``studies`` is not installed.
         InputError: if a file that the study needs is missing or has faults.
     """
@@ -62,7 +64,7 @@ def run_study(
         require(module, "a study")
     study = find(name)
     choice = study.with_defaults(options or {})
-    all_episodes = list(episodes(study, choice, runs or study.runs(choice), limit))
+    all_episodes = list(episodes(study, choice, runs or study.runs(choice), limit, tables))
     say("the study's inputs are read")
     digest = hashlib.sha256(study.inputs(choice).encode()).hexdigest()
     about = {"study": name, "version": __version__, "seed": seed, "options": choice,

@@ -211,21 +211,36 @@ def find(name: str) -> Study:
 
 
 def episodes(
-    study: Study, options: StudyOptions, runs: int, limit: int | None = None
-) -> Iterator[Episode]:
+    study: Study, options: StudyOptions, runs: int, limit: int | None = None,
+    tables: Sequence[str] = (),
+) -> Iterator[Episode]:  # fmt: skip
     """Yield the episodes of a study in their fixed order.
 
     Those of the first table come run by run, each over all cells; those of the other tables follow,
     also run by run. ``limit`` cuts the first table after that many, and all other tables together
     after as many again; these get no more runs than the first table completes, but at least one. A
-    larger limit extends a smaller one.
+    larger limit extends a smaller one. ``tables`` names the only tables that are run; then the
+    first of them comes first.
+
+    Raises:
+        UsageError: if the study has no table of that name.
     """
-    first, *others = study.tables
+    first, *others = _named(study, tables)
     cells = first.cells(options)
     yield from islice(_by_run([first], options, runs), limit)
     if limit is not None and cells:
         runs = min(runs, max(1, limit // len(cells)))
     yield from islice(_by_run(others, options, runs), limit)
+
+
+def _named(study: Study, names: Sequence[str]) -> list[StudyTable]:
+    """Return the tables that are named, in the order of the study; all by default."""
+    known = [table.name for table in study.tables]
+    for name in names:
+        if name not in known:
+            message = f"{study.name} has no table '{name}'"
+            raise UsageError(message, code="unknown-table", hint=f"tables: {', '.join(known)}")
+    return [table for table in study.tables if not names or table.name in names]
 
 
 def _by_run(tables: Sequence[StudyTable], options: StudyOptions, runs: int) -> Iterator[Episode]:
