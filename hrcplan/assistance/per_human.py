@@ -28,10 +28,8 @@ from hrcplan.inference.belief import (
     at_turn,
     n_declared,
 )
+from hrcplan.inference.run import UNKNOWN_HUMAN
 
-HUMAN, TEAM = GOALS_PER = ("human", "team")
-"""Whose goals are inferred: each human has a goal of its own, or all humans share one."""
-UNKNOWN_HUMAN = "it is not said which human did this"
 HARM = 0.5  # timesteps that the best step for all may cost one human
 CONTENT = 0.5  # the probability from which on a human is taken to have what it wants
 

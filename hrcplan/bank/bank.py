@@ -14,7 +14,7 @@ from hrcplan.bank.construct import NO_LIMITS, optimal_graph
 from hrcplan.bank.goals import Goals
 from hrcplan.bank.graph import PlanGraph
 from hrcplan.bank.search import BuildLimits
-from hrcplan.bank.team import team_graph, turn_order
+from hrcplan.bank.team import humans_in, team_graph, turn_order
 from hrcplan.core.text import nearest, plural
 from hrcplan.errors import UsageError
 from hrcplan.pddl.conventions import interactions, robots
@@ -106,8 +106,7 @@ class Bank:
     @cached_property
     def humans(self) -> tuple[str, ...]:
         """The humans, in the order of their turns."""
-        controllable = robots(self.goals.problem)
-        return tuple(a for a in turn_order(self.goals.problem) if a not in controllable)
+        return humans_in(self.goals.problem)
 
     def for_human(self, human: str) -> Bank:
         """Return the same plans for a human who has a goal of its own, which no other human helps.

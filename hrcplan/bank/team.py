@@ -47,6 +47,12 @@ def turn_order(problem: Problem) -> tuple[str, ...]:
     return tuple(sorted(problem.agents, key=lambda agent: agent in controllable))
 
 
+def humans_in(problem: Problem) -> tuple[str, ...]:
+    """Return the humans, in the order of their turns."""
+    controllable = robots(problem)
+    return tuple(agent for agent in turn_order(problem) if agent not in controllable)
+
+
 def team_graph(
     table: StepTable, goal: Tests, state: int, turn: int = 0, *, name: str = "goal",
     limits: BuildLimits = NO_LIMITS,

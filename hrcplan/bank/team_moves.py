@@ -147,7 +147,8 @@ class TeamMoves:
 
     def can_reach(self, goal: int, world: int) -> bool:
         """Return whether the team can still reach a goal."""
-        return bool(self.costs.of(self.costs.place(world), 0)[goal] < NEVER)
+        costs = self.costs.of(self.costs.place(world), 0, human=self.bank.human)
+        return bool(costs[goal] < NEVER)
 
     def next_steps(self, world: int, moment: Moment) -> tuple[Ids, Ids]:
         """Return which steps come next for which goals: two arrays, one pair for each.

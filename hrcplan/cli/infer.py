@@ -31,14 +31,15 @@ MAX_NAME = 28
 @click.argument("actions", required=False, metavar="[ACTIONS]")
 @click.option("--method", metavar="METHOD",
               help="How to infer; by default switching for a bank, cost for a folder.")  # fmt: skip
+@options.goals_per("team")
 @options.timeout("Without effect: what is done is counted, so results are the same anywhere.",
                  None)  # fmt: skip
 @options.seed("Method forest: random seed of its training.")
 @options.picture("--plot", "Draw the posterior of the goals.")
 @output.common_options
 def command(
-    source: str, actions: str | None, method: str | None, timeout: float | None, seed: int,
-    plot: Path | None,
+    source: str, actions: str | None, method: str | None, goals_per: str,
+    timeout: float | None, seed: int, plot: Path | None,
 ) -> int:  # fmt: skip
     """Infer the human's goal from the observed ACTIONS, step by step, and where it changed."""
     from hrcplan.inference import infer
@@ -49,7 +50,7 @@ def command(
         "forest": {"seed": seed, "n_jobs": -1},
     }
     name = method or _default(source)
-    inference = infer(source, actions, name, **method_options.get(name, {}))
+    inference = infer(source, actions, name, goals_per, **method_options.get(name, {}))
     if plot is not None:
         from hrcplan.plots.posterior import draw
 
@@ -57,7 +58,10 @@ def command(
     if output.JSON:
         output.document(inference.as_json())
     else:
-        output.result(as_text(inference))
+        each = inference.humans or {"": inference}
+        texts = [f"{human}:\n{as_text(one)}" if human else as_text(one)
+                 for human, one in each.items()]  # fmt: skip
+        output.result("\n\n".join(texts))
     return 0
 
 

@@ -47,6 +47,17 @@ def notes(*texts: str) -> str:
     return "\n\n".join(texts)
 
 
+def goals_per(default: str | None) -> Callable[[F], F]:
+    """Return the option that says whose goals are inferred."""
+    return click.option(
+        "--goals-per",
+        type=click.Choice(["human", "team"]),
+        default=default,
+        show_default=default is not None,
+        help="Whether each human has a goal of its own, or all humans share one.",
+    )
+
+
 _JOINED = {"--set": "=", "--change": "@"}
 
 

@@ -118,6 +118,7 @@ command.add_command(trials.collect_command)
     metavar="PACE",
     help="free (agents act when they can) or turns. Only collaboration.",
 )
+@options.goals_per(None)
 @click.option(
     "--world",
     metavar="NAME",
@@ -135,7 +136,8 @@ command.add_command(trials.collect_command)
 @output.common_options
 def run(
     name: str, runs: int | None, seed: int, jobs: int, limit: int | None, folder: Path,
-    methods: tuple[str, ...], humans: tuple[str, ...], tables: tuple[str, ...], **choices: str | None,
+    methods: tuple[str, ...], humans: tuple[str, ...], tables: tuple[str, ...],
+    **choices: str | None,
 ) -> int:  # fmt: skip
     """Run the study NAME, and write one row per episode to DIR.
 

@@ -8,7 +8,6 @@ all humans have what they want, so goals that exclude each other can all be reac
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 
 import numpy as np
 
@@ -45,8 +44,11 @@ def own_lengths(bank: Bank) -> list[float]:
     moves = team_moves(bank)
     if moves is None:
         return [float(graph.n_steps) if graph.n_nodes else np.inf for graph in bank.graphs]
-    least = moves.choices(bank.initial, Moment()).costs.min(axis=1)
-    return [float(cost) if cost < OUT_OF_REACH else np.inf for cost in least]
+    moment = Moment()
+    while moves.is_other[moment.turn]:
+        moment = moves.after(moment, None)
+    least = moves.choices(bank.initial, moment).costs.min(axis=1)
+    return [moment.turn + float(cost) if cost < OUT_OF_REACH else np.inf for cost in least]
 
 
 def play_own_goals(
@@ -193,17 +195,3 @@ class _OwnGoals(Play[PerHumanState[S]]):
             return step in moves.choices(self.state, self.moment).next_steps(goal)
         graph, node = self.bank.locate(goal, self.state)
         return node is not None and step in graph.next(node)
-
-
-def shared_goal(bank: Bank, course: Course) -> dict[str, Course]:
-    """Return one course for all humans, each with chances of its own.
-
-    >>> from hrcplan.bank import build_bank
-    >>> bank = build_bank("kitchen", only=["parfait-nut", "parfait-fruit"])
-    >>> list(shared_goal(bank, Course((0,))))
-    ['human']
-    """
-    return {
-        human: replace(course, seed=f"{course.seed}/{place}" if place else course.seed)
-        for place, human in enumerate(bank.humans)
-    }

@@ -180,6 +180,10 @@ class Resolver:
             return "no action changes this fact"
         return 1 << place, int(is_true) << place
 
+    def agent_in(self, words: tuple[str, ...]) -> str | None:
+        """Return the agent that an observed action names; None if it names none."""
+        return next((word for word in words[1:] if word in self.agents), None)
+
     def _without_agent(self, words: tuple[str, ...]) -> list[int]:
         """Return the steps of this name, those of the human first, where no agent is named."""
         if self.agents.intersection(words):

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
+from statistics import fmean
 from typing import Any, Protocol, runtime_checkable
 
 from hrcplan.bank import Bank, Goals, StepTable, build
 from hrcplan.bank.ramirez_geffner import OBSERVATIONS, is_folder, read_instance
+from hrcplan.bank.team import humans_in
 from hrcplan.core import svg
 from hrcplan.core.deprecation import warn_old_name
 from hrcplan.core.text import cut, plural
@@ -41,6 +44,9 @@ from hrcplan.inference.registry import (
 from hrcplan.inference.traces import is_trace
 
 BUILD_S = 20.0  # for plan graphs of a folder that is no bank
+HUMAN, TEAM = GOALS_PER = ("human", "team")
+"""Whose goals are inferred: each human has a goal of its own, or all humans share one."""
+UNKNOWN_HUMAN = "it is not said which human did this"
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +72,9 @@ class Inference:
         note: A remark of the method, such as that it used estimates; None if there is none.
         changed: The probability, given all observations, that the goal has changed at all; None if
             the method does not say.
+        humans: Where each human has a goal of its own, what is inferred of each, by name. The
+            posterior is then the mean over the humans, the changes are those of all, and
+            ``changed`` is the probability that any goal has changed.
     """
 
     goals: tuple[str, ...]
@@ -76,6 +85,7 @@ class Inference:
     method: str
     note: str | None = None
     changed: float | None = None
+    humans: Mapping[str, Inference] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         row = self.posterior[-1]
@@ -108,6 +118,7 @@ class Inference:
 
     def as_json(self) -> dict[str, Any]:
         """Return the JSON document of ``hrcplan infer``."""
+        humans = {name: one.as_json() for name, one in self.humans.items()}
         return {
             "goals": list(self.goals),
             "posterior": [list(row) for row in self.posterior],
@@ -116,6 +127,7 @@ class Inference:
             "ignored": [{"at": i.at, "action": i.action, "reason": i.reason} for i in self.ignored],
             "method": self.method,
             "note": self.note,
+            **({"humans": humans} if humans else {}),
         }
 
     def _change(self, change: GoalChange) -> dict[str, Any]:
@@ -134,6 +146,7 @@ def infer(
     source: str | Path | Bank | Goals,
     actions: Observations | None = None,
     method: str | None = None,
+    goals_per: str = TEAM,
     **options: Any,
 ) -> Inference:
     """Return the posterior of the goals after each observed action.
@@ -147,17 +160,21 @@ def infer(
         method: ``exact``, ``switching``, ``forest``, ``recursive``, ``cost``, one that another
             package has registered, or ``module:Class``. Default: ``switching`` for a bank, else
             ``cost``.
+        goals_per: ``team`` if all humans share a goal, or ``human`` if each has one of its own:
+            then the actions of the others are no evidence of it.
         options: Passed on to the method.
 
     Raises:
         InputError: if a file is missing or has faults.
-        UsageError: if there is no such method, or an argument is of a wrong type.
+        UsageError: if there is no such method, or an argument is of a wrong type or value.
         LimitError: if a method needs plan graphs that do not fit.
 
     >>> from hrcplan.bank import build_bank
     >>> infer(build_bank("kitchen", only=["pasta-bean", "pasta-tomato"]), ["(get human beans)"])
     <Inference by switching: 1 action, 0 changes, now 98% pasta-bean>
     """
+    if goals_per not in GOALS_PER:
+        raise UsageError(f"goals are per {' or '.join(GOALS_PER)}, not per '{goals_per}'")
     bank_or_goals, observed_in_folder = _load(source)
     goals = bank_or_goals.goals if isinstance(bank_or_goals, Bank) else bank_or_goals
     words = observed_in_folder if actions is None else observed_words(actions, goals.problem)
@@ -170,12 +187,43 @@ def infer(
     check_observations(words, goals, path, facts=takes_facts(kind))
     if takes_goals(kind):
         belief = METHODS.make(name, goals, **options)
-        return run(belief, Resolver(steps_of(belief, StepTable(goals.task)), goals), words, name)
+        resolver = Resolver(steps_of(belief, StepTable(goals.task)), goals)
+        return _run_per_human(humans_in(goals.problem), goals_per, words, name,
+                              lambda human: (belief, resolver))  # fmt: skip
     bank = bank_or_goals if isinstance(bank_or_goals, Bank) else _bank_of(bank_or_goals)
-    belief = METHODS.make(name, bank, **options)
-    inference = run(belief, Resolver(steps_of(belief, bank.table), bank.goals), words, name)
+
+    def of_human(human: str | None) -> tuple[Belief[Any], Resolver]:
+        own = bank if human is None else bank.for_human(human)
+        belief = METHODS.make(name, own, **options)
+        return belief, Resolver(steps_of(belief, bank.table), bank.goals)
+
+    inference = _run_per_human(bank.humans, goals_per, words, name, of_human)
     notes = filter(None, [bank.note, inference.note])
     return replace(inference, note="; ".join(notes) or None)
+
+
+def _run_per_human(
+    humans: Sequence[str], goals_per: str, words: Sequence[ObservedWords], method: str,
+    make: Callable[[str | None], tuple[Belief[Any], Resolver]],
+) -> Inference:  # fmt: skip
+    """Return what is inferred of all humans together, or of each by itself."""
+    if goals_per == TEAM or len(humans) < 2:
+        return run(*make(None), words, method)
+    each = {human: run(*make(human), words, method, human) for human in humans}
+    parts = list(each.values())
+    chances = [part.changed for part in parts if part.changed is not None]
+    ignored = {one.at: one for part in parts for one in part.ignored}
+    return replace(
+        parts[0],
+        posterior=tuple(
+            tuple(map(fmean, zip(*rows, strict=True)))
+            for rows in zip(*(part.posterior for part in parts), strict=True)
+        ),
+        changes=tuple(sorted((c for part in parts for c in part.changes), key=lambda c: c.at)),
+        ignored=tuple(ignored[at] for at in sorted(ignored)),
+        changed=1 - math.prod(1 - chance for chance in chances) if chances else None,
+        humans=each,
+    )
 
 
 def _path_of(actions: Observations | Bank | Goals) -> str | None:
@@ -204,15 +252,23 @@ class _HasTable(Protocol):
 
 
 def run(
-    belief: Belief[S], resolver: Resolver, observations: Sequence[ObservedWords], method: str
-) -> Inference:
-    """Return the posterior of a belief after each of several observed actions."""
+    belief: Belief[S], resolver: Resolver, observations: Sequence[ObservedWords], method: str,
+    human: str | None = None,
+) -> Inference:  # fmt: skip
+    """Return the posterior of a belief after each of several observed actions.
+
+    Args:
+        belief: The belief.
+        resolver: Finds the step that an action names.
+        observations: The actions.
+        method: The name of the method.
+        human: The only human whose actions are evidence; by default those of all humans are.
+    """
     states = [belief.start()]
     ignored: list[Ignored] = []
     for at, words in enumerate(observations):
-        state = _observe(belief, resolver, states[-1], words)
-        reason = state if isinstance(state, str) else state.ignored
-        states.append(states[-1] if isinstance(state, str) else state)
+        state, reason = _observe(belief, resolver, states[-1], words, human)
+        states.append(state)
         if reason is not None:
             ignored.append(Ignored(at, f"({' '.join(words)})", reason))
     without_effect = {i.at for i in ignored}
@@ -231,15 +287,25 @@ def run(
     )
 
 
-def _observe(belief: Belief[S], resolver: Resolver, state: S, words: ObservedWords) -> S | str:
-    """Return the belief after one observation, or why it is none."""
+def _observe(
+    belief: Belief[S], resolver: Resolver, state: S, words: ObservedWords, human: str | None
+) -> tuple[S, str | None]:
+    """Return the belief after one observation, and why that had no effect; None if it had one."""
     if isinstance(belief, ObservesFacts):
         test = resolver.find_fact(words)
+        if isinstance(test, str):
+            return state, test
         if test is not None:
-            observed: S | str = test if isinstance(test, str) else belief.observe_fact(state, test)
-            return observed
+            after_fact: S = belief.observe_fact(state, test)
+            return after_fact, after_fact.ignored
     step = resolver.find(words, state.world)
-    return step if isinstance(step, str) else belief.observe(state, step.index, robot=step.robot)
+    if isinstance(step, str):
+        return state, step
+    agent = resolver.agent_in(words)
+    is_others = human is not None and agent != human
+    after = belief.observe(state, step.index, robot=step.robot or is_others)
+    is_unknown = human is not None and agent is None
+    return after, after.ignored or (UNKNOWN_HUMAN if is_unknown else None)
 
 
 def _note(part: Belief[S] | BeliefState) -> str | None:

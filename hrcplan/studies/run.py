@@ -54,8 +54,8 @@ def run_study(
         say: Called with what is going on, where that takes long.
 
     Raises:
-        UsageError: if the study, a table or an option is unknown, the folder holds other rows, or the extra
-            ``studies`` is not installed.
+        UsageError: if the study, a table or an option is unknown, the folder holds other rows, or
+            the extra ``studies`` is not installed.
         InputError: if a file that the study needs is missing or has faults.
     """
     if any(n is not None and n < 1 for n in (runs, jobs, limit)):

@@ -10,6 +10,7 @@ from statistics import fmean
 from hrcplan.episodes.episode import REACHED, STUCK, UNFINISHED, EpisodeRecord, play
 from hrcplan.episodes.humans import Course
 from hrcplan.episodes.measures import changes, guesses, mistakes, n_wasted, waits
+from hrcplan.episodes.own_goals import play_own_goals
 from hrcplan.studies.changed_mind import scenario
 from hrcplan.studies.study import Cell, CellValue, Seed, StudyOptions, StudyRow
 
@@ -50,16 +51,16 @@ def simulate(options: StudyOptions, cell: Cell, seed: Seed) -> StudyRow:
     name, method = map(str, cell)
     task = scenario.task_of(options, name)
     bank = scenario.bank_of(*task)
-    course = scenario.course(name, bank, seed)
-    record = _play(options, name, method, course)
-    n_faultless, n_oracle = _oracles(tuple(options.items()), name, course)
-    names = [bank.names[goal] for goal in course.goals]
+    courses = scenario.courses(name, bank, seed, options)
+    record = _play(options, name, method, courses)
+    n_faultless, n_oracle = _oracles(tuple(options.items()), name, tuple(courses.items()))
+    names = [bank.names[goal] for goal in record.course.goals]
     ending = record.ending if record.is_reachable else UNREACHABLE
     return {
         "first": names[0],
         "second": names[1] if len(names) > 1 else None,
-        "goals": " ".join(names),
-        "turns": " ".join(map(str, course.turns)),
+        "goals": "; ".join(" ".join(bank.names[g] for g in c.goals) for c in courses.values()),
+        "turns": "; ".join(" ".join(map(str, course.turns)) for course in courses.values()),
         "ending": ending,
         **asdict(guesses(record)),
         **asdict(changes(record)),
@@ -75,16 +76,30 @@ def simulate(options: StudyOptions, cell: Cell, seed: Seed) -> StudyRow:
     }
 
 
-def _play(options: StudyOptions, name: str, method: str, course: Course) -> EpisodeRecord:
+def _play(
+    options: StudyOptions, name: str, method: str, courses: Mapping[str, Course]
+) -> EpisodeRecord:
     task = scenario.task_of(options, name)
-    bank, robot = scenario.bank_of(*task), scenario.robot(method, *task)
+    bank, world = scenario.bank_of(*task), scenario.world(options["world"], *task)
+    if scenario.has_own_goals(options, bank):
+        humans = {
+            who: scenario.human(name, bank.for_human(who), course, options)
+            for who, course in courses.items()
+        }
+        helper = scenario.robot_per_human(method, *task)
+        return play_own_goals(bank, humans, helper, courses, world)
+    (course,) = courses.values()
     human = scenario.human(name, bank, course, options)
-    return play(bank, human, robot, course, scenario.world(options["world"], *task))
+    return play(bank, human, scenario.robot(method, *task), course, world)
 
 
 @lru_cache(maxsize=64)
-def _oracles(options: tuple[tuple[str, str], ...], name: str, course: Course) -> tuple[int, int]:
-    """Return what an oracle's episode costs with a faultless human, and with this one."""
-    faultless = replace(course, mistake_rate=0.0, wait_rate=0.0)
-    lengths = {each: _play(dict(options), name, ORACLE, each).cost for each in (faultless, course)}
-    return lengths[faultless], lengths[course]
+def _oracles(
+    options: tuple[tuple[str, str], ...], name: str, courses: tuple[tuple[str, Course], ...]
+) -> tuple[int, int]:
+    """Return what an oracle's episode costs with faultless humans, and with these."""
+    faultless = {who: replace(c, mistake_rate=0.0, wait_rate=0.0) for who, c in courses}
+    cost = _play(dict(options), name, ORACLE, faultless).cost
+    if faultless == dict(courses):
+        return cost, cost
+    return cost, _play(dict(options), name, ORACLE, dict(courses)).cost

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import random
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from fractions import Fraction
 from functools import lru_cache
 from itertools import permutations
@@ -12,6 +13,7 @@ from typing import Any
 
 from hrcplan.assistance import ASSISTANTS, Assistant
 from hrcplan.assistance.assistant import needs_training
+from hrcplan.assistance.per_human import PerHuman
 from hrcplan.assistance.waiting import may_wait
 from hrcplan.bank import Bank, BuildOptions, Goals, build, read_goals
 from hrcplan.bank.bank import OPTIMAL
@@ -19,6 +21,7 @@ from hrcplan.bank.cache import cached_bank
 from hrcplan.core.text import nearest
 from hrcplan.episodes.episode import TurnWorld
 from hrcplan.episodes.humans import HUMANS, Course, EpisodeHuman
+from hrcplan.episodes.own_goals import own_lengths
 from hrcplan.episodes.worlds import WORLDS
 from hrcplan.errors import UsageError
 from hrcplan.inference.belief import Belief
@@ -26,6 +29,7 @@ from hrcplan.inference.classifier.forest import ForestBelief
 from hrcplan.inference.classifier.training import training_time
 from hrcplan.inference.recursive import LIKELIHOODS
 from hrcplan.inference.registry import METHODS
+from hrcplan.inference.run import GOALS_PER, HUMAN
 from hrcplan.pddl.conventions import people, robots
 from hrcplan.studies.scenario import Scenario
 from hrcplan.studies.study import Cell, Say, Seed, StudyOptions
@@ -106,6 +110,8 @@ def check(options: StudyOptions) -> None:
                 message, code = f"there is no {parts.kind} '{name}'", f"unknown-{parts.kind}"
                 raise UsageError(message, code=code, hint=hint)
             parts.find(name)
+    if options["goals_per"] not in GOALS_PER:
+        raise UsageError(f"goals are per {' or '.join(GOALS_PER)}, not '{options['goals_per']}'")
     HUMANS.find(options["chooser"])
     WORLDS.find(options["world"])
 
@@ -163,6 +169,11 @@ def human_data(name: str) -> Mapping[str, Any]:
     return table
 
 
+def has_own_goals(options: StudyOptions, bank: Bank) -> bool:
+    """Return whether there are several humans, each of whom has a goal of its own."""
+    return options["goals_per"] == HUMAN and len(bank.humans) > 1
+
+
 def human(name: str, bank: Bank, course: Course, options: StudyOptions) -> EpisodeHuman:
     """Return a human who follows a course."""
     chooser = HUMANS.find(human_data(name).get("chooser", options["chooser"]))
@@ -173,16 +184,30 @@ def human(name: str, bank: Bank, course: Course, options: StudyOptions) -> Episo
 @lru_cache(maxsize=32)
 def robot(name: str, domain: str, goals: str, *multiples: str) -> Assistant[Any]:
     """Return an assistant: one of the study's methods, or a part of that name."""
-    options = dict(data()["methods"].get(name, {}))
     bank = bank_of(domain, goals, *multiples)
+    return _robot(name, bank, lambda other: robot(other, domain, goals, *multiples))
+
+
+@lru_cache(maxsize=32)
+def robot_per_human(name: str, domain: str, goals: str, *multiples: str) -> PerHuman[Any]:
+    """Return the helper of several humans with goals of their own, by the belief of a method."""
+    bank = bank_of(domain, goals, *multiples)
+    return PerHuman(bank, lambda view: _robot(name, view))
+
+
+def _robot(
+    name: str, bank: Bank, other: Callable[[str], Assistant[Any]] | None = None
+) -> Assistant[Any]:
+    """Return an assistant; ``other`` returns the method whose belief it has."""
+    options = dict(data()["methods"].get(name, {}))
     kind, waits = ASSISTANTS.find(options.pop("part", name)), options.pop("waits", False)
     belief = options.get("belief")
     if isinstance(belief, dict):
         options["belief"] = _belief(bank, **belief)
     elif isinstance(belief, str) and belief in METHODS.built_in:
         options["belief"] = METHODS.find(belief)(bank)
-    elif belief in data()["methods"]:
-        options["belief"] = robot(belief, domain, goals, *multiples)
+    elif isinstance(belief, str) and belief in data()["methods"]:
+        options["belief"] = other(belief) if other else _robot(belief, bank)
     assistant = kind(bank, **options)
     return may_wait(assistant) if waits else assistant
 
@@ -240,6 +265,9 @@ def inputs(options: StudyOptions) -> str:
         bank_of(*task).goals if task[1] == options["goals"] else goals_of(*task[:2])
         for task in tasks
     ]
+    for bank in (bank_of(*task) for task in tasks if options["goals_per"] == HUMAN):
+        for who in bank.humans if has_own_goals(options, bank) else ():
+            _own_lengths(bank, who)
     texts = [text for one in goals for text in (*one.names, *map(str, one.formulas))]
     texts.append(f"rows of format {ROW_FORMAT}")
     keys = ("study", "humans", "methods", "tables")
@@ -276,6 +304,49 @@ def course(name: str, bank: Bank, seed: Seed) -> Course:
             turns.append(turns[-1] + chance.randint(1, max(1, length // SPREAD)))
     rates = table.get("mistake_rate", 0.0), table.get("wait_rate", 0.0)
     return Course(tuple(goals), tuple(turns), *rates, seed=str(seed))
+
+
+def courses(name: str, bank: Bank, seed: Seed, options: StudyOptions) -> dict[str, Course]:
+    """Return the course of each human who has goals of its own, or that of all humans."""
+    if has_own_goals(options, bank):
+        return own_courses(name, bank, seed)
+    return {"": course(name, bank, seed)}
+
+
+def own_courses(name: str, bank: Bank, seed: Seed) -> dict[str, Course]:
+    """Return what each human wants and when, drawn from the goals that it can reach itself.
+
+    The robots help it, the other humans do not. Changes come as in ``course``.
+    """
+    table, courses = human_data(name), dict[str, Course]()
+    for who in bank.humans:
+        chance, lengths = random.Random(f"{seed}/{who}/course"), _own_lengths(bank, who)
+        can = list(lengths)
+        goals, turns = [chance.choice(can)], list[int]()
+        for number in range(table["changes"]):
+            rounds = int(lengths[goals[-1]]) // (len(bank.team) or 2)
+            most = (rounds - 1) // 2 if number == 0 else rounds // SPREAD
+            goals.append(chance.choice([goal for goal in can if goal != goals[-1]]))
+            turns.append((turns[-1] if turns else 0) + chance.randint(1, max(1, most)))
+        rates = table.get("mistake_rate", 0.0), table.get("wait_rate", 0.0)
+        courses[who] = Course(tuple(goals), tuple(turns), *rates, seed=f"{seed}/{who}")
+    return courses
+
+
+@lru_cache(maxsize=16)
+def _own_lengths(bank: Bank, human: str) -> dict[int, float]:
+    """Return the timesteps to each goal that a human can reach without the other humans.
+
+    Raises:
+        UsageError: if there are fewer than two.
+    """
+    lengths = enumerate(own_lengths(bank.for_human(human)))
+    can = {goal: length for goal, length in lengths if 0 < length < math.inf}
+    if len(can) < 2:
+        message = f"{human} can reach fewer than two goals without the other humans"
+        hint = "let the humans share their goals: --goals-per team"
+        raise UsageError(message, code="too-few-goals", hint=hint)
+    return can
 
 
 @lru_cache(maxsize=8)
