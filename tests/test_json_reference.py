@@ -9,8 +9,10 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
+from hrcplan.bank.store import save
 from hrcplan.cli.main import main
 from tests import schema
+from tests.episodes.test_own_goals import TWO, lamps
 
 ROOT = Path(__file__).resolve().parent.parent
 SECTIONS = schema.sections("json.md")
@@ -54,7 +56,10 @@ COMMANDS = {
     "bank show --htn": [["bank", "show", "{w}/k.bank", "--htn", "parfait-fruit"]],
     "bank sample": [["bank", "sample", "{w}/k.bank", "parfait-fruit", "-n", "2"]],
     "bank verify": [["bank", "verify", "{w}/k.bank"]],
-    "infer": [["infer", "{w}/k.bank", "{w}/seen.txt"]],
+    "infer": [
+        ["infer", "{w}/k.bank", "{w}/seen.txt"],
+        ["infer", "{w}/lamps.bank", "{w}/lamps.txt", "--goals-per", "human"],
+    ],
     "study run": [
         ["study", "run", "changed-mind", "--goals", "{w}/goals", "--method", "hrcplan",
          "--limit", "4", "-o", "{w}/rows"],
@@ -97,6 +102,8 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (work / "close.plan").write_text(CLOSE)
     (work / "cut.plan").write_text("0: (move human wp1 wp4) [50")
     (work / "goals").mkdir()
+    save(lamps(*TWO), work / "lamps.bank")
+    (work / "lamps.txt").write_text("(light ann a)\n(go bob c b)\n")
     for name in ("parfait-fruit", "parfait-nut", "smoothie-berry"):
         text = (ROOT / "problems" / "kitchen" / f"{name}.pddl").read_text("utf-8")
         (work / "goals" / f"{name}.pddl").write_text(text)

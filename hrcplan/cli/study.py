@@ -3,19 +3,13 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
-from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import rich_click as click
 
 from hrcplan.cli import options, output, play, trials
-
-if TYPE_CHECKING:
-    from types import TracebackType
-
-    from rich.console import Console
+from hrcplan.cli.study_progress import study_progress
 
 
 @click.group("study", context_settings={"help_option_names": ["-h", "--help"]})
@@ -146,7 +140,7 @@ def run(
     from hrcplan.studies import run_study
 
     choices |= {"methods": ",".join(methods) or None, "humans": ",".join(humans) or None}
-    with _bar() as progress:
+    with study_progress() as progress:
         n_new = run_study(
             name, folder, runs=runs, seed=seed, jobs=jobs, limit=limit, options=choices,
             tables=tables, progress=progress, say=output.note,
@@ -203,37 +197,3 @@ def _mean(mean: float | None, se: float | None) -> str:
     if mean is None:
         return "-"
     return f"{mean:.2f}" if se is None else f"{mean:.2f} ± {se:.2f}"
-
-
-def _bar() -> AbstractContextManager[Callable[[int, int], None] | None]:
-    """Return a progress bar on stderr, or nothing where stderr is no terminal."""
-    from rich.console import Console
-
-    console = Console(stderr=True)
-    return _Bar(console) if console.is_terminal else nullcontext()
-
-
-class _Bar:
-    """A progress bar that is made when the first rows come in."""
-
-    def __init__(self, console: Console) -> None:
-        from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
-
-        self._progress = Progress(BarColumn(), MofNCompleteColumn(), TimeRemainingColumn(),
-                                  console=console, transient=True)  # fmt: skip
-        self._task: Any = None
-
-    def __enter__(self) -> Callable[[int, int], None]:
-        self._progress.start()
-        return self._show
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:  # fmt: skip
-        self._progress.stop()
-
-    def _show(self, n_done: int, n_all: int) -> None:
-        if self._task is None:
-            self._task = self._progress.add_task("", total=n_all)
-        self._progress.update(self._task, completed=n_done)

@@ -118,7 +118,8 @@ class Inference:
 
     def as_json(self) -> dict[str, Any]:
         """Return the JSON document of ``hrcplan infer``."""
-        humans = {name: one.as_json() for name, one in self.humans.items()}
+        keys = ("posterior", "changed", "changes")
+        humans = {who: one.as_json() for who, one in self.humans.items()}
         return {
             "goals": list(self.goals),
             "posterior": [list(row) for row in self.posterior],
@@ -127,7 +128,7 @@ class Inference:
             "ignored": [{"at": i.at, "action": i.action, "reason": i.reason} for i in self.ignored],
             "method": self.method,
             "note": self.note,
-            **({"humans": humans} if humans else {}),
+            "humans": {who: {key: one[key] for key in keys} for who, one in humans.items()},
         }
 
     def _change(self, change: GoalChange) -> dict[str, Any]:

@@ -17,6 +17,18 @@ _VERDICTS = {
     FAILS: ("no", "does not hold"),
     TOO_FEW: ("few", "too few runs to tell"),
 }
+GUIDE = "How to read these figures"
+WORDS = {
+    "cell": "All runs of one row and column; <em>n</em> is their number.",
+    "paired": "Run 17 meets the same human in every cell, so differences are taken run by run.",
+    "±": "One standard error of a mean. Values that share a goal are not taken as independent.",
+    "interval": "95 %, by Student's t.",
+    "verdict": "A claim <em>holds</em> if the intervals it is about lie within its bounds, and "
+    "<em>does not hold</em> if one lies wholly outside; else there are <em>too few runs to "
+    "tell</em>.",
+    "margin": "<em>Non-inferior by a margin</em>: the whole interval is better than the margin.",
+    "cap": "What an episode costs that did not reach its goal, however short it was.",
+}
 _INTERVAL = re.compile(
     r"± [\d.]+(?:</span><small>[\u2212\d.]+ to [\u2212\d.]+)?|\d\.\d\d to \u2212?\d+\.\d\d"
 )
@@ -24,7 +36,7 @@ _INTERVAL = re.compile(
 
 def html(title: str, about: Mapping[str, Any], n_rows: int, findings: Findings) -> str:
     """Return the page of a study."""
-    parts = [*_claims(findings.claims), *findings.sections]
+    parts = [*_claims(findings.claims), *findings.sections, _guide()]
     sections = "\n".join(
         f'<section id="{anchor(s.title)}">\n<h2>{escape(s.title)}</h2>\n{s.html}\n</section>'
         for s in parts
@@ -46,6 +58,7 @@ def html(title: str, about: Mapping[str, Any], n_rows: int, findings: Findings) 
 <p class="lead">{findings.lead}</p>
 <p class="facts">{_facts(about, n_rows)}</p>
 <p class="facts">{_multiplicity(sections)}</p>
+<p class="facts"><a href="#{anchor(GUIDE)}">{GUIDE}</a></p>
 <nav>{contents}</nav>
 </header>
 <main>
@@ -54,6 +67,16 @@ def html(title: str, about: Mapping[str, Any], n_rows: int, findings: Findings) 
 </body>
 </html>
 """
+
+
+def _guide() -> Section:
+    """Return the section that says what the words of the page mean."""
+    lines = "".join(f"<dt>{word}</dt><dd>{meaning}</dd>" for word, meaning in WORDS.items())
+    more = (
+        "<p>More, and what was chosen on what: the page <em>How to read these figures</em> of the "
+        "documentation (<code>docs/papers/reading-figures.md</code>).</p>"
+    )
+    return Section(GUIDE, f"<dl>{lines}</dl>{more}")
 
 
 def _facts(about: Mapping[str, Any], n_rows: int) -> str:
@@ -92,9 +115,9 @@ def _claim(claim: Claim) -> str:
 def readings(subjects: str) -> Section:
     """Return the section that says where readings of a paper are explained."""
     words = (
-        f"<p>Where the paper is silent a reading was chosen: {subjects}. The document "
-        "<code>reproduce</code> lists all of them with their reasons. A claim that lacks rows is "
-        "not stated. Every number but measured times can be computed again from "
+        f"<p>Where the paper is silent a reading was chosen: {subjects}. The page of the paper in "
+        "the documentation lists all of them with their reasons. A claim that lacks rows is not "
+        "stated. Every number but measured times can be computed again from "
         "<code>rows.sqlite</code>, which has one row per episode.</p>"
     )
     return Section("Readings", words)

@@ -14,7 +14,15 @@ from hrcplan.errors import InputError, UsageError
 from hrcplan.studies import page
 from hrcplan.studies.estimate import MeanEstimate, estimate, estimate_by
 from hrcplan.studies.store import FILE, Store
-from hrcplan.studies.study import STUDIES, Cell, Findings, Study, StudyOptions, StudyRow
+from hrcplan.studies.study import (
+    STUDIES,
+    Cell,
+    Findings,
+    Study,
+    StudyOptions,
+    StudyRow,
+    StudyTable,
+)
 
 JSON_FILE, PAGE_FILE = "report.json", "report.html"
 
@@ -78,6 +86,11 @@ def report_document(
         "study": study.name,
         "n_rows": len(rows[main.name]),
         "rows": [_summary(study, cell, summary) for cell, summary in by_cell.items() if summary],
+        "tables": {
+            t.name: cells
+            for t in study.tables[1:]
+            if (cells := _cells(study, t, options, rows[t.name]))
+        },
         "claims": [
             {"claim": c.claim, "verdict": c.verdict, "holds": c.holds, "evidence": c.evidence}
             for c in findings.claims
@@ -131,6 +144,32 @@ def _summary(study: Study, cell: Cell, rows: Sequence[StudyRow]) -> dict[str, An
         "measures": _figures(estimates(rows, study.measures, study.unit)),
         "details": _figures(estimates(rows, study.details, study.unit)),
     }
+
+
+def _cells(
+    study: Study, table: StudyTable, options: StudyOptions, rows: Sequence[StudyRow]
+) -> list[dict[str, Any]]:
+    """Return the cells of a further table: those that have rows, with the measures they have."""
+    names = (*study.measures, *study.details)
+    cells = cells_of(rows, table.keys, table.cells(options) if rows else ())
+    return [
+        {
+            "cell": dict(zip(table.keys, cell, strict=True)),
+            "n": len(own),
+            "measures": {
+                name: figures
+                for name, figures in _figures(estimates(own, names, _unit(study, own))).items()
+                if figures["mean"] is not None
+            },
+        }
+        for cell, own in cells.items()
+        if own
+    ]
+
+
+def _unit(study: Study, rows: Sequence[StudyRow]) -> tuple[str, ...]:
+    """Return the columns that name what counts once, where rows have them."""
+    return study.unit if all(name in rows[0] for name in study.unit) else ()
 
 
 def _figures(by_name: dict[str, MeanEstimate]) -> dict[str, dict[str, float | None]]:
