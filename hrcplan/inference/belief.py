@@ -280,7 +280,7 @@ def after_others_attempt(belief: Belief[S], state: S, step: int) -> S:
     progress = _progress_in(belief, state)
     if progress is None:
         return state
-    return _with_progress(state, progress[0].attempt(progress[1], step))
+    return with_progress(state, progress[0].attempt(progress[1], step))
 
 
 def at_turn(belief: Belief[S], state: S, agent: str) -> S:
