@@ -22,7 +22,7 @@ WINDOW_S = 120.0
 """The rate of the last seconds tells the time left: tables differ in how long episodes take."""
 
 
-class ProgressLog:
+class EpisodeLog:
     """Writes a line now and then: how many episodes are done, and how long the rest will take.
 
     Args:
@@ -73,7 +73,7 @@ def study_progress() -> AbstractContextManager[Callable[[int, int], None]]:
     from rich.console import Console
 
     console = Console(stderr=True)
-    return _Bar(console) if console.is_terminal else nullcontext(ProgressLog(output.note))
+    return _Bar(console) if console.is_terminal else nullcontext(EpisodeLog(output.note))
 
 
 class _Bar:
