@@ -231,8 +231,8 @@ def _allocation_table(rows: list[Allocation], agents: Sequence[str]) -> str:
 
 
 def _print_htn(bank: Bank, goal: str) -> None:
+    from hrcplan.bank import htn_view as view
     from hrcplan.bank.htn import decompose
-    from hrcplan.cli import htn as view
 
     graph = bank.graphs[bank.goal_index(goal)]
     htn = decompose(graph)

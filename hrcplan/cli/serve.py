@@ -17,6 +17,7 @@ from hrcplan.core.extras import require
         "ADDRESS: only this machine can open the page, unless you name another one here.",
     ),
 )
+@click.argument("files", nargs=-1, type=click.Path(path_type=Path), metavar="[FILE]...")
 @click.option("--port", type=click.IntRange(1, 65535), metavar="N",
               help="The port; by default 8765, or a free one.")  # fmt: skip
 @click.option("--host", default="127.0.0.1", show_default=True, metavar="ADDRESS",
@@ -27,15 +28,22 @@ from hrcplan.core.extras import require
 @click.option("--study", type=click.Path(path_type=Path), metavar="FILE",
               help="Also run a study with participants; FILE says which.")  # fmt: skip
 @output.common_options
-def command(port: int | None, host: str, folder: Path, study: Path | None) -> int:
-    """Serve a page in which you work together with a robot. Ctrl-C ends it."""
+def command(
+    files: tuple[Path, ...], port: int | None, host: str, folder: Path, study: Path | None
+) -> int:
+    """Serve a page in which you work together with a robot. Ctrl-C ends it.
+
+    Each FILE can be looked at there: a journal, a plan, a bank, the folder of a study, or a folder
+    of such files.
+    """
     require_web()
+    from hrcplan.web.looks import look_files
     from hrcplan.web.server import PageService, ServerOptions
     from hrcplan.web.trials.study_file import read_study_file
 
     output.LINES = output.JSON
     trial_study = None if study is None else read_study_file(study)
-    with PageService(ServerOptions(folder, host, port, trial_study)) as service:
+    with PageService(ServerOptions(folder, host, port, trial_study, look_files(files))) as service:
         if output.JSON:
             output.document({"url": service.link, "folder": str(folder),
                              "participants": service.invitation})  # fmt: skip

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Sequence
 from html import escape
 from urllib.parse import quote
 
@@ -14,6 +15,7 @@ from starlette.routing import Route
 from hrcplan.errors import HrcplanError, UsageError
 from hrcplan.web.frontend import FRONTEND
 from hrcplan.web.live_session import LiveSession
+from hrcplan.web.looks import STUDY, LookFile, look_page
 from hrcplan.web.pages import card, document, home_page, live_page
 from hrcplan.web.requests import Handler, document_of, form_of, reply_of
 from hrcplan.web.safety import AccessRules, Guard, RateLimit, RefusalError
@@ -22,6 +24,10 @@ from hrcplan.web.streams import Streams
 from hrcplan.web.trials.trial_routes import TrialRoutes
 from hrcplan.web.worlds import offers
 
+REPORT_POLICY = (
+    "default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; "
+    "form-action 'none'; frame-ancestors 'none'"
+)
 MAX_STREAMS = 8  # sessions that one page follows
 _STATUS = {"stale": 409, "over": 409, "too-many": 429, "not-found": 404, "slow": 504,
            "study-full": 409}  # fmt: skip
@@ -35,13 +41,15 @@ class PageApp:
         streams: Send pages what is new.
         rules: Who may ask.
         trials: The addresses of participants, if there is a study.
+        files: Files to look at.
     """
 
     def __init__(
         self, sessions: Sessions, streams: Streams, rules: AccessRules,
-        trials: TrialRoutes | None = None,
+        trials: TrialRoutes | None = None, files: Sequence[LookFile] = (),
     ) -> None:  # fmt: skip
         self.sessions, self.streams, self.rules, self.trials = sessions, streams, rules, trials
+        self.files = files
 
     def asgi(self, limit: RateLimit | None = None) -> Guard:
         """Return the application with its guard."""
@@ -55,6 +63,7 @@ class PageApp:
             Route("/api/sessions/{name}/events", self._answered(self._event), methods=["POST"]),
             Route("/api/sessions/{name}/why", self._answered(self._why)),
             Route("/api/stream", self._answered(self._stream)),
+            Route("/look/{number:int}", self._answered(self._look)),
             *(self.trials.routes(self._answered) if self.trials is not None else ()),
         ]
         return Guard(
@@ -82,7 +91,9 @@ class PageApp:
         token = request.query_params.get("token")
         if token is None:
             rows = await asyncio.to_thread(self.sessions.overview)
-            return HTMLResponse(home_page(await asyncio.to_thread(offers), rows))
+            return HTMLResponse(
+                home_page(await asyncio.to_thread(offers), rows, [f.title for f in self.files])
+            )
         answer = RedirectResponse("/", 303)
         answer.set_cookie(self.rules.cookie, token, httponly=True, samesite="strict")
         return answer
@@ -93,6 +104,17 @@ class PageApp:
             return Response("there is no such file\n", 404)
         kind = "text/css" if name.endswith(".css") else "text/javascript"
         return Response(FRONTEND[name], media_type=kind)
+
+    async def _look(self, request: Request) -> Response:
+        number = request.path_params["number"]
+        if number >= len(self.files):
+            raise UsageError("there is no such file", code="not-found")
+        file = self.files[number]
+        page = await asyncio.to_thread(look_page, file, request.query_params.get("goal"))
+        answer = HTMLResponse(page)
+        if file.kind == STUDY:  # one file with its own style and pictures, and no script
+            answer.headers["Content-Security-Policy"] = REPORT_POLICY
+        return answer
 
     # Sessions.
 

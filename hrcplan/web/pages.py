@@ -52,8 +52,11 @@ def select(name: str, choices: Mapping[str, str]) -> str:
     return f'<label>{escape(name)}<select name="{escape(name)}">{options}</select></label>'
 
 
-def home_page(worlds: Sequence[Mapping[str, str]], sessions: Sequence[Mapping[str, Any]]) -> str:
-    """Return the first page: begin a collaboration, or go on with one."""
+def home_page(
+    worlds: Sequence[Mapping[str, str]], sessions: Sequence[Mapping[str, Any]],
+    files: Sequence[str] = (),
+) -> str:  # fmt: skip
+    """Return the first page: begin a collaboration, go on with one, or look at a file."""
     by_world = {f"{w['domain']} {w['goals']}": _world_text(w) for w in worlds}
     begin = (
         '<p class="soft">It does not know your goal, infers it from what you do, and helps; you '
@@ -66,6 +69,9 @@ def home_page(worlds: Sequence[Mapping[str, str]], sessions: Sequence[Mapping[st
         '<div><button class="main">begin</button></div></form>'
     )
     cards = card("Work together with a robot", begin) + card("Collaborations", _rows(sessions))
+    if files:
+        links = (f'<li><a href="/look/{n}">{escape(f)}</a></li>' for n, f in enumerate(files))
+        cards += card("Files", f"<ul>{''.join(links)}</ul>")
     return document("hrcplan", f'<main><h1>hrcplan</h1><div class="cards">{cards}</div></main>')
 
 

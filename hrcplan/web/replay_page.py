@@ -31,13 +31,22 @@ def replay_page(journal: Journal) -> str:
     Raises:
         InputError: if the journal has no beginning, or an event of it makes no sense.
     """
-    head, story = _told(journal)
-    title = f"{head['domain']}: {journal.path.name}"
-    run = {"head": head, "entries": story.entries, "title": title}
-    return one_file(title, run)
+    run = run_of(journal)
+    title = f"{run['head']['domain']}: {journal.path.name}"
+    return one_file(title, {**run, "title": title})
 
 
-def _told(journal: Journal) -> tuple[dict[str, Any], Story]:
+def run_of(journal: Journal) -> dict[str, Any]:
+    """Return head and entries of a journal, for the page of a run.
+
+    Raises:
+        InputError: if the journal has no beginning, or an event of it makes no sense.
+    """
+    head, story = _head_and_story(journal)
+    return {"head": head, "entries": story.entries}
+
+
+def _head_and_story(journal: Journal) -> tuple[dict[str, Any], Story]:
     """Return what a page has to know of a run, and the run's story."""
     if is_collaboration(journal):
         setup = setup_of(journal)

@@ -6,6 +6,7 @@ import os
 import secrets
 import socket
 import threading
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import FrameType, TracebackType
@@ -17,6 +18,7 @@ from hrcplan.errors import UsageError
 from hrcplan.web.app import PageApp
 from hrcplan.web.banks import Banks
 from hrcplan.web.board import Board
+from hrcplan.web.looks import LookFile
 from hrcplan.web.safety import AccessRules
 from hrcplan.web.sessions import Sessions
 from hrcplan.web.streams import Streams
@@ -39,12 +41,14 @@ class ServerOptions:
         host: The address to listen at.
         port: The port; None for the usual one, or a free one if that is taken.
         study: A study with participants.
+        files: Files to look at.
     """
 
     folder: Path
     host: str = LOOPBACK
     port: int | None = None
     study: TrialStudy | None = None
+    files: Sequence[LookFile] = ()
 
 
 class PageServer(uvicorn.Server):
@@ -133,7 +137,7 @@ class PageService:
     def _config(self) -> uvicorn.Config:
         streams = Streams(self.board)
         trials = None if self.desk is None else TrialRoutes(self.desk, streams)
-        app = PageApp(self.sessions, streams, self.rules, trials).asgi()
+        app = PageApp(self.sessions, streams, self.rules, trials, self.options.files).asgi()
         return uvicorn.Config(
             app, log_level="critical", access_log=False, server_header=False, ws="none",
             timeout_graceful_shutdown=1, h11_max_incomplete_event_size=_HEADER_BYTES,

@@ -104,7 +104,7 @@ def test_the_view_of_what_is_no_partial_order(capsys, tmp_path, monkeypatch):
 
 
 def test_the_words_of_the_view():
-    from hrcplan.cli import htn as view
+    from hrcplan.bank import htn_view as view
 
     assert view._counts_text(3, 3, True) == "all of them"
     assert view._counts_text(1, 4, True) == "1 of them (25.00%)"

@@ -113,7 +113,11 @@ class TrialDesk:
         }
 
     def trial_session(self, person: Participant) -> LiveSession:
-        """Return the session of the trial that goes on, which begins if it has not yet."""
+        """Return the session of the trial that goes on, which begins if it has not yet.
+
+        Raises:
+            UsageError: if its data are gone, or too many sessions go on.
+        """
         if person.session is not None:
             session = self.sessions.get(person.session)
             if session is None:
