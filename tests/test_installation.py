@@ -2,6 +2,7 @@
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -25,13 +26,25 @@ def run(*command: str | Path, cwd: Path) -> str:
     return done.stdout
 
 
-@pytest.fixture(scope="module")
-def environment(tmp_path_factory: pytest.TempPathFactory) -> Path:
+def works(python: str) -> bool:
+    if shutil.which(python) is None:
+        return False
+    version = subprocess.run([python, "-c", "import venv, ensurepip"], check=False)
+    return version.returncode == 0
+
+
+# The interpreter of the tests, and those of other versions that this machine has.
+OTHERS = [f"python3.{minor}" for minor in (11, 12, 13) if minor != sys.version_info.minor]
+PYTHONS = [sys.executable, *filter(works, OTHERS)]
+
+
+@pytest.fixture(scope="module", params=PYTHONS)
+def environment(tmp_path_factory: pytest.TempPathFactory, request: pytest.FixtureRequest) -> Path:
     """An environment that holds the wheel and what it depends on."""
     folder = tmp_path_factory.mktemp("installation")
     code = "import sys, hatchling.build; print(hatchling.build.build_wheel(sys.argv[1]))"
     wheel = run(sys.executable, "-c", code, str(folder), cwd=ROOT).split()[-1]
-    run(sys.executable, "-m", "venv", folder / "env", cwd=folder)
+    run(request.param, "-m", "venv", folder / "env", cwd=folder)
     python = folder / "env" / "bin" / "python"
     pins = ROOT / "constraints.txt"
     run(python, "-m", "pip", "install", "-q", "-c", pins, folder / wheel, cwd=folder)

@@ -1,8 +1,10 @@
 """The wheel carries the PDDL, and an editable installation does not: there the checkout counts."""
 
+import re
 import shutil
 import subprocess
 import sys
+import tarfile
 import tomllib
 import zipfile
 from pathlib import Path
@@ -49,6 +51,36 @@ def test_wheel_carries_code_types_and_pddl(checkout: Path, tmp_path: Path) -> No
     assert shipped == pddl_files() != set()
     tops = {name.partition("/")[0] for name in names if ".dist-info/" not in name}
     assert tops == {"hrcplan"}
+
+
+def test_metadata_has_no_relative_links(checkout: Path, tmp_path: Path) -> None:
+    built(checkout, "build_wheel", tmp_path)
+    (wheel,) = tmp_path.glob("*.whl")
+    with zipfile.ZipFile(wheel) as file:
+        (name,) = (name for name in file.namelist() if name.endswith(".dist-info/METADATA"))
+        metadata = file.read(name).decode()
+    links = re.findall(r"\]\(([^)\s]+)", metadata)
+    assert len(links) > 10
+    assert not [link for link in links if not link.startswith(("https://", "#"))]
+    assert "main/docs/images/two-boxes.svg" in metadata
+
+
+def test_archives_hold_what_they_should_and_pass_twine(checkout: Path, tmp_path: Path) -> None:
+    built(checkout, "build_wheel", tmp_path)
+    code = "import sys, hatchling.build; print(hatchling.build.build_sdist(sys.argv[1]))"
+    command = [sys.executable, "-c", code, str(tmp_path)]
+    subprocess.run(command, cwd=checkout, capture_output=True, check=True)
+    (sdist,) = tmp_path.glob("*.tar.gz")
+    with tarfile.open(sdist) as file:
+        names = {name.partition("/")[2] for name in file.getnames()}
+    assert {"pyproject.toml", "README.md", "LICENSE", "domains/kitchen.pddl"} <= names
+    assert not [name for name in names if name.startswith((".ci", ".venv", ".github"))]
+    archives = [str(sdist), *map(str, tmp_path.glob("*.whl"))]
+    done = subprocess.run(
+        [sys.executable, "-m", "twine", "check", "--strict", *archives],
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stdout
 
 
 def test_editable_installation_holds_no_copies(checkout: Path, tmp_path: Path) -> None:
