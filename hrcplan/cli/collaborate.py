@@ -48,7 +48,7 @@ EXIT_NO = 1
 )
 @click.option("--pace", default="turns", show_default=True, metavar="PACE",
               help="When agents begin: turns or free.")  # fmt: skip
-@click.option("--method", default="hrcplan", show_default=True, metavar="METHOD",
+@click.option("--method", default="joint", show_default=True, metavar="METHOD",
               help="Which robot helps.")  # fmt: skip
 @click.option(
     "--robot", metavar="LINK",
