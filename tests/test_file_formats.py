@@ -57,6 +57,17 @@ RARE: list[ev.Event | ev.Command] = [
 ]
 
 RARE_IN_COLLABORATIONS = [
+    shared.Chosen(
+        1.0,
+        "get",
+        ("robot", "pan"),
+        (("soup", 1.0),),
+        0,
+        ("soup",),
+        ("soup", "stew"),
+        "get would fail with human (90 %)",
+        0.1,
+    ),
     shared.Begun(0.0, "human", "get", ("human", "milk")),
     shared.Passed(0.0, "human"),
     shared.Said(0.0, "human", "the milk, please"),
