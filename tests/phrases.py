@@ -15,7 +15,7 @@ from hrcplan.reading import Lexicon, Reading, ReadingOutcome, make_lexicon
 from hrcplan.task import Task
 
 FOLDER = Path(__file__).parent / "data" / "phrases"
-TUNE, TEST = "tune", "test"
+TUNE, TEST, LATER = "tune", "test", "later"
 KITCHEN = ("kitchen", "kitchen-recipes", "kitchen-alfred")
 OTHERS = ("transport", "blocks", "household", "werkstatt", "flat", "yard")
 _LENGTH = 60

@@ -1,4 +1,8 @@
-"""Words by which a sentence denies something, in some languages: it then says no step."""
+"""Words that turn what a sentence says, in some languages.
+
+After a negation it says no step. A word such as "away" makes the opposite of many verbs, so it is
+asked about unless it belongs to a name of the domain.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +21,15 @@ _NEGATIONS = {
     "sv": "inte aldrig utan ikke",
     "pl": "nie nigdy bez",
 }
+_REVERSALS = {
+    "en": "off away back rid",
+    "de": "weg zuruck fort",
+    "nl": "weg terug",
+    "sv": "bort tillbaka",
+}
 _ALL = frozenset(word for words in _NEGATIONS.values() for word in words.split())
+REVERSALS = frozenset(word for words in _REVERSALS.values() for word in words.split())
+"""Words that may turn a verb into its opposite, folded."""
 _WORD = re.compile(r"[^\W\d_]+(?:['\u2019][^\W\d_]+)*")
 _INTERJECTION = re.compile(r"\W*[^\W\d_]+\s*[,;:.!]")  # "No, the nuts!" denies what was before
 

@@ -9,7 +9,7 @@ from enum import StrEnum
 
 from hrcplan.reading.lexicon import Lexicon
 from hrcplan.reading.mentions import Mention, Mentions, find_mentions
-from hrcplan.reading.negations import denies
+from hrcplan.reading.negations import REVERSALS, denies
 from hrcplan.reading.tokens import split
 
 MAX_OPTIONS = 4
@@ -153,7 +153,7 @@ class _Scorer:
         """Return whether to do a step without asking: its action is named, and no other object.
 
         Where no object is named, a word that says nothing may be one. Without a word for the
-        action all that is said has to be names of the step.
+        action, or if it is the word for an object, all that is said has to be names of the step.
         """
         if self._rivals(step) or any(self._fits(o, step) for o in self._other_objects(step)):
             return False
@@ -164,9 +164,13 @@ class _Scorer:
         rest = set(range(self.mentions.n)) - self._explained(step) - self.mentions.other
         if any(m.share >= _HINT and rest.issuperset(m.at) for m in self.hints):
             return False
+        if any(self.tokens[i] in REVERSALS for i in rest):
+            return False
         unread = [len(self.tokens[i]) for i in rest]
-        if action is None:
+        if action is None or self._explained_by_objects(step).issuperset(action.explains):
             return bool(named) and not unread
+        if self.lexicon.slots[step[0]] and not named and self.objects:
+            return False
         is_open = not named and max(unread, default=0) >= _CONTENT
         return action.share >= _SURE and not (is_open and self.lexicon.slots[step[0]])
 

@@ -7,6 +7,7 @@ import pytest
 from hrcplan.reading import read_words
 from tests.phrases import (
     KITCHEN,
+    LATER,
     N_WALKS,
     OTHERS,
     TEST,
@@ -29,6 +30,14 @@ def kitchen() -> list[Trial]:
     scenes = [moment for problem in problems_of("kitchen") for moment in moments(problem, 1)]
     said = [saying for name in KITCHEN for saying in sayings(name, TEST)]
     return list(trials(said, scenes, read_words))
+
+
+@pytest.mark.parametrize("name", ["kitchen-opposites", "kitchen-recipes-later"])
+def test_later_phrases_are_read_right_or_asked_about(name: str) -> None:
+    scenes = [moment for problem in problems_of("kitchen") for moment in moments(problem, 1)]
+    said = list(trials(sayings(name, LATER), scenes, read_words))
+    assert share(trial.is_right for trial in said if trial.can_be_meant) >= 0.92
+    assert share(trial.is_wrong for trial in said) <= 0.01
 
 
 def test_phrases_of_the_kitchen_are_read_right(kitchen: list[Trial]) -> None:
