@@ -28,6 +28,10 @@ FLAGS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 BLOCK = re.compile(r"^```(\w+)(?: title=\"([^\"]+)\")?\n(.*?)^```$", re.DOTALL | re.MULTILINE)
 
 
+PROGRESS = re.compile(r"^(after \d+ s: .*|[\d,]+ .* …)\n", re.MULTILINE)
+"""What a command says while it works: only a slow machine sees it."""
+
+
 def sessions(text: str, folder: Path) -> Iterator[tuple[str, str]]:
     """Write the titled blocks of a document, and yield its commands with what they print."""
     for language, title, block in BLOCK.findall(text):
@@ -42,7 +46,10 @@ def sessions(text: str, folder: Path) -> Iterator[tuple[str, str]]:
 
 
 def run(command: str, folder: Path) -> str:
-    """Return what a command prints, stderr included; hrcplan is this checkout's."""
+    """Return what a command prints, stderr included but for its progress.
+
+    hrcplan is this checkout's.
+    """
     ours = f"{sys.executable} -m hrcplan"
     line = re.sub(r"^(tools/)?hrcplan\b", ours, command)
     path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"  # for words in quotes
@@ -53,7 +60,7 @@ def run(command: str, folder: Path) -> str:
         f"exec 2>&1\n{line}", shell=True, cwd=folder, env=environment, capture_output=True,
         text=True, timeout=120, check=False,
     )  # fmt: skip
-    return done.stdout
+    return PROGRESS.sub("", done.stdout)
 
 
 @pytest.mark.parametrize("document", DOCUMENTS, ids=NAMES.get)
