@@ -9,10 +9,11 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
+from hrcplan.bank import Bank, build_bank
 from hrcplan.bank.store import save
 from hrcplan.cli.main import main
 from tests import schema
-from tests.episodes.test_own_goals import TWO, lamps
+from tests.episodes.test_own_goals import GOALS, LAMPS, ROOMS, TWO
 
 ROOT = Path(__file__).resolve().parent.parent
 SECTIONS = schema.sections("json.md")
@@ -92,6 +93,16 @@ SESSIONS = {
 NESTED = {"bank show --htn": r"(\.tree)(?:\.(?:chain|clique)\[\])+"}
 
 
+def two_humans(folder: Path) -> Bank:
+    """Return the bank of a few goals of two humans, out of files in a folder."""
+    (folder / "goals").mkdir(parents=True)
+    (folder / "domain.pddl").write_text(LAMPS)
+    rooms = ROOMS.replace("HUMANS", TWO[0]).replace("STATE", TWO[1])
+    for name, goal in GOALS.items():
+        (folder / "goals" / f"{name}.pddl").write_text(rooms.format(name=name, goal=goal))
+    return build_bank(folder / "domain.pddl", folder / "goals")
+
+
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     work = tmp_path_factory.mktemp("json")
@@ -102,7 +113,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (work / "close.plan").write_text(CLOSE)
     (work / "cut.plan").write_text("0: (move human wp1 wp4) [50")
     (work / "goals").mkdir()
-    save(lamps(*TWO), work / "lamps.bank")
+    save(two_humans(work / "lamps"), work / "lamps.bank")
     (work / "lamps.txt").write_text("(light ann a)\n(go bob c b)\n")
     for name in ("parfait-fruit", "parfait-nut", "smoothie-berry"):
         text = (ROOT / "problems" / "kitchen" / f"{name}.pddl").read_text("utf-8")

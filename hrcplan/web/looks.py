@@ -142,7 +142,7 @@ def plan_page(file: LookFile) -> str:
 
 
 def _problem_of(text: str, path: Path) -> tuple[Problem, Plan, Report]:
-    """Return the problem that a plan is of: beside it, or among those that are known here.
+    """Return the problem that a plan is of: in its folder, or among those that are known here.
 
     Raises:
         InputError: if there is none.
