@@ -25,6 +25,7 @@ from hrcplan.bank.team_moves import OUT_OF_REACH, Moment, TeamChoices, TeamMoves
 from hrcplan.core.arrays import Floats
 
 NEGLIGIBLE = 1e-3  # the probability of a goal whose costs are not priced
+MOST_ASKED = 4  # the likeliest goals, which a question names
 MOST_TEAM, MOST_STEPS = 3, 12  # the likeliest goals whose costs are priced: a table takes a while
 
 
@@ -211,6 +212,11 @@ class PricedTeam:
         """Return what the best step or wait costs for each goal if that is certain."""
         moment = self._moment(progress, weights)
         costs: Floats = self.moves.choices(progress.world, moment).costs.min(axis=1)
+        if self._priced is not None:  # people do not choose by price, so they may do worse
+            for goal in _likeliest(weights, MOST_ASKED):
+                certain = np.zeros(len(weights))
+                certain[goal] = 1.0
+                costs[goal] = self.help.costs(progress.world, moment, certain).min()
         return costs
 
     def to_go(self, progress: Progress, weights: Floats) -> float:

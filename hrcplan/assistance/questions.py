@@ -6,11 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hrcplan.assistance.priced_help import PricedHelp
+from hrcplan.assistance.priced_help import MOST_ASKED, PricedHelp
 from hrcplan.bank.progress import Progress
 from hrcplan.core.arrays import Floats
 
-MAX_ANSWERS = 4  # besides "something else"
 LEAST = 0.02  # the probability of a goal that is asked about
 ASK_PRICE = 1.0  # steps that a first question costs
 IDLE_SHARE = 0.5  # of the price, where people stand still anyway
@@ -72,7 +71,7 @@ def best_question(
     now, certain = helper.least_cost(progress, weights), helper.least_costs(progress, weights)
     if chance * (now - float(weights @ certain)) <= price:
         return None  # not even worth it if the answer named the goal
-    order = np.argsort(-weights, kind="stable")[:MAX_ANSWERS]
+    order = np.argsort(-weights, kind="stable")[:MOST_ASKED]
     goals = [int(goal) for goal in order if weights[goal] >= LEAST]
     cost, rest = float(weights[goals] @ certain[goals]), weights.copy()
     rest[goals] = 0.0

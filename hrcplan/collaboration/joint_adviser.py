@@ -70,7 +70,7 @@ class JointAdviser:
         """
         agents = self.agents.belief(history) if self.weighs_agents else None
         state = self.fold.state(history)
-        chosen = replace(chosen, none_of_these=round(state.none, 4))
+        chosen = replace(chosen, none_of_these=round(float(state.none), 4))
         has_turns = self.fold.has_turns
         for doers in [(agent,) for agent in ask.agents] if has_turns else [ask.agents]:
             if self.setup.pace != TURNS:

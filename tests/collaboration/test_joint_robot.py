@@ -36,10 +36,38 @@ from hrcplan.execution.journal import read_journal
 from hrcplan.execution.worlds.simulated import Nature, StateChange
 from tests.worlds import ERRAND, ERRANDS, HALL, PACKED, PARCELS, WORKSHOP, world
 
+COACHED = """
+(define (domain coached) (:requirements :strips :typing :numeric-fluents :action-costs)
+  (:types agent thing box - object)
+  (:predicates (controllable ?a - agent) (whole ?x - thing) (cut ?x - thing)
+               (in ?x - thing ?b - box))
+  (:functions (motivation ?a - agent) (residual) (total-cost))
+  ;; hrcplan: success remind 0.8
+  (:action cut :parameters (?a - agent ?x - thing)
+    :precondition (whole ?x)
+    :effect (and (cut ?x) (not (whole ?x)) (increase (total-cost) (motivation ?a))))
+  (:action pack :parameters (?a - agent ?x - thing ?b - box)
+    :precondition (cut ?x) :effect (and (in ?x ?b) (increase (total-cost) (motivation ?a))))
+  (:action remind :parameters (?a ?other - agent)
+    :precondition (and (controllable ?a) (> (motivation ?other) (residual)))
+    :effect (and (assign (motivation ?other) (residual)) (increase (total-cost) 1))))
+"""
+COACHED_PROBLEM = """
+(define (problem {name}) (:domain coached)
+  (:objects ann robo - agent rope wire pipe - thing red blue - box)
+  (:init (controllable robo) (whole rope) (whole wire) (whole pipe) (= (residual) 1)
+         (= (motivation ann) 1) (= (motivation robo) 1) (= (total-cost) 0))
+  (:goal (and {goal})) (:metric minimize (total-cost)))
+"""
+BOXES = {"all-red": "(in rope red) (in wire red) (in pipe red)",
+         "all-blue": "(in rope blue) (in wire blue) (in pipe blue)"}  # fmt: skip
+
 
 @lru_cache
 def bank_of(name: str) -> Bank:
     match name:
+        case "coached":
+            return build(world(COACHED, COACHED_PROBLEM, BOXES))
         case "hall":
             return build(world(HALL, ERRAND, ERRANDS))
         case "kitchen":
@@ -216,6 +244,23 @@ def test_what_people_say_about_themselves_takes_steps_over() -> None:
     chosen = table.robot()
     assert "stove" in chosen.args
     assert chosen.takes_over == f"{chosen.action} would fail with human (90 %)"
+
+
+def test_an_interaction_is_an_option_like_a_step() -> None:
+    """Who is tired is reminded; who is not, is not."""
+    table = Table("coached")
+    table.do("cut ann rope")
+    assert table.robot().action in ("cut", "pack", "")
+    tired = Table("coached")
+    tired.tell(shared.StateTold(0.0, {("motivation", "ann"): 8}))
+    tired.do("cut ann rope")
+    assert tired.agents[("motivation", "ann")] > 10
+    chosen = tired.robot()
+    assert (chosen.action, chosen.args) == ("remind", ("robo", "ann"))
+    assert tired.agents.get(("motivation", "ann"), 1) == 1
+    tired.tell(ev.Settled(0.0))
+    tired.do("pack ann rope red")
+    assert tired.robot().action != "remind"
 
 
 def test_failures_and_lateness_are_evidence_of_the_agent_state() -> None:
