@@ -126,7 +126,8 @@ def _shares(axes: Axes, points: Sequence[StudyRow]) -> None:
     axes.text(MOST + 0.2, 97, f"{MOST}: failure is certain", va="top", color=plots.SOFT)
     axes.text(values[-1] - 0.3, 84, "robot", ha="right", color=plots.BLUE, weight="bold")
     axes.text(0.4, 6, "human", color="#9a6a00", weight="bold")
-    axes.set_xlim(values[0], values[-1])
+    if values[0] < values[-1]:
+        axes.set_xlim(values[0], values[-1])
     axes.set_xticks(values[:: max(1, len(values) // 10)])
     axes.set_ylim(0, 100)
     plots.bare(axes, "y")
