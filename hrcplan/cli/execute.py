@@ -105,6 +105,7 @@ HELP = """Carry out DOMAIN PROBLEM with a simulated human, and replan before act
     help="Write everything down, so that the run can be resumed and replayed.",
 )
 @click.option("--resume", is_flag=True, help="Continue the run in the journal.")
+@options.picture("--gantt", "Draw what was done as a Gantt chart.")
 @click.option(
     "--speed",
     type=options.FiniteNumber(0, min_open=True),
@@ -129,6 +130,7 @@ def command(
     seed: int,
     journal: Path | None,
     resume: bool,
+    gantt: Path | None,
     speed: float | None,
 ) -> int:
     """Carry out a problem; ``HELP`` is what ``--help`` prints."""
@@ -136,6 +138,7 @@ def command(
     from hrcplan.cli.live import Live
     from hrcplan.execution.execute import carry_out, prepare_run
 
+    options.check_picture(gantt, "--gantt")
     domain, name, _ = split_names(names, 0)
     problem = problem_of(domain, name, settings)
     prepared_run = prepare_run(
@@ -148,6 +151,12 @@ def command(
     watch = None if output.JSON else live.watch
     execution = carry_out(prepared_run, journal=journal, resume=resume, watch=watch)
     outcome = execution.outcome
+    if gantt is not None:
+        from hrcplan.plots.gantt import draw
+
+        done, failed = execution.timeline.as_plan()
+        form = options.picture_form(gantt)
+        output.write_atomically(gantt, draw(problem, done, form, failed))
     if output.JSON:
         output.document({
             "success": outcome.success, "ending": outcome.ending, "why": execution.run.why or None,

@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any
 
+from hrcplan.core.numbers import exact
 from hrcplan.execution import events as ev
 from hrcplan.execution.events import Command, Event
 from hrcplan.execution.run import Run
-from hrcplan.plans import Plan, format_plan
+from hrcplan.plans import Plan, PlannedAction, format_plan
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,6 +69,15 @@ class Timeline:
             self.bars[number] = Bar(
                 number, bar.agent, bar.action, bar.args, bar.start_s, t, outcome
             )
+
+    def as_plan(self) -> tuple[Plan, frozenset[int]]:
+        """Return what was done as a schedule, and the places of the actions that have failed."""
+        bars = [bar for bar in self.bars.values() if bar.end_s > bar.start_s]
+        actions = tuple(
+            PlannedAction(b.action, b.args, exact(b.start_s), exact(b.end_s - b.start_s))
+            for b in bars
+        )
+        return Plan(actions), frozenset(i for i, b in enumerate(bars) if b.outcome == ev.FAILED)
 
     def to_json(self) -> dict[str, Any]:
         """Return actions, plans and messages as a JSON object."""

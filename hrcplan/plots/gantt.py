@@ -30,7 +30,7 @@ _KEY_PT = 1.45 * FONT_PT  # height of a line of the legend
 
 
 @style.styled
-def draw(problem: Problem, plan: Plan, form: str) -> bytes:
+def draw(problem: Problem, plan: Plan, form: str, failed: Collection[int] = frozenset()) -> bytes:
     """Return a Gantt chart as a ``png`` or ``svg`` file, at most 2400 pixels wide.
 
     All agents of the problem have a lane, also idle ones. A label that does not fit into its bar is
@@ -40,11 +40,16 @@ def draw(problem: Problem, plan: Plan, form: str) -> bytes:
         problem: Its agents are the lanes, in the order of their declaration.
         plan: A schedule; an action without a duration lasts one unit.
         form: ``png`` or ``svg``.
+        failed: The places of actions that have failed, if the plan is what was done in a run.
     """
     from matplotlib.figure import Figure
 
     names = _lanes(problem, plan)
-    bars = [bar for action in plan.actions for bar in _bars(problem, action, names)]
+    bars = [
+        bar
+        for place, action in enumerate(plan.actions)
+        for bar in _bars(problem, action, names, place in failed)
+    ]
     end = max([float(plan.makespan_s or 0), *(bar.start + bar.length for bar in bars)]) or 1.0
     left = max(width_pt(name or "no agent", 9) for name in names) + _SIDE_PT
     width = 72 * _width(bars, end, left)
@@ -70,7 +75,9 @@ def _lanes(problem: Problem, plan: Plan) -> list[str]:
     return [*problem.agents, *([""] if is_without or not problem.agents else [])]
 
 
-def _bars(problem: Problem, action: PlannedAction, names: Sequence[str]) -> list[GanttBar]:
+def _bars(
+    problem: Problem, action: PlannedAction, names: Sequence[str], failed: bool = False
+) -> list[GanttBar]:
     """Return the bar of an action, and a faint one for each other agent that it keeps busy."""
     agent = lane(action.args, problem) or ""
     start, length = float(action.start_s or 0), float(action.duration_s or 1)
@@ -79,7 +86,7 @@ def _bars(problem: Problem, action: PlannedAction, names: Sequence[str]) -> list
         rest.remove(agent)
     others = sorted(occupied(action, problem) & set(names) - {agent})
     return [
-        GanttBar(names.index(agent), start, length, action.name, " ".join(rest)),
+        GanttBar(names.index(agent), start, length, action.name, " ".join(rest), failed),
         *(GanttBar(names.index(other), start, length, action.name, faint=True) for other in others),
     ]
 

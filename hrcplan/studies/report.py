@@ -13,6 +13,7 @@ from hrcplan.core.text import cut
 from hrcplan.errors import InputError, UsageError
 from hrcplan.studies import page
 from hrcplan.studies.estimate import MeanEstimate, estimate, estimate_by
+from hrcplan.studies.figure_files import write_figures
 from hrcplan.studies.store import FILE, Store
 from hrcplan.studies.study import (
     STUDIES,
@@ -27,13 +28,16 @@ from hrcplan.studies.study import (
 JSON_FILE, PAGE_FILE = "report.json", "report.html"
 
 
-def report_study(folder: str | Path, study_name: str | None = None) -> dict[str, Any]:
+def report_study(
+    folder: str | Path, study_name: str | None = None, figures: str | Path | None = None
+) -> dict[str, Any]:
     """Write the report of a folder of rows, and return what is in ``report.json``.
 
     Args:
         folder: The folder of the rows.
         study_name: The study; needed if it is your own (``module:NAME``): the rows alone cannot
             make hrcplan load code.
+        figures: A folder to which plots (SVG) and rows (CSV) are written, too.
 
     Raises:
         InputError: if the folder has no rows, or they are damaged or of no known study.
@@ -54,6 +58,8 @@ def report_study(folder: str | Path, study_name: str | None = None) -> dict[str,
     write_atomically(folder / JSON_FILE, text)
     text = page.html(study.title, about, document["n_rows"], findings)
     write_atomically(folder / PAGE_FILE, text)
+    if figures is not None:
+        write_figures(findings, rows, Path(figures))
     return document
 
 

@@ -50,7 +50,7 @@ def questions_page(
     """Return a questionnaire."""
     fields = "".join(map(_field, questions))
     button = '<p><button class="main">go on</button></p>'
-    body = f'<form method="post" class="begin">{fields}{button}</form>'
+    body = f'<form method="post">{fields}{button}</form>'
     return _page(study, card("Some questions", body) + _delete_link(person))
 
 
@@ -125,7 +125,7 @@ def _field(question: FormQuestion) -> str:
         options = [(str(n), f"{n}{ends.get(n, '')}") for n in range(1, question.points + 1)]
     else:
         return (
-            f'<p><label for="{name}">{text}</label>'
+            f'<p><label for="{name}">{text}</label><br>'
             f'<input type="text" id="{name}" name="{name}" maxlength="{MAX_TEXT}"></p>'
         )
     radios = "".join(
