@@ -7,8 +7,7 @@ are those of `ExpectedHelp`.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -19,17 +18,15 @@ from hrcplan.assistance.expected_help import ExpectedHelp
 from hrcplan.assistance.explanation import Explanation, StepChoice, explanation_of
 from hrcplan.assistance.priced_help import PricedHelp, PricedSteps, PricedTeam
 from hrcplan.assistance.questions import (
-    AskingRecord,
-    GoalQuestion,
     answer_likelihood,
     best_question,
     one_goal,
 )
+from hrcplan.assistance.situation import Advice, PossibleInteraction, Situation, Values
 from hrcplan.assistance.step_prices import Changes, PriceModel, StepPrices
 from hrcplan.bank import Bank
 from hrcplan.bank.progress import Evidence, Progress
 from hrcplan.core.arrays import Bools, Floats
-from hrcplan.core.numbers import Number
 from hrcplan.inference.belief import (
     IMPOSSIBLE,
     Belief,
@@ -39,61 +36,12 @@ from hrcplan.inference.belief import (
     with_progress,
 )
 from hrcplan.pddl.conventions import people
-from hrcplan.pddl.model import FluentKey
 
-Values = Mapping[FluentKey, Number]
 NONE_PRIOR = 0.02  # that people want none of the goals of the bank
 NONE_HAZARD = 0.1  # that before a human step this is drawn again
 NONE_HOLDS = 0.5
 IDLES = 0.2  # how likely people stand still who could do a next step of their goal
 MAX_PRICED = 8  # agent states whose prices are remembered
-
-
-@dataclass(frozen=True, slots=True)
-class PossibleInteraction:
-    """An interaction that a robot could begin.
-
-    Attributes:
-        words: Its name and objects.
-        success: The probability that it has its effect.
-        values: The function values that planners get if it has.
-        price: What it costs, in steps.
-    """
-
-    words: tuple[str, ...]
-    success: float
-    values: Values
-    price: float
-
-
-@dataclass(frozen=True, slots=True)
-class Situation:
-    """What a robot knows besides what was done.
-
-    Attributes:
-        values: The agent state, as function values that planners get.
-        asking: What became of questions about the goal, and whether people stand still.
-        stands_still: Whether people go on to do nothing.
-        interactions: What could be done for an agent's state.
-    """
-
-    values: Values = field(default_factory=dict)
-    asking: AskingRecord = field(default_factory=AskingRecord)
-    stands_still: bool = False
-    interactions: Sequence[PossibleInteraction] = ()
-
-
-@dataclass(frozen=True, slots=True)
-class Advice:
-    """What the robot should do: a question, an interaction, a step, or (all None) wait.
-
-    ``value`` is what that is expected to save, in steps.
-    """
-
-    step: int | None = None
-    question: GoalQuestion | None = None
-    interaction: PossibleInteraction | None = None
-    value: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,21 +7,20 @@ One class for plans in which any agent can do a step, one for teams that take tu
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Protocol
 
 import numpy as np
 
 from hrcplan.assistance.bounded_roots import unrooted
 from hrcplan.assistance.explanation import StepChoice
+from hrcplan.assistance.priced_moves import PricedMoves
 from hrcplan.assistance.step_prices import StepPrices
 from hrcplan.assistance.step_values import NextSteps, StepValues
-from hrcplan.assistance.team_help import ACTION, TeamHelp
+from hrcplan.assistance.team_help import TeamHelp
 from hrcplan.assistance.turn_costs import human_turn_costs
 from hrcplan.bank import PlanGraph
 from hrcplan.bank.progress import OffGraph, Progress
-from hrcplan.bank.solo_moves import SoloMoves
-from hrcplan.bank.team_moves import OUT_OF_REACH, Moment, TeamChoices, TeamMoves
+from hrcplan.bank.team_moves import OUT_OF_REACH, Moment, TeamMoves
 from hrcplan.core.arrays import Floats
 
 NEGLIGIBLE = 1e-3  # the probability of a goal whose costs are not priced
@@ -260,62 +259,3 @@ def _likeliest(weights: Floats, most: int) -> list[int]:
     """Return the likeliest goals, at most so many, without those that are out of the question."""
     order = np.argsort(-weights, kind="stable")[:most]
     return [int(goal) for goal in order if weights[goal] > NEGLIGIBLE]
-
-
-class PricedMoves(TeamMoves):
-    """What agents do as without prices; what it costs with them.
-
-    Where plans are solo plans, only a step's own price counts, not what is still to be paid.
-
-    Args:
-        moves: What the agents do.
-        prices: The prices.
-    """
-
-    def __init__(self, moves: TeamMoves, prices: StepPrices) -> None:
-        self.inner, self.extra = moves, prices.extra
-        self.take_turns(moves.bank)
-        self._tables: dict[int, Floats] = {}
-        self._goals: frozenset[int] = frozenset()
-        self._by_moment: dict[tuple[int, Moment], TeamChoices] = {}
-
-    def price_goals(self, goals: Sequence[int]) -> None:
-        """Price several goals from now on, and no other ones: a table of each takes a while."""
-        if isinstance(self.inner, SoloMoves):
-            return
-        if self._goals != frozenset(goals):
-            self._goals, self._by_moment = frozenset(goals), {}
-        for goal in goals:
-            if goal not in self._tables:
-                extra = self.extra[[op.step for op in self.bank.table.ops]]
-                self._tables[goal] = self.inner.costs.priced(goal, extra + ACTION, 1.0)
-
-    def knows(self, world: int) -> bool:
-        """Return whether a state is one that the team can get to."""
-        return self.inner.knows(world)
-
-    def choices(self, world: int, moment: Moment) -> TeamChoices:
-        """Return what the agent whose turn it is can do, with its costs at the present prices."""
-        key = world, moment
-        choices = self._by_moment.get(key)
-        if choices is None:
-            self._by_moment = self.not_too_many(self._by_moment)
-            choices = self._by_moment[key] = self._with_prices(world, moment)
-        return choices
-
-    def _with_prices(self, world: int, moment: Moment) -> TeamChoices:
-        choices = self.inner.choices(world, moment)
-        extra = np.append(self.extra[choices.steps], 0.0)
-        costs = np.where(choices.costs >= OUT_OF_REACH, OUT_OF_REACH, choices.costs + extra)
-        costs = np.where(choices.costs == 0, 0.0, costs)
-        if self._goals:
-            place = self.inner.costs.place(world)
-            _, targets = self.inner.costs.actions(place, moment.turn)
-            following, places = (moment.turn + 1) % self.n_turns, np.append(targets, place)
-            own = np.append(np.full(len(targets), ACTION), 0.0) + 1 + extra
-            for goal in self._goals:
-                table = self._tables[goal]
-                after = table[following, places] + own
-                reached = table[moment.turn, place] == 0
-                costs[goal] = 0.0 if reached else np.minimum(after, OUT_OF_REACH)
-        return replace(choices, costs=costs)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 
-from hrcplan.agents import AgentModel, Profile
+from hrcplan.agents import Profile
 from hrcplan.agents.estimate import AgentStateEstimate
 from hrcplan.agents.profile import Experience
 from hrcplan.collaboration.history import (
@@ -126,7 +126,7 @@ class AgentFold:
         belief = replace(belief, running=running)
         if action is None or mark.outcome not in (ev.DONE, ev.FAILED):
             return belief
-        touched = self._touched(self.agents, action)
+        touched = self.agents.touching(action.action, action.args)
         experience = belief.experience
         if isinstance(experience, AgentStateEstimate):
             for _ in range(mark.n_late):
@@ -135,9 +135,6 @@ class AgentFold:
             return replace(belief, experience=experience.failed(touched))
         belief = replace(belief, experience=experience.went_well(touched))
         return self.after_interaction(belief, action)
-
-    def _touched(self, agents: AgentModel, action: BegunAction) -> tuple[FluentKey, ...]:
-        return agents.touching(action.action, action.args)
 
     def _after_pause(self, belief: AgentBelief, before: History, agent: str) -> AgentBelief:
         experience = belief.experience

@@ -8,15 +8,9 @@ from functools import cached_property
 
 import numpy as np
 
-from hrcplan.assistance.joint_help import (
-    Advice,
-    JointHelp,
-    JointState,
-    PossibleInteraction,
-    Situation,
-    Values,
-)
+from hrcplan.assistance.joint_help import JointHelp, JointState
 from hrcplan.assistance.questions import AskingRecord
+from hrcplan.assistance.situation import Advice, PossibleInteraction, Situation, Values
 from hrcplan.assistance.step_prices import action_cost
 from hrcplan.collaboration import events as shared
 from hrcplan.collaboration.agent_fold import AgentBelief, AgentFold

@@ -7,9 +7,10 @@ import pytest
 
 from hrcplan.assistance.bounded_roots import unrooted
 from hrcplan.assistance.expected_help import ExpectedHelp
-from hrcplan.assistance.joint_help import JointHelp, Situation
-from hrcplan.assistance.priced_help import PricedMoves
+from hrcplan.assistance.joint_help import JointHelp
+from hrcplan.assistance.priced_moves import PricedMoves
 from hrcplan.assistance.questions import ASK_PRICE, AskingRecord, answer_likelihood
+from hrcplan.assistance.situation import Situation
 from hrcplan.assistance.step_prices import PriceModel
 from hrcplan.assistance.team_help import ACTION
 from hrcplan.assistance.turn_costs import human_turn_costs
