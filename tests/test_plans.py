@@ -10,7 +10,16 @@ from hypothesis import strategies as st
 
 from hrcplan.errors import PlanFormatError
 from hrcplan.pddl.inputs import read
-from hrcplan.plans import Plan, PlannedAction, format_plan, lane, occupied, parse_plan, seconds_text
+from hrcplan.plans import (
+    Plan,
+    PlannedAction,
+    format_plan,
+    format_plansys2,
+    lane,
+    occupied,
+    parse_plan,
+    seconds_text,
+)
 
 WORDS = st.from_regex(r"[a-z][a-z0-9_-]{0,8}", fullmatch=True)
 MICROSECONDS = st.integers(0, 10**12).map(lambda n: Fraction(n, 10**6))
@@ -148,3 +157,9 @@ def test_lanes_and_who_is_kept_busy() -> None:
     assert occupied(take, problem) == {"robot", "human"}
     assert occupied(PlannedAction("move", ("human", "wp1", "wp2")), problem) == {"human"}
     assert lane(("wp1",), problem) is None
+
+
+def test_plans_for_plansys2_have_times_on_every_line() -> None:
+    durative = parse_plan("0: (move a) [50]\n60.5: (look a)")
+    assert format_plansys2(durative) == "0.000: (move a) [50.000]\n60.500: (look a) [0.001]\n"
+    assert parse_plan(format_plansys2(durative)).actions[0] == durative.actions[0]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Callable
 from contextlib import suppress
@@ -59,6 +60,9 @@ class InputLines:
         """Return the next line, which a thread reads."""
         if self._queue is None:
             self._queue = Queue()
+            if self._stream is not None:
+                # Python waits at its end for who reads standard input itself.
+                self._stream = os.fdopen(os.dup(self._stream.fileno()), "rb")
             Thread(target=self._fill, args=[self._queue], daemon=True).start()
         while True:
             with suppress(Empty):

@@ -45,7 +45,15 @@ STATUS_EXIT = {"solved-optimally": 0, "solved": 0, "unsolvable": 1, "unsolved": 
     "target",
     type=click.Path(path_type=Path),
     metavar="PLAN",
-    help="Write the plan to this file, in IPC format.",
+    help="Write the plan to this file.",
+)
+@click.option(
+    "--format",
+    "plan_form",
+    type=click.Choice(["ipc", "plansys2"]),
+    default="ipc",
+    show_default=True,
+    help="The format of the file: that of the IPC, or that of 'run plan-file' in PlanSys2.",
 )
 @output.common_options
 def command(
@@ -58,6 +66,7 @@ def command(
     lanes: bool,
     gantt: Path | None,
     target: Path | None,
+    plan_form: str,
 ) -> int:
     """Find a plan for the PROBLEM of a DOMAIN.
 
@@ -79,9 +88,10 @@ def command(
     for attempt in result.attempts:
         output.say(f"{attempt.planner}: {attempt.outcome} ({attempt.wall_s:.2f} s)")
     if result.plan is not None and target is not None:
-        from hrcplan.plans import format_plan
+        from hrcplan.plans import format_plan, format_plansys2
 
-        output.write_atomically(target, format_plan(result.plan))
+        form = format_plansys2 if plan_form == "plansys2" else format_plan
+        output.write_atomically(target, form(result.plan))
     if result.plan is not None and gantt is not None:
         from hrcplan.plots.gantt import draw
 

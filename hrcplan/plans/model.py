@@ -105,6 +105,9 @@ class Plan:
         return self.picture()
 
 
+_INSTANT_S = Fraction(1, 1000)  # the duration in PlanSys2 of an action that has none
+
+
 def lane(args: Iterable[str], problem: Problem) -> str | None:
     """Return the agent whose lane an action is in: its first argument that is an agent."""
     return next((arg for arg in args if arg in problem.agents), None)
@@ -135,6 +138,28 @@ def format_plan(plan: Plan) -> str:
     0.000: (move human wp1) [50.000]
     """
     return "".join(f"{_format(action)}\n" for action in plan.actions)
+
+
+def format_plansys2(plan: Plan) -> str:
+    """Return the plan as a file for ``run plan-file`` in the terminal of PlanSys2.
+
+    There every action has a start and a duration; the steps of a sequence last 1 s.
+
+    >>> steps = (PlannedAction("open", ("a",)), PlannedAction("go", ()))
+    >>> print(format_plansys2(Plan(steps)), end="")
+    0.000: (open a) [1.000]
+    1.000: (go) [1.000]
+    """
+    actions = (
+        PlannedAction(
+            action.name,
+            action.args,
+            n if action.start_s is None else action.start_s,
+            1 if action.start_s is None else action.duration_s or _INSTANT_S,
+        )
+        for n, action in enumerate(plan.actions)
+    )
+    return "".join(f"{_format(action)}\n" for action in actions)
 
 
 def _format(action: PlannedAction) -> str:

@@ -329,8 +329,12 @@ class ActionServers(Executive):
 
     def _feedback(self, action: RobotAction, message: Any) -> None:
         if action.n in self.actions:
-            words = (f"{key} {plain(getattr(message, key))}"
-                     for key in message.get_fields_and_field_types())  # fmt: skip
+            values = {key: getattr(message, key) for key in message.get_fields_and_field_types()}
+            words = [
+                f"{k} {v:g}" if isinstance(v, float) else f"{k} {v}"
+                for k, v in values.items()
+                if isinstance(v, (str, int, float)) and v != ""
+            ]
             say("feedback", n=action.n, text=", ".join(words)[:120])
 
     def _finished(self, action: RobotAction, future: Any) -> None:
