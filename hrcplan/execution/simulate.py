@@ -6,7 +6,8 @@ nothing else of the specification changes it, so that runs with one seed are pai
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from hrcplan.agents import REPLAN_ALWAYS, load_profile
@@ -31,7 +32,7 @@ from hrcplan.execution.worlds.simulated import (
     StateChange,
 )
 from hrcplan.pddl.inputs import read
-from hrcplan.pddl.model import FluentKey
+from hrcplan.pddl.model import FluentKey, Problem
 from hrcplan.planners.expected_price import with_success
 from hrcplan.plans import Plan
 
@@ -50,6 +51,10 @@ class Spec:
     ``can_fail`` are those of ``Nature``; ``values`` are put into the initial state. ``planner`` is
     a name, or several with commas, asked in turn. ``success`` is the probability with which
     interactions succeed, instead of those that the domain notes.
+
+    ``n_elements`` of the human's state change, each to a level and at a time of its own. With
+    ``drift_s`` an element rises by 1 every so many seconds, until it has its level. ``failure_s``
+    is that of ``Nature``. ``without`` names actions that the domain has to do without.
     """
 
     domain: str = "transport"
@@ -67,6 +72,10 @@ class Spec:
     replan_limit: int | None = None
     planner: str = "auto"
     success: float | None = None
+    n_elements: int = 1
+    drift_s: float = 0.0
+    failure_s: float = 0.0
+    without: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         """Check what has a few choices only.
@@ -125,7 +134,7 @@ def simulate(spec: Spec) -> Outcome:
 def engine_for(spec: Spec) -> Engine:
     """Return the engine of a specification; those that differ only in chance share one."""
     return _engine(spec.domain, spec.problem, spec.values, spec.planner, spec.profile, spec.model,
-                   spec.replan_limit, spec.success)  # fmt: skip
+                   spec.replan_limit, spec.success, spec.without)  # fmt: skip
 
 
 def forget() -> None:
@@ -138,9 +147,9 @@ def forget() -> None:
 def _engine(
     domain: str, problem: str, values: tuple[tuple[FluentKey, Number], ...], planner: str,
     profile_name: str, model: bool, replan_limit: int | None,
-    success: float | None,
+    success: float | None, without: tuple[str, ...],
 ) -> Engine:  # fmt: skip
-    replanner = _replanner(domain, problem, values, planner, success)
+    replanner = _replanner(domain, problem, values, planner, success, without)
     profile = load_profile(profile_name).limited_to(replan_limit)
     return Engine(Monitor(replanner.model, profile, model), replanner)
 
@@ -148,12 +157,20 @@ def _engine(
 @lru_cache(maxsize=16)
 def _replanner(
     domain: str, problem: str, values: tuple[tuple[FluentKey, Number], ...], planner: str,
-    success: float | None,
+    success: float | None, without: tuple[str, ...],
 ) -> Replanner:  # fmt: skip
-    task_problem = read(domain, problem).with_values(dict(values))
+    task_problem = _without(read(domain, problem).with_values(dict(values)), without)
     if success is not None:
         task_problem = with_success(task_problem, success)
     return Replanner(ExecutionModel(task_problem), tuple(planner.split(",")))
+
+
+def _without(problem: Problem, names: tuple[str, ...]) -> Problem:
+    """Return a problem whose domain lacks some actions."""
+    if not names:
+        return problem
+    actions = tuple(action for action in problem.domain.actions if action.name not in names)
+    return replace(problem, domain=replace(problem.domain, actions=actions))
 
 
 def nature_of(spec: Spec, engine: Engine) -> Nature:
@@ -162,9 +179,28 @@ def nature_of(spec: Spec, engine: Engine) -> Nature:
     changes: tuple[StateChange, ...] = ()
     accidents: tuple[FactChange, ...] = ()
     if spec.case:
-        key = cause_of(spec, engine)
-        changes = (StateChange(_change_time(spec, engine), {key: _level(spec)}),)
-    return Nature(spec.seed, changes, accidents, spec.sensed, spec.draws, can_fail)
+        changes = tuple(sorted(_changes(spec, engine), key=lambda change: change.t))
+    return Nature(
+        spec.seed, changes, accidents, spec.sensed, spec.draws, can_fail, failure_s=spec.failure_s
+    )
+
+
+def _changes(spec: Spec, engine: Engine) -> Iterator[StateChange]:
+    """Yield the changes of all elements that change."""
+    keys: list[FluentKey] = []
+    for i in range(spec.n_elements):
+        about = replace(spec, seed=f"{spec.seed} {i}") if i else spec
+        options = [key for key in _elements(engine) if key not in keys]
+        if keys and not options:
+            return
+        keys.append(_cause(about, options))
+        level, t = _level(about), _change_time(about, engine)
+        low = int(engine.model.agents.low[keys[-1]])
+        if spec.drift_s and level > low:
+            for step, value in enumerate(range(low + 1, level + 1)):
+                yield StateChange(t + step * spec.drift_s, {keys[-1]: value})
+        else:
+            yield StateChange(t, {keys[-1]: level})
 
 
 def cause_of(spec: Spec, engine: Engine) -> FluentKey:
@@ -173,8 +209,15 @@ def cause_of(spec: Spec, engine: Engine) -> FluentKey:
     Raises:
         UsageError: if no human has an agent state that could change.
     """
+    return _cause(spec, _elements(engine))
+
+
+def _elements(engine: Engine) -> list[FluentKey]:
     agents = engine.model.agents
-    keys = [key for key in agents.low if key[1] not in agents.robots]
+    return [key for key in agents.low if key[1] not in agents.robots]
+
+
+def _cause(spec: Spec, keys: Sequence[FluentKey]) -> FluentKey:
     if not keys:
         raise UsageError("no human here has an agent state that could change", code="no-human")
     names = list(dict.fromkeys(key[0] for key in keys))

@@ -53,7 +53,8 @@ class Nature:
     the human's first action under it (``during``), or when that action has ended (``after``).
     ``draws``: whether an element makes actions fail is drawn ``once`` per simulation or again at
     every ``attempt``. ``can_fail``: the actions that can fail, None for all. ``stretch``: a human's
-    action lasts this many times its duration, drawn uniformly between two factors.
+    action lasts this many times its duration, drawn uniformly between two factors. ``failure_s``: a
+    failed action lasts so many seconds longer.
     """
 
     seed: str | int = 0
@@ -63,6 +64,7 @@ class Nature:
     draws: str = ONCE
     can_fail: frozenset[str] | None = None
     stretch: tuple[float, float] = (1.0, 1.0)
+    failure_s: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,6 +95,7 @@ class SimulatedWorld:
         self._outcomes: dict[int, _ActionOutcome] = {}
         self._news: dict[FluentKey, Number] = {}
         self._n_attempts: dict[str, int] = {}
+        self._failures: set[int] = set()
         self._clock: list[tuple[float, int, int, _Due]] = []
         self._n_entries = 0
         self._now = 0.0
@@ -238,8 +241,15 @@ class SimulatedWorld:
         action = self._outcomes.get(number)
         if action is None:
             return []  # it was cancelled
-        done = self._succeeds(number, action)
-        return self.end_action(t, number, ev.DONE if done else ev.FAILED)
+        if number in self._failures:
+            return self.end_action(t, number, ev.FAILED)
+        if self._succeeds(number, action):
+            return self.end_action(t, number, ev.DONE)
+        if not self.nature.failure_s:
+            return self.end_action(t, number, ev.FAILED)
+        self._failures.add(number)
+        self._at(t + self.nature.failure_s, _END, number)
+        return []
 
     def end_action(self, t: float, number: int, outcome: str) -> Sequence[Event]:
         """End an action: with its effects if it is done, else as if it had never begun."""

@@ -20,19 +20,26 @@ BASELINE = "replan-always"
 """The method of the failure-anticipation paper, and its profile."""
 PAPER, AIMS = "Claims of the failure-anticipation paper", "Aims of hrcplan"
 OTHER_TASK = "Claims on this task"
+SENSING = "Sensing against remembering"
+SENSING_MEASURES = (
+    "success_pct", "replans", "failed_pct", "successful_human_pct", "makespan_s",
+)  # fmt: skip
+ROWS_OF = {"methods": "rows", "variants": "variants"}
 H2 = "H2: with the model the human contributes more, and fails less"
 
 
 def claims(options: StudyOptions, rows: StudyRows) -> list[Claim]:
     """Return all claims, each judged by the rows alone."""
     results = [hypothesis_1(rows), hypothesis_2(rows)]
-    results += [
-        switch(options, profile, rows["allocation"])
-        for profile in scenario.data()["allocation"]["profiles"]
-    ]
+    profiles = scenario.data()["allocation"]["profiles"]
+    results += [switch(options, profile, rows["allocation"]) for profile in profiles]
     if scenario.is_own_task(options):
-        return [*results, *(reach(aim, rows) for aim in aims(options))]
-    return [replace(claim, group=OTHER_TASK) for claim in results]
+        results.append(switch(options, BASELINE, rows["allocation"], at_any_time=True))
+        results += [printed(case, rows) for case in scenario.data()["printed"] if case[0] in "12"]
+        results += [reach(aim, rows) for aim in aims(options)]
+    else:
+        results = [replace(claim, group=OTHER_TASK) for claim in results]
+    return [*results, *sensing(rows)]
 
 
 def of_cell(rows: Iterable[StudyRow], case: str, method: str) -> list[StudyRow]:
@@ -88,25 +95,62 @@ def _hypothesis(claim: str, tests: Iterable[BoundTest], words: Iterable[str]) ->
     return Claim(claim, holds, evidence + telling, PAPER)
 
 
+_UNITS = {"replans": "", "makespan_s": " s"}
+
+
 def _changes(effects: Mapping[str, MeanEstimate]) -> str:
     texts = [
-        f"{MEASURES[name].name} {difference_text(e)}{'' if name == 'replans' else ' points'}"
+        f"{MEASURES[name].name} {difference_text(e)}{_UNITS.get(name, ' points')}"
         for name, e in effects.items()
     ]
     return f"{', '.join(texts)} (n = {min(e.n for e in effects.values())})"
 
 
-def switch(options: StudyOptions, profile: str, rows: Iterable[StudyRow]) -> Claim:
+def printed(case: str, rows: StudyRows) -> Claim:
+    """Return that all printed means of a case are as probable here as chance explains."""
+    reference = scenario.data()["printed"]
+    own = of_cell(rows["rows"], case, BASELINE)
+    means = estimates(own, reference["columns"]) if own else {}
+    figures = dict(zip(reference["columns"], reference[case], strict=True))
+    far = [n for n, e in means.items() if is_far(e, figures[n], reference["runs"])]
+    words = [f"{MEASURES[n].name} {_text(n, means[n])}, printed {figures[n]:g}" for n in far]
+    holds = not far if any(e.is_known for e in means.values()) else None
+    evidence = f"{'; '.join(words) or 'none is farther off'} (n = {len(own)})."
+    text = f"Table I, case {case}: every printed mean is within what chance explains (95 %)"
+    return Claim(text, holds, evidence, PAPER)
+
+
+def sensing(rows: StudyRows) -> Iterator[Claim]:
+    """Yield that sensing is better than remembering, for each scenario and case."""
+    for table in scenario.data()["sensing"]:
+        name = table["name"]
+        source = rows[ROWS_OF[table.get("kind", "variants")]]
+        for case in "12":
+            a, b = (of_cell(source, case + letter, table.get(letter, name)) for letter in "ab")
+            effects = {m: difference(by_run(b, m), by_run(a, m)) for m in SENSING_MEASURES}
+            if not min(e.n for e in effects.values()):
+                continue
+            lower = table.get("lower", ["failed_pct"])
+            holds, telling = judge(MEASURES[m].beats(effects[m].interval) for m in lower)
+            goals = " and ".join(MEASURES[m].name for m in lower)
+            evidence = f"{_changes(effects)}. Means of sensing minus remembering.{telling}"
+            yield Claim(f"Case {case}, {name}: sensing lowers {goals}", holds, evidence, SENSING)
+
+
+def switch(
+    options: StudyOptions, profile: str, rows: Iterable[StudyRow], *, at_any_time: bool = False
+) -> Claim:
     """Return that above 10 everything goes to the robot in the plan after the change.
 
-    Of the paper's profile only the change before the first action is judged, as its Figure 5
-    changes "the same initial situation"; of others, the changes before any action.
+    Of the paper's profile the change before the first action is judged, as its Figure 5 changes
+    "the same initial situation"; of others, and ``at_any_time``, the changes before any action.
     """
     points = [row for row in rows if row["profile"] == profile]
     changes = sorted({int(row["action"] or 0) for row in points})
-    actions = changes[:1] if profile == BASELINE else changes
+    is_first = profile == BASELINE and not at_any_time
+    actions = changes[:1] if is_first else changes
     thresholds = {at: last_with_human(points, at) for at in changes}
-    when = "known before the first action" if profile == BASELINE else "at any time"
+    when = "known before the first action" if is_first else "at any time"
     text = f"Above {MOST} all actions go to the robot ({profile} profile, change {when})"
     holds = all(_switches(thresholds[at], points, at) for at in actions) if actions else None
     words = [f"{_until(thresholds[at], points)} (before action {at + 1})" for at in changes]

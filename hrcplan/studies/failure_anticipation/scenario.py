@@ -48,7 +48,7 @@ def methods(kind: str, options: StudyOptions) -> dict[str, Method]:
     for name, table in data()[kind].items():
         changes = {key: value for key, value in table.items() if key != "cases"}
         if not is_own_task(options):
-            if changes.keys() & options.keys():
+            if changes.keys() & {*options, "without"}:
                 continue
             changes.pop("can_fail", None)  # names of this task's actions
         by_name[name] = Method(name, tuple(table["cases"]), changes)
