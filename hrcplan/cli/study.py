@@ -110,7 +110,7 @@ command.add_command(trials.collect_command)
 @click.option(
     "--pace",
     metavar="PACE",
-    help="free (agents act when they can) or turns. Only collaboration.",
+    help="When agents begin: free (when they can) or turns. Only collaboration.",
 )
 @options.goals_per(None)
 @click.option(
