@@ -15,7 +15,7 @@ from hrcplan.core.deprecation import OldNameWarning
 from hrcplan.errors import UsageError
 from hrcplan.plans import Plan, PlannedAction
 
-KEYS = {"goals", "posterior", "changed", "changes", "ignored", "method", "note"}
+KEYS = {"goals", "posterior", "changed", "changes", "ignored", "method", "note", "humans"}
 ACTIONS = """\
 ; comments and empty lines are no observations
 
