@@ -20,7 +20,7 @@ export function beliefChart({ beliefs, changes, width, names }) {
 		h("line", { x1: LEFT, x2: right, y1: y(p), y2: y(p), class: "axis" }),
 		h("text", { x: LEFT - 6, y: y(p) + 4, "text-anchor": "end", class: "soft" }, `${100 * p}%`));
 	svg.append(h("text", { x: right, y: HEIGHT - 5, "text-anchor": "end", class: "soft" }, "steps of the robot"));
-	for (const i of changes) svg.append(h("line", { x1: x(i), x2: x(i), y1: 0, y2: HEIGHT - FOOT, stroke: "#cc79a7", "stroke-width": 2, "stroke-dasharray": "5 3" }, h("title", {}, "change of goal")));
+	for (const i of changes) svg.append(h("line", { x1: x(i), x2: x(i), y1: 0, y2: HEIGHT - FOOT, stroke: "#cc79a7", "stroke-width": 2, "stroke-dasharray": "5 3" }));
 	const all = new Set(beliefs.flatMap(({ goals }) => [...goals.keys()]));
 	const points = (name) => (beliefs.length > 1 ? beliefs : [...beliefs, ...beliefs]).map(({ goals }, i) => `${x(i).toFixed(1)},${y(goals.get(name) || 0).toFixed(1)}`).join(" ");
 	for (const name of all) if (!names.includes(name)) svg.append(h("polyline", { points: points(name), fill: "none", stroke: "#999", "stroke-width": 0.6 }));

@@ -1,7 +1,7 @@
 // Bars in lanes: one lane per agent, also for idle ones.
 import { h, textWidth, FILLS } from "./dom.js";
 
-const LANE = 52, BAR = 40, AXIS = 26, LEAST = 64, WIDEST = 6000;
+const LANE = 62, BAR = 40, left = 44, AXIS = 26, LEAST = 64, WIDEST = 6000;
 
 function ticks(end) {
 	const rough = Math.max(end / 10, 1e-9), power = 10 ** Math.floor(Math.log10(rough));
@@ -19,7 +19,6 @@ function cut(text, room) {
 // Returns an svg of bars {agent, action, args, start, end, outcome, asked}; `at` marks a time.
 export function lanes({ agents, bars, unit, width, at, end }) {
 	const names = bars.some((bar) => !bar.agent) ? [...agents, ""] : agents;
-	const left = Math.max(...names.map((name) => textWidth(name || "no agent")), 30) + 16;
 	const last = Math.max(end || 0, ...bars.map((bar) => bar.end), 1);
 	const shortest = Math.min(...bars.map((bar) => bar.end - bar.start).filter((d) => d > 0), last);
 	const perUnit = Math.min(WIDEST / last, Math.max((width - left - 12) / last, LEAST / shortest));
@@ -32,13 +31,13 @@ export function lanes({ agents, bars, unit, width, at, end }) {
 			h("rect", { width: 8, height: 8, fill: "#fff" }), h("line", { x1: 0, y1: 0, x2: 0, y2: 8, stroke: "#d55e00", "stroke-width": 3 }))));
 	names.forEach((name, i) => svg.append(
 		h("line", { x1: left, x2: total, y1: (i + 1) * LANE, y2: (i + 1) * LANE, class: "axis" }),
-		h("text", { x: left - 10, y: i * LANE + LANE / 2 + 4, "text-anchor": "end" }, name || "no agent")));
+		h("text", { x: 2, y: i * LANE + 13, class: "name" }, name || "no agent")));
 	for (const t of ticks(last)) svg.append(
 		h("line", { x1: x(t), x2: x(t), y1: 0, y2: height - AXIS, class: "axis", "stroke-dasharray": "2 3" }),
 		h("text", { x: x(t), y: height - 9, "text-anchor": "middle", class: "soft" }, `${+t.toFixed(3)}`));
 	svg.append(h("text", { x: left - 10, y: height - 9, "text-anchor": "end", class: "soft" }, unit));
 	for (const bar of bars) {
-		const lane = names.indexOf(bar.agent), y = lane * LANE + (LANE - BAR) / 2, room = (bar.end - bar.start) * perUnit;
+		const lane = names.indexOf(bar.agent), y = lane * LANE + 18, room = (bar.end - bar.start) * perUnit;
 		const failed = bar.outcome === "failed";
 		const words = (bar.args || []).join(" "), text = `${bar.action} ${words}`.trim();
 		const group = h("g", { opacity: bar.outcome === "cancelled" ? 0.4 : 1 },

@@ -32,9 +32,11 @@ export class RunView {
 			agents: this.head.scene.agents.map((agent) => agent.name), bars: [...view.bars.values()],
 			unit: this.head.unit, width: Math.max(280, this.lanesBox.clientWidth), at: options.at, end: options.end,
 		}));
-		const { scrollWidth, clientWidth } = this.lanesBox;
+		const box = this.lanesBox, { scrollWidth, clientWidth } = box, names = box.querySelectorAll(".name");
+		box.onscroll = () => names.forEach((name) => name.setAttribute("x", box.scrollLeft + 2));
 		if (options.at !== undefined) this.lanesBox.scrollLeft = (scrollWidth * options.at) / (options.end || 1) - clientWidth / 2;
-		else if (atEnd) this.lanesBox.scrollLeft = scrollWidth;
+		else if (atEnd) box.scrollLeft = scrollWidth;
+		box.onscroll();
 		this.scene.draw(view.facts, view.fresh, Math.max(260, this.sceneBox.clientWidth));
 		this.beliefCard.hidden = !view.beliefs.length;
 		if (view.beliefs.length) {
