@@ -12,7 +12,7 @@ import hashlib
 import json
 import math
 import os
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -32,6 +32,7 @@ from hrcplan.core.json_values import JsonValue
 from hrcplan.core.numbers import exact, fraction_of, int_text
 from hrcplan.errors import InputError, UsageError
 from hrcplan.pddl import library
+from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.search.packed_states import FactPacking
 from hrcplan.task.steps import COSTS, StepTable
 
@@ -40,6 +41,7 @@ VERSION = 1
 TEAM_VERSION = 2  # of banks of team plans, which earlier versions cannot read
 _FORMAT = Format(MAGIC, VERSION, "bank", "policy bank", "make it with: hrcplan bank build",
                  also_reads=(TEAM_VERSION,))  # fmt: skip
+_TEXT = "(text)"  # the folder of sources that are no files
 _ARRAYS = {"rows": "<u8", "first": "<i8", "steps": "<i4", "targets": "<i4", "is_goal": "|b1"}
 
 
@@ -59,7 +61,7 @@ def dumps(bank: Bank, folder: Path = Path()) -> bytes:
         "build_s": bank.build_s,
         "n_steps": len(bank.table),
         "kind": bank.goals.kind,
-        "sources": [_source_entry(file, folder) for file in bank.goals.files],
+        "sources": [_source_entry(file, folder) for file in bank.goals.files or _texts(bank)],
         "goals": graphs,
         "names": list(bank.names),
     }
@@ -165,6 +167,15 @@ def find_fault(path: str | Path) -> str | None:
 
 
 # Sources.
+
+
+def _texts(bank: Bank) -> Iterator[SourceFile]:
+    """Yield the domain and the problems of goals that were read from texts, as files."""
+    first, goals = bank.goals.problem, bank.goals
+    yield SourceFile(f"{_TEXT}/domain.pddl", domain_text(first.domain).encode())
+    for name, formula in zip(goals.names, goals.formulas, strict=True):
+        text = problem_text(replace(first, name=name, goal=formula))
+        yield SourceFile(f"{_TEXT}/{name}.pddl", text.encode())
 
 
 def _source_entry(file: SourceFile, folder: Path) -> dict[str, str]:

@@ -11,9 +11,11 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from hrcplan.bank import BuildOptions, build_bank, find_fault, load, save
+import hrcplan
+from hrcplan.bank import BuildOptions, build, build_bank, find_fault, load, save
 from hrcplan.bank.audit import fault
-from hrcplan.bank.store import MAGIC, dumps
+from hrcplan.bank.goals import from_problems
+from hrcplan.bank.store import MAGIC, digest, dumps
 from hrcplan.bank.walk import plans
 from hrcplan.errors import InputError, UsageError
 
@@ -252,3 +254,20 @@ def test_the_old_name_of_find_fault_still_works() -> None:
     with pytest.deprecated_call(match="find_fault"):
         from hrcplan.bank import verify
     assert verify is find_fault
+
+
+def test_goals_out_of_texts_are_kept_as_texts(tmp_path: Path) -> None:
+    domain = """(define (domain lamp) (:requirements :strips) (:predicates (on) (warm))
+      (:action press :parameters () :precondition (and) :effect (on))
+      (:action wait :parameters () :precondition (on) :effect (warm)))"""
+    goals = {"light": "(on)", "heat": "(warm)"}
+    problems = [
+        hrcplan.read(domain, f"(define (problem {name}) (:domain lamp) (:init) (:goal {goal}))")
+        for name, goal in goals.items()
+    ]
+    bank = build(from_problems(problems))
+    (tmp_path / "domain.pddl").write_text("(define (domain another))")
+    save(bank, tmp_path / "lamp.bank")
+    again = load(tmp_path / "lamp.bank")
+    assert again.names == ("light", "heat")
+    assert digest(again) == digest(bank)
