@@ -150,13 +150,16 @@ def test_wrong_use_is_explained(folder: Path, words: list[str], code: int, text:
 class Session:
     """A session at a pseudo-terminal."""
 
-    def __init__(self, folder: Path, *words: str, columns: int = 80) -> None:
+    def __init__(
+        self, folder: Path, *words: str, columns: int = 80,
+        goals: tuple[str, ...] = ("domain.pddl", "goals"),
+    ) -> None:  # fmt: skip
         self.pid, self.handle = pty.fork()
         if self.pid == 0:
             signal.signal(signal.SIGHUP, signal.SIG_DFL)  # also where the tests run under nohup
             os.chdir(folder)
             os.environ["COLUMNS"] = str(columns)
-            os.execv(sys.executable, [*COMMAND, "domain.pddl", "goals", *words])
+            os.execv(sys.executable, [*COMMAND, *goals, *words])
         self.text = ""
 
     def expect(self, pattern: str) -> None:
