@@ -51,7 +51,8 @@ def test_plan_prints_lanes_cost_and_whether_it_is_proven() -> None:
     assert "metric    58.00051" in body
     assert "makespan  200.003 s" in body
     assert "valid     yes" in body
-    assert found.stderr == ""
+    # A slow machine also sees who is at work, after five seconds.
+    assert not [line for line in found.stderr.splitlines() if "at work" not in line]
 
 
 def test_plan_json_has_the_promised_keys() -> None:
