@@ -15,6 +15,7 @@ from hrcplan.bank.team_moves import OUT_OF_REACH, Moment, TeamChoices, TeamMoves
 from hrcplan.core.arrays import Floats
 
 ACTION = 1 / TIMESTEP  # timesteps that an action costs besides its own
+LEAST_SAVING = 0.02  # timesteps: a step for goals that nearly nobody has is left undone
 RISK = 0.02  # the probability of losing the goal that is taken to end a standstill
 PATIENCE = 3  # rounds without a human's step, after which any risk is taken
 NEGLIGIBLE = 1e-3  # the share of humans that a step must have to be looked beyond
@@ -35,7 +36,8 @@ class TeamHelp:
     def options(self, world: int, moment: Moment, weights: Floats) -> StepChoice:
         """Return how many timesteps each step of a robot is expected to save.
 
-        Where the humans wait and the robot would, too, only the likeliest goal counts.
+        Where the humans wait and the robot would, too, only the likeliest goal counts. Else a step
+        is chosen only if it saves more than `LEAST_SAVING`.
 
         Args:
             world: The state, as bits.
@@ -46,9 +48,10 @@ class TeamHelp:
         costs = self.costs(world, moment, weights)
         worth = costs[-1] - costs[:-1]
         humans_wait = moment.without_human >= self.moves.n_turns - 1
-        if len(worth) and worth.max() <= 0 and humans_wait:
-            worth = self._for_likeliest(choices, weights, moment)
-        return StepChoice(tuple(choices.steps.tolist()), tuple(worth.tolist()))
+        least = LEAST_SAVING
+        if len(worth) and worth.max() <= least and humans_wait:
+            worth, least = self._for_likeliest(choices, weights, moment), 0.0
+        return StepChoice(tuple(choices.steps.tolist()), tuple(worth.tolist()), least)
 
     def _for_likeliest(self, choices: TeamChoices, weights: Floats, moment: Moment) -> Floats:
         """Return how many timesteps steps save the likeliest goal.
