@@ -162,7 +162,7 @@ def run(
     help="The study that made the rows; needed only for your own study, as module:NAME.",
 )
 @click.option("--figures", type=click.Path(file_okay=False, path_type=Path), metavar="FOLDER",
-              help="Also write the plots (SVG) and the rows (CSV) to this folder.")  # fmt: skip
+              help="Also write plots (SVG, PDF, PNG) and rows (CSV) to this folder.")  # fmt: skip
 @output.common_options
 def report(folder: Path, name: str | None, figures: Path | None) -> int:
     """Write DIR/report.html and DIR/report.json from the rows in DIR, and print a summary."""

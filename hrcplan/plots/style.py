@@ -9,7 +9,9 @@ from __future__ import annotations
 import functools
 import io
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import TYPE_CHECKING, Any, Literal, ParamSpec, TypeVar
 
 from hrcplan.core.extras import require
@@ -30,10 +32,14 @@ LINES = (BLUE, ORANGE, GREEN, RED, PINK, SKY, "#8A6D3B", "#6A4C93")
 FILLS = ("#8CC8EC", "#F2C46D", "#7CCBB1", "#E6B3CF", "#F3EC8B", "#A9C1E8", "#EDA583", "#C9CED4")
 """The same colors, lighter, for areas that carry dark text."""
 DPI = 150
+COPY_FORMS = ("pdf", "png")
+FigureCopies = dict[str, dict[str, bytes]]
+"""Of each figure of a page, by its ``svg`` text: the same figure as files, by their form."""
 _Sharing = bool | Literal["none", "all", "row", "col"]
 _STYLE = {
     "text.parse_math": False,  # names of files may hold dollars
     "svg.hashsalt": "hrcplan",
+    "pdf.fonttype": 42,  # publishers refuse fonts of type 3
     "font.family": "DejaVu Sans",
     "font.size": 9,
     "text.color": INK,
@@ -52,6 +58,8 @@ _STYLE = {
     "grid.color": LINE,
     "legend.frameon": False,
 }
+_CHANGING = {"svg": "Date", "pdf": "CreationDate"}  # what would differ each time
+_COPIES: ContextVar[FigureCopies | None] = ContextVar("copies", default=None)
 _ID = re.compile(r' id="([^"]+)"')
 
 
@@ -81,11 +89,22 @@ def figure(
 
 
 def file_bytes(drawing: Figure, form: str) -> bytes:
-    """Return a figure as a ``png`` or ``svg`` file; equal figures give equal bytes."""
+    """Return a figure as a ``pdf``, ``png`` or ``svg`` file; equal figures give equal bytes."""
     buffer = io.BytesIO()
-    metadata = {"Date": None} if form == "svg" else {"Software": None}
+    metadata = {_CHANGING.get(form, "Software"): None}
     drawing.savefig(buffer, format=form, dpi=DPI, metadata=metadata)
     return buffer.getvalue()
+
+
+@contextmanager
+def copies() -> Iterator[FigureCopies]:
+    """Give the figures that `svg` draws meanwhile as files, too: pages hold no PDF and no PNG."""
+    of_page: FigureCopies = {}
+    token = _COPIES.set(of_page)
+    try:
+        yield of_page
+    finally:
+        _COPIES.reset(token)
 
 
 def svg(drawing: Figure, name: str, label: str) -> str:
@@ -104,7 +123,10 @@ def svg(drawing: Figure, name: str, label: str) -> str:
     text = buffer.getvalue()
     text = re.sub(r"<metadata>.*?</metadata>", "", text[text.index("<svg") :], flags=re.DOTALL)
     text = _without_idle_names(text).replace("'DejaVu Sans'", "DejaVu Sans, Verdana, sans-serif")
-    return text.replace("<svg ", f'<svg role="img" aria-label="{label}" ', 1).strip()
+    text = text.replace("<svg ", f'<svg role="img" aria-label="{label}" ', 1).strip()
+    if (of_page := _COPIES.get()) is not None:
+        of_page[text] = {form: file_bytes(drawing, form) for form in COPY_FORMS}
+    return text
 
 
 def _without_idle_names(text: str) -> str:

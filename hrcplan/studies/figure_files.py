@@ -10,6 +10,7 @@ from pathlib import Path
 
 from hrcplan.core.files import write_atomically
 from hrcplan.errors import UsageError
+from hrcplan.plots.style import FigureCopies
 from hrcplan.studies.page import anchor
 from hrcplan.studies.study import Findings, StudyRow
 
@@ -19,9 +20,16 @@ _XLINK = 'xmlns:xlink="http://www.w3.org/1999/xlink"'
 
 
 def write_figures(
-    findings: Findings, rows: Mapping[str, Sequence[StudyRow]], folder: Path
-) -> tuple[Path, ...]:
+    findings: Findings, rows: Mapping[str, Sequence[StudyRow]], folder: Path,
+    copies: FigureCopies | None = None,
+) -> tuple[Path, ...]:  # fmt: skip
     """Write every plot of a report as an SVG file, and every table of rows as a CSV file.
+
+    Args:
+        findings: Their sections hold the plots.
+        rows: The rows of each table.
+        folder: Where to write; it is made if it is missing.
+        copies: The same plots in other forms, by their SVG text; they are written, too.
 
     Returns:
         The files; plots are named after their section.
@@ -29,20 +37,22 @@ def write_figures(
     Raises:
         UsageError: if they cannot be written.
     """
-    files: dict[Path, str] = {}
+    files: dict[Path, str | bytes] = {}
     for section in findings.sections:
         plots = _PLOT.findall(section.html)
         for number, plot in enumerate(plots, start=1):
             name = anchor(section.title) + (f"-{number}" if len(plots) > 1 else "")
             files[folder / f"{name}.svg"] = _standalone(plot)
+            for form, data in (copies or {}).get(plot, {}).items():
+                files[folder / f"{name}.{form}"] = data
     for table, lines in rows.items():
         files[folder / f"{table}.csv"] = _csv(lines)
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise UsageError(f"cannot make {folder}: {error.strerror}", path=str(folder)) from None
-    for path, text in files.items():
-        write_atomically(path, text)
+    for path, content in files.items():
+        write_atomically(path, content)
     return tuple(files)
 
 

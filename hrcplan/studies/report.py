@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import Any
 
 from hrcplan.core.files import write_atomically
 from hrcplan.core.text import cut
 from hrcplan.errors import InputError, UsageError
+from hrcplan.plots.style import copies
 from hrcplan.studies import page
 from hrcplan.studies.estimate import MeanEstimate, estimate, estimate_by
 from hrcplan.studies.figure_files import write_figures
@@ -37,7 +38,7 @@ def report_study(
         folder: The folder of the rows.
         study_name: The study; needed if it is your own (``module:NAME``): the rows alone cannot
             make hrcplan load code.
-        figures: A folder to which plots (SVG) and rows (CSV) are written, too.
+        figures: A folder to which plots (SVG, PDF and PNG) and rows (CSV) are written, too.
 
     Raises:
         InputError: if the folder has no rows, or they are damaged or of no known study.
@@ -52,14 +53,15 @@ def report_study(
         }
         options = {**study.options, **given_options}  # earlier versions had fewer
         rows = {t.name: study.present_rows(t, store.rows(t)) for t in study.tables}
-    with _rows_of(folder):
+    forms = nullcontext() if figures is None else copies()
+    with _rows_of(folder), forms as figure_copies:
         document, findings = report_document(study, about, options, rows)
     text = json.dumps(document, indent=2, ensure_ascii=False) + "\n"
     write_atomically(folder / JSON_FILE, text)
     text = page.html(study.title, about, document["n_rows"], findings)
     write_atomically(folder / PAGE_FILE, text)
     if figures is not None:
-        write_figures(findings, rows, Path(figures))
+        write_figures(findings, rows, Path(figures), figure_copies)
     return document
 
 

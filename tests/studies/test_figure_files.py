@@ -4,6 +4,7 @@ import csv
 from pathlib import Path
 from xml.etree import ElementTree
 
+from hrcplan.plots import style
 from hrcplan.studies.figure_files import write_figures
 from hrcplan.studies.study import Findings, Section
 
@@ -20,3 +21,32 @@ def test_plots_and_rows_are_files(tmp_path: Path) -> None:
         assert ElementTree.parse(path).getroot().tag == "{http://www.w3.org/2000/svg}svg"
     lines = list(csv.DictReader(files[3].read_text().splitlines()))
     assert lines[0] == {"human": "a,b", "run": "1", "steps": ""}
+
+
+@style.styled
+def drawn(name: str) -> str:
+    figure, grid = style.figure(1, 1, 4, 3)
+    grid[0, 0].plot([0, 1], [1, 0])
+    return style.svg(figure, name, "a line")
+
+
+def test_plots_are_also_pdf_and_png_for_papers(tmp_path: Path) -> None:
+    alone = drawn("line")
+    with style.copies() as copies:
+        assert drawn("line") == alone  # the page stays the same, byte by byte
+    again = dict(copies)
+    with style.copies() as copies:
+        drawn("line")
+    assert copies == again
+    files = write_figures(Findings("", (), [Section("One", alone)]), {}, tmp_path, copies)
+    assert [path.name for path in files] == ["one.svg", "one.pdf", "one.png"]
+    assert files[1].read_bytes().startswith(b"%PDF-")
+    assert b"/Type3" not in files[1].read_bytes()
+    assert files[2].read_bytes().startswith(b"\x89PNG\r\n")
+
+
+def test_copies_end_with_the_block() -> None:
+    with style.copies() as copies:
+        pass
+    drawn("line")
+    assert copies == {}
