@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import argparse
 import os
+import resource
 import tempfile
 from pathlib import Path
 
 from fuzzing import branches
 from fuzzing.campaign import Outcome, campaign
 from fuzzing.targets import TARGETS, TOKENISED
+
+MEMORY = 4 << 30
+"""Bytes of address space that a run may use."""
 
 
 def main() -> int:
@@ -22,7 +26,9 @@ def main() -> int:
     parser.add_argument("--coverage", action="store_true", help="report branches (5 times slower)")
     options = parser.parse_args()
     wrong = 0
-    with tempfile.TemporaryDirectory(prefix="hrcplan-fuzz-") as name:
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))  # what needs more is a fault
+    memory_disk = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None  # faster
+    with tempfile.TemporaryDirectory(prefix="hrcplan-fuzz-", dir=memory_disk) as name:
         os.environ["HRCPLAN_CACHE"] = f"{name}/cache"
         os.chdir(name)
         with branches.recorded(options.coverage) as arcs:
@@ -40,7 +46,7 @@ def show(found: Outcome, seed: int) -> int:
     typed = sum(found.typed.values())
     print(f"{found.kind:13} {found.n} mutants: {found.n_accepted} accepted, {typed} typed errors, "
           f"{wrong} wrong; slowest {found.slowest_s:.1f} s", flush=True)  # fmt: skip
-    if found.kind == "pddl":
+    if found.kind in ("pddl", "public"):
         print(f"{'':13} {TOKENISED['yes'] / max(1, sum(TOKENISED.values())):.0%} can be tokenised")
     codes = ", ".join(f"{code} {times}" for code, times in found.typed.most_common(5))
     print(f"{'':13} {codes}" if codes else "", end="\n" if codes else "")

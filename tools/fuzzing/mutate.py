@@ -16,7 +16,7 @@ PLAIN = (
     *("over", "end", "total-time", "#t", "?duration", "minimize", "domain", "problem", ":metric"),
 )
 WORDS = (*PLAIN, *BRACKETS, '"', "'''", "true", "1979-05-27", ";", "#", "\x1b[2J", "\u202e", "é")
-VALUES = (
+VALUES: tuple[Any, ...] = (
     *(
         None,
         True,

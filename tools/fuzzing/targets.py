@@ -8,16 +8,17 @@ import random
 import shutil
 import sqlite3
 import struct
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from functools import cache
 from pathlib import Path
+from unittest import mock
 
 from click.testing import CliRunner
 
 from fuzzing import mutate
 from hrcplan.agents import load_profile
-from hrcplan.bank import build_bank, load, save, verify
+from hrcplan.bank import build_bank, find_fault, load, save
 from hrcplan.cli import main
 from hrcplan.execution.execute import execute
 from hrcplan.execution.journal import read_journal
@@ -31,6 +32,7 @@ from hrcplan.pddl.source import SourceText
 from hrcplan.pddl.write import problem_text
 from hrcplan.plans import format_plan
 from hrcplan.plans.logs import read_plan
+from hrcplan.plots import style
 from hrcplan.studies import report_study, run_study
 from hrcplan.studies.changed_mind import scenario, script
 from hrcplan.task import Task
@@ -65,6 +67,9 @@ replan = "worse"
 replan_limit = 3
 scale = 5.0
 """
+DRAWN = 0.05
+"""Share of the mutated rows whose figures are drawn."""
+PUBLIC = Path(__file__).parents[2] / "tests" / "data" / "public"
 TOKENISED = {"yes": 0, "no": 0}
 
 Target = Callable[[random.Random, Path], None]
@@ -72,12 +77,29 @@ Target = Callable[[random.Random, Path], None]
 
 def pddl(rng: random.Random, folder: Path) -> None:
     """Check, read, ground and write a mutated domain or problem."""
-    domain, problem = rng.choice(PAIRS)
-    texts = [
-        library.find_domain(domain).read_text(),
-        library.find_problem(domain, problem).read_text(),
-    ]
-    which = rng.randrange(2)
+    _read_mutant(rng, folder, _texts(rng.choice(PAIRS)))
+
+
+def public(rng: random.Random, folder: Path) -> None:
+    """Do the same with public files: derived predicates, preferences, timed literals, numbers."""
+    pair = rng.choice(_public_pairs())
+    _read_mutant(
+        rng, folder, [(pair / name).read_text() for name in ("domain.pddl", "problem.pddl")]
+    )
+
+
+@cache
+def _public_pairs() -> list[Path]:
+    return sorted(path.parent for path in PUBLIC.glob("*/*/problem.pddl"))
+
+
+@cache
+def _texts(pair: tuple[str, str]) -> list[str]:
+    return [library.find_domain(pair[0]).read_text(), library.find_problem(*pair).read_text()]
+
+
+def _read_mutant(rng: random.Random, folder: Path, sources: list[str]) -> None:
+    texts, which = list(sources), rng.randrange(2)
     texts[which] = mutate.text(rng, texts[which])
     paths = folder / "d.pddl", folder / "p.pddl"
     for path, text in zip(paths, texts, strict=True):
@@ -134,13 +156,32 @@ def toml(rng: random.Random, folder: Path) -> None:
 
 @cache
 def _bank(folder: Path) -> bytes:
-    save(build_bank("kitchen", only=["smoothie-berry", "parfait-nut"]), folder / "origin.bank")
+    # Only these problems: a bank is loaded with all problems of its folder.
+    goals = folder / "goals"
+    goals.mkdir(exist_ok=True)
+    for name in ("smoothie-berry", "parfait-nut"):
+        shutil.copy(library.find_problem("kitchen", name), goals)
+    save(build_bank("kitchen", str(goals)), folder / "origin.bank")
     return (folder / "origin.bank").read_bytes()
+
+
+@cache
+def _small_bank(folder: Path) -> bytes:
+    """Return a bank of two goals that is loaded in half of the time."""
+    goals = folder / "small-goals"
+    goals.mkdir(exist_ok=True)
+    text = _texts(PAIRS[0])[1]
+    (goals / "one.pddl").write_text(text)
+    other = text.replace("green wp2", "green wp1").replace("two-boxes", "other-place")
+    (goals / "other.pddl").write_text(other)
+    save(build_bank("transport", str(goals)), folder / "small.bank")
+    return (folder / "small.bank").read_bytes()
 
 
 def bank(rng: random.Random, folder: Path) -> None:
     """Load, verify and use a bank with a right checksum over changed content."""
-    source = _bank(folder.parent)
+    is_small = rng.random() < 0.75
+    source = (_small_bank if is_small else _bank)(folder.parent)
     n_head = struct.unpack_from("<Q", source, 16)[0]
     head, body = source[64 : 64 + n_head], source[64 + n_head :]
     if rng.random() < 0.7:
@@ -151,9 +192,10 @@ def bank(rng: random.Random, folder: Path) -> None:
     digest = hashlib.sha256(prefix + head + body).digest()
     path = folder / "x.bank"
     path.write_bytes(prefix + digest + head + body)
-    verify(path)
-    load(path)
-    infer(path, [("get", "human", "yogurt")], "exact")
+    changed = load(path)
+    find_fault(path)
+    seen = ("move", "robot", "wp0", "wp1") if is_small else ("get", "human", "yogurt")
+    infer(changed, [seen], "exact")
 
 
 def _flipped(rng: random.Random, body: bytes) -> bytes:
@@ -169,20 +211,39 @@ def _rows(folder: Path) -> Path:
 
 
 def rows(rng: random.Random, folder: Path) -> None:
-    """Report on rows in which a value, a table or some bytes are others."""
-    source, copy = _rows(folder.parent), folder / "st"
-    shutil.rmtree(copy, ignore_errors=True)
-    shutil.copytree(source, copy)
-    file = copy / "rows.sqlite"
+    """Report on rows in which a value, a table or some bytes are others; draw a few of them."""
+    file = folder / "st" / "rows.sqlite"
+    shutil.rmtree(file.parent, ignore_errors=True)  # sqlite may leave files beside its own
+    file.parent.mkdir()
+    shutil.copy(_rows(folder.parent) / "rows.sqlite", file)
     if rng.random() < 0.2:
         file.write_bytes(mutate.data(rng, file.read_bytes()))
     else:
         _change_rows(rng, file)
-    report_study(copy)
+    if rng.random() < DRAWN:
+        report_study(file.parent)
+        return
+    with _empty_figures():
+        report_study(file.parent)
+
+
+@contextmanager
+def _empty_figures() -> Iterator[None]:
+    """Lay out no figure, which takes most of the time of a report."""
+
+    def no_figure(columns: int, rows: int, *_: float, **__: object) -> tuple[None, object]:
+        return None, [[mock.MagicMock() for _ in range(rows)] for _ in range(columns)]
+
+    with (
+        mock.patch.object(style, "figure", no_figure),
+        mock.patch.object(style, "svg", return_value="<svg></svg>"),
+    ):
+        yield
 
 
 def _change_rows(rng: random.Random, file: Path) -> None:
     with suppress(sqlite3.Error), sqlite3.connect(file) as connection:
+        connection.execute("pragma synchronous = off")  # not to wait for a disk
         key, value = rng.choice(connection.execute("select key, value from about").fetchall())
         if rng.random() < 0.4:
             changed = json.dumps(mutate.value(rng, json.loads(value)))
@@ -255,8 +316,8 @@ def arguments(rng: random.Random, folder: Path) -> None:
 
 
 TARGETS: dict[str, Target] = {
-    "pddl": pddl, "plan": plan, "toml": toml, "bank": bank, "rows": rows, "journal": journal,
-    "observations": observations, "arguments": arguments,
+    "pddl": pddl, "public": public, "plan": plan, "toml": toml, "bank": bank, "rows": rows,
+    "journal": journal, "observations": observations, "arguments": arguments,
 }  # fmt: skip
 
 
@@ -270,6 +331,7 @@ def warm(kind: str, folder: Path) -> None:
             script.episodes(script.read("golden"), ["oracle"])
         case "bank" | "observations":
             _bank(folder)
+            _small_bank(folder)
             _loaded(folder / "origin.bank")
         case "rows":
             report_study(_rows(folder))
