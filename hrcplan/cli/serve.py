@@ -33,8 +33,8 @@ def command(
 ) -> int:
     """Serve a page in which you work together with a robot. Ctrl-C ends it.
 
-    Each FILE can be looked at there: a journal, a plan, a bank, the folder of a study, or a folder
-    of such files.
+    Each FILE can be looked at there: a journal, a plan, a bank, an allocation diagram, the
+    folder of a study, or a folder of such files.
     """
     require_web()
     from hrcplan.web.looks import look_files

@@ -1,4 +1,4 @@
-"""Files to look at: journals and plans with a slider over time, banks, and reports of studies."""
+"""Files to look at: runs and plans over time, banks, allocation diagrams, reports of studies."""
 
 from __future__ import annotations
 
@@ -21,12 +21,14 @@ from hrcplan.pddl.model import Problem
 from hrcplan.plans import Plan
 from hrcplan.plans.logs import read_plan
 from hrcplan.validation import Report, validate
-from hrcplan.web.pages import card, document
+from hrcplan.web.allocation_page import diagram_page, is_diagram, read_diagram
+from hrcplan.web.pages import card, document, save_data
 from hrcplan.web.plan_story import plan_run
 from hrcplan.web.replay_page import run_of
 from hrcplan.web.worlds import offers
 
 JOURNAL, PLAN, BANK, STUDY = "journal", "plan", "bank", "study"
+ALLOCATION = "allocation"
 REPORT = "report.html"
 MAX_FILES = 200
 _SCRIPT = '<script type="module" src="/static/replay.js"></script>'
@@ -74,6 +76,8 @@ def _kind(path: Path) -> str:
             return JOURNAL
     except ValueError:
         pass
+    if is_diagram(data):
+        return ALLOCATION
     try:
         data.decode()
     except UnicodeDecodeError:
@@ -97,6 +101,8 @@ def look_page(file: LookFile, goal: str | None = None) -> str:
             return run_page(file.title, run_of(read_journal(file.path)), "")
         case "bank":
             return bank_page(file, load(file.path), goal)
+        case "allocation":
+            return diagram_page(file.title, read_diagram(file.path))
         case "study":
             return file.path.read_text(encoding="utf-8")
     return plan_page(file)
@@ -191,7 +197,7 @@ def bank_page(file: LookFile, bank: Bank, goal: str | None) -> str:
             raise UsageError(f"there is no goal '{goal}'", code="not-found")
         cards += card(f"Plans of {goal}", _shape(bank, bank.goal_index(goal)))
     body = f'<nav><a href="/">← all</a></nav><main><div class="cards">{cards}</div></main>'
-    return document(file.title, body)
+    return document(file.title, body, pictures=True)
 
 
 def _shape(bank: Bank, goal: int) -> str:
@@ -207,9 +213,10 @@ def _shape(bank: Bank, goal: int) -> str:
         f'fill="#56b4e9"><title>{n} states</title></rect>'
         for i, n in enumerate(widths)
     )
+    rows = [["steps", "states"], *([str(i), str(n)] for i, n in enumerate(widths))]
     picture = (
         f'<div class="scroll"><svg width="{16 * len(widths)}" height="80" role="img" '
-        f'aria-label="states after each step">{bars}</svg></div>'
+        f'aria-label="states after each step" {save_data("states", rows)}>{bars}</svg></div>'
     )
     try:
         text = as_text(graph, decompose(graph), bank.table)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping, Sequence
 from html import escape
 from typing import Any
@@ -10,10 +11,20 @@ ROBOTS = ("hrcplan", "recursive", "recursive-best", "cdp", "infogain", "rhp")
 HUMANS = {"me": "I act for the people", "frontier": "simulated", "cc-htn": "simulated, by modules"}
 PACES = {"turns": "in turns", "free": "at any time"}
 SCRIPT = '<script type="module" src="/static/app.js"></script>'
+_SAVE_SCRIPT = '<script type="module" src="/static/dom.js"></script>'
 
 
-def document(title: str, body: str, script: str = "") -> str:
-    """Return a page; the body is markup already."""
+def document(title: str, body: str, script: str = "", *, pictures: bool = False) -> str:
+    """Return a page; the body is markup already.
+
+    Args:
+        title: The title of the window.
+        body: What is in it.
+        script: The element that loads its script.
+        pictures: Whether pictures of the body have `save_data`: they get buttons that save them.
+    """
+    if pictures:
+        script += _SAVE_SCRIPT
     return f"""<!DOCTYPE html>
 <html lang="en">
 <head>
@@ -27,6 +38,11 @@ def document(title: str, body: str, script: str = "") -> str:
 <body>{body}</body>
 </html>
 """
+
+
+def save_data(name: str, rows: Sequence[Sequence[str]]) -> str:
+    """Return the attributes of an ``svg`` that can be saved: file name and rows of its table."""
+    return f'id="{escape(name)}" data-rows="{escape(json.dumps(rows, ensure_ascii=False))}"'
 
 
 def live_page(names: Sequence[str]) -> str:

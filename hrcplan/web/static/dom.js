@@ -24,7 +24,7 @@ export function fill(node, ...children) {
 	return node;
 }
 
-// Updates children by key: what stays is not detached, so focus and clicks are not lost.
+// Updates children by key: what stays keeps focus and clicks.
 export function keyed(parent, items, key, make, update) {
 	const old = new Map([...parent.children].map((child) => [child.dataset.key, child]));
 	let place = parent.firstElementChild;
@@ -54,12 +54,12 @@ function standalone(svg) {
 	const from = [svg, ...svg.querySelectorAll("*")], to = [copy, ...copy.querySelectorAll("*")];
 	from.forEach((node, i) => {
 		const style = getComputedStyle(node);
-		for (const name of PAINT) to[i].setAttribute(name, style.getPropertyValue(name));
+		for (const name of PAINT) to[i].setAttribute(name, style[name]);
 		if (node.style.transform) to[i].setAttribute("transform", node.style.transform.replaceAll("px", ""));
 	});
 	copy.setAttribute("xmlns", SVG);
-	const ground = getComputedStyle(document.documentElement).getPropertyValue("--paper");
-	copy.prepend(h("rect", { width: "100%", height: "100%", fill: ground.trim() || "#fff" }));
+	const ground = getComputedStyle(svg).getPropertyValue("--paper");
+	copy.prepend(h("rect", { width: "100%", height: "100%", fill: ground }));
 	return new XMLSerializer().serializeToString(copy);
 }
 
@@ -81,14 +81,17 @@ async function savePng(name, svg) {
 const cell = (value) => (/[",\n]/.test(value) ? `"${String(value).replaceAll('"', '""')}"` : value);
 export const csv = (rows) => rows.map((row) => row.map(cell).join(",")).join("\n") + "\n";
 
-// Buttons that save a picture; `rows` returns what it shows as a table.
+// Buttons that save a picture, and its `rows` as a table.
 export function saveButtons(name, svgOf, rows) {
 	const kinds = { SVG: () => text("svg", standalone(svgOf())), PNG: () => savePng(`${name}.png`, svgOf()), CSV: () => text("csv", csv(rows())) };
 	const text = (kind, content) => download(`${name}.${kind}`, new Blob([content]));
 	return h("div", { class: "save" }, Object.keys(kinds).map((kind) => h("button", { onclick: kinds[kind], title: `save as ${kind}` }, kind)));
 }
 
-export const COLORS = { sky: "#56b4e9", orange: "#e69f00", green: "#009e73", yellow: "#f0e442", purple: "#cc79a7", blue: "#0072b2", red: "#d55e00", gray: "#999999" };
+export const COLORS = { sky: "#56b4e9", orange: "#e69f00", green: "#009e73", yellow: "#f0e442", purple: "#cc79a7", blue: "#0072b2", red: "#d55e00", gray: "#999" };
 export const FILLS = ["#8ccbf0", "#f2c066", "#66c5ab", "#f5ec85", "#dfaac9", "#7fb8d8", "#f0a06a", "#cfcfcf"];
 export const LINES = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00"];
 export const percent = (p) => `${(100 * p).toFixed(p < 0.0995 && p > 0 ? 1 : 0)} %`;
+
+// Pictures drawn by the server.
+for (const svg of document.querySelectorAll("[data-rows]")) svg.parentNode.after(saveButtons(svg.id, () => svg, () => JSON.parse(svg.dataset.rows)));
