@@ -7,6 +7,7 @@ in circulation mix upper and lower case, end in blank lines, and declare actions
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -44,7 +45,7 @@ class RecognitionInstance:
 
 def is_folder(path: Path) -> bool:
     """Return whether a path is a folder of this kind."""
-    return (path / TEMPLATE).is_file() and (path / HYPOTHESES).is_file()
+    return os.path.isfile(path / TEMPLATE) and os.path.isfile(path / HYPOTHESES)
 
 
 def read_instance(folder: Path) -> RecognitionInstance:
@@ -58,7 +59,7 @@ def read_instance(folder: Path) -> RecognitionInstance:
         raise InputError(message, code="no-goals", path=str(folder))
     goals = goals_of(*(SourceFile.read(folder / part) for part in (DOMAIN, TEMPLATE, HYPOTHESES)))
     path = folder / OBSERVATIONS
-    actions = read_actions(read_text(path), goals.problem) if path.is_file() else ()
+    actions = read_actions(read_text(path), goals.problem) if os.path.isfile(path) else ()
     return RecognitionInstance(goals, actions, _true_goal(folder / TRUE_HYPOTHESIS, goals))
 
 
@@ -131,7 +132,7 @@ def _goal(base: Problem, line: str, path: str, number: int) -> Formula:
 
 
 def _true_goal(path: Path, goals: Goals) -> int | None:
-    if not path.is_file():
+    if not os.path.isfile(path):
         return None
     sets = [_parts(formula) for formula in goals.formulas]
     common = frozenset.intersection(*sets)  # what the template asks for besides the hypothesis

@@ -79,7 +79,7 @@ def _problem_files(domain: str, first: SourceFile, folder: Path | None) -> Itera
     if folder is None:
         yield from _library_files(domain)
         return
-    if not folder.is_dir():
+    if not os.path.isdir(folder):
         hint = "GOALS is a folder of problem files, or one with template.pddl and hyps.dat"
         raise InputError(
             f"there is no folder '{folder}'", code="no-folder", path=str(folder), hint=hint

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -68,7 +69,7 @@ def command(
 def _default(source: str) -> str:
     from hrcplan.inference.registry import BANK_METHOD, GOALS_METHOD
 
-    return GOALS_METHOD if Path(source).is_dir() else BANK_METHOD
+    return GOALS_METHOD if os.path.isdir(source) else BANK_METHOD
 
 
 def as_text(answer: Inference) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -230,7 +231,7 @@ def _run_per_human(
 def _path_of(actions: Observations | Bank | Goals) -> str | None:
     """Return the path that observations are read from; None if they are no file."""
     if isinstance(actions, Path):
-        return str(actions / OBSERVATIONS if actions.is_dir() else actions)
+        return str(actions / OBSERVATIONS if os.path.isdir(actions) else actions)
     is_path = isinstance(actions, str) and "(" not in actions and not is_trace(actions)
     return _path_of(Path(str(actions))) if is_path else None
 
@@ -324,13 +325,14 @@ def _load(
     except TypeError:
         message = f"goals are inferred from a bank, goals, or a path, not from {source!r:.80}"
         raise UsageError(message) from None
-    if path.is_dir():
+    if os.path.isdir(path):
         if not is_folder(path):
             message = f"'{source}' is a folder without template.pddl and hyps.dat"
             hint = "build a bank of problem files with `hrcplan bank build`"
             raise InputError(message, code="no-goals", path=str(source), hint=hint)
         instance = read_instance(path)
-        return instance.goals, instance.observations if (path / OBSERVATIONS).is_file() else None
+        has_observations = os.path.isfile(path / OBSERVATIONS)
+        return instance.goals, instance.observations if has_observations else None
     from hrcplan.bank.store import load
 
     return load(path), None

@@ -164,6 +164,7 @@ def params_of(
     """
     params: list[Param] = []
     names: set[str] = set()
+    numbers: dict[str, Iterator[int]] = {}
     wrong = 0
     for name, kinds in read_typed(nodes, source, types):
         text = str(name)
@@ -175,7 +176,8 @@ def params_of(
                 source.error(name.at, "not-a-variable", message, hint)
         elif name in names and declaration:
             source.warn(name.at, "repeated-parameter", f"parameter {quote(name)} is repeated")
-            text = next(n for i in count(2) if (n := f"{name}-{i}") not in names)
+            own = numbers.setdefault(text, count(2))
+            text = next(n for i in own if (n := f"{name}-{i}") not in names)
         elif name in names:
             message = f"parameter {quote(name)} is repeated"
             source.error(name.at, "repeated-parameter", message)

@@ -6,6 +6,7 @@ Its standard output, and the plan file if the command names ``{plan}``, are sear
 
 from __future__ import annotations
 
+import os
 import re
 import shlex
 import shutil
@@ -88,7 +89,7 @@ class CommandPlanner:
         for position, word in enumerate(self._words):
             for name, value in names.items():
                 word = word.replace(f"{{{name}}}", value)
-            is_file = Path(word).is_file() and (position > 0 or "/" in word)
+            is_file = os.path.isfile(word) and (position > 0 or "/" in word)
             yield str(Path(word).absolute()) if is_file else word
 
     def _answer(self, problem: Problem, process: FinishedProcess, plans: list[Plan]) -> Answer:

@@ -74,12 +74,12 @@ class Store:
             InputError: if there is none, or its files are damaged.
         """
         path = folder / FILE
-        if not path.is_file():
+        if not os.path.isfile(path):
             hint = "hrcplan study run NAME -o DIR makes one"
             raise InputError(f"no {FILE} in {folder}", code="no-file", path=str(path), hint=hint)
         with _explain_errors(folder):
             store = cls(folder, sqlite3.connect(path))
-            if (folder / CLOCK).is_file():
+            if os.path.isfile(folder / CLOCK):
                 store._open_clock()
         return store
 

@@ -12,9 +12,11 @@ from hrcplan.bank import build, build_bank, from_problems, read_goals
 from hrcplan.bank.ramirez_geffner import read_actions, read_instance
 from hrcplan.bank.variants import vary
 from hrcplan.errors import InputError, PddlError, UsageError
+from hrcplan.inference import infer
 from hrcplan.pddl.generate import rename, with_copy, with_goal
 from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import And, Atom
+from hrcplan.studies import report_study
 from hrcplan.task import Task
 
 ROOT = Path(__file__).parents[2]
@@ -241,3 +243,19 @@ def test_the_tool_writes_a_folder_that_is_a_bank(tmp_path):
     bank = build_bank("kitchen", str(tmp_path / "one"))
     assert bank.names == ("variant-1", "variant-2", "variant-3")
     assert min(graph.plans for graph in bank.graphs) > 10**6
+
+
+@pytest.mark.parametrize("name", ["x" * 300, "a\0b"])
+@pytest.mark.parametrize(
+    "use",
+    [
+        lambda name: read_goals("kitchen", name),
+        lambda name: infer(name, [("get", "human", "yogurt")]),
+        lambda name: infer("kitchen", name),
+        report_study,
+    ],
+    ids=["goals", "bank", "observations", "rows"],
+)
+def test_a_name_that_no_file_can_have_is_an_input_error(use, name):
+    with pytest.raises(InputError):
+        use(name)

@@ -1,10 +1,13 @@
 """What old and careless files have: read where other readers do, with a warning; else a cure."""
 
+import itertools
 from pathlib import Path
 
 import pytest
 
-from hrcplan.pddl.check import check, load_domain, load_problem
+from hrcplan.pddl import typed_lists
+from hrcplan.pddl.check import check, domain_in, load_domain, load_problem
+from hrcplan.pddl.source import SourceText
 from hrcplan.pddl.write import domain_text, problem_text
 from hrcplan.plans import parse_plan
 from hrcplan.task import Task
@@ -244,3 +247,19 @@ def test_a_goal_that_compares_an_undefined_value_does_not_hold() -> None:
         report = validate(problem, parse_plan(""))
         assert not report.valid
         assert "(distance b b) has no value" in str(report.reason)
+
+
+def test_numbers_of_repeated_parameters_grow_with_their_count_alone(monkeypatch):
+    numbers = []
+
+    def count(start):
+        for number in itertools.count(start):
+            numbers.append(number)
+            yield number
+
+    monkeypatch.setattr(typed_lists, "count", count)
+    text = f"(define (domain d) (:predicates (p {'?c ?d ' * 500}- object)))"
+    domain = domain_in(SourceText("d.pddl", text))
+    names = [param.name for param in domain.predicates["p"].params]
+    assert len(set(names)) == 1000
+    assert len(numbers) == 998, "one number for each repetition"
