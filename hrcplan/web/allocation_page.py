@@ -167,7 +167,7 @@ def _picture(diagram: DiagramDocument) -> str:
         body.append(_label(_SIDE + 18, y + 10, agent or _NO_AGENT, "start"))
     height = bottom + 52 + 18 * len(diagram.agents)
     return (
-        f'<svg width="{_WIDTH}" height="{height}" role="img" '
+        f'<svg width="{_WIDTH}" height="{height}" viewBox="0 0 {_WIDTH} {height}" role="img" '
         f'aria-label="who does how much" {save_data("allocation", _rows(diagram))}>'
         f"{''.join(body)}</svg>"
     )

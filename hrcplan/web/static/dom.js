@@ -1,4 +1,4 @@
-// Elements, keyed updates, and saving pictures. Text is always text, never markup.
+// Elements, keyed updates, and saving pictures. Text is never markup.
 const SVG = "http://www.w3.org/2000/svg";
 const SVG_TAGS = new Set("svg g rect text line polyline title defs pattern".split(" "));
 
@@ -44,7 +44,7 @@ export function keyed(parent, items, key, make, update) {
 }
 
 const pen = document.createElement("canvas").getContext("2d");
-pen.font = '12px system-ui, "Segoe UI", Roboto, "DejaVu Sans", sans-serif'; // as in page.css
+pen.font = "12px " + getComputedStyle(document.body).fontFamily;
 export const textWidth = (text) => pen.measureText(text).width;
 
 const PAINT = "fill stroke stroke-width stroke-dasharray opacity font-size font-family text-anchor".split(" ");
