@@ -51,10 +51,10 @@ def command(clear_cache: bool) -> int:
 
 
 def _print(health: dict[str, Any]) -> None:
-    output.result(f"hrcplan {health['hrcplan']}, Python {health['python']}, {health['platform']}")
-    output.result(
-        f"java: {health['java'] or 'not found; install hrcplan[java], or a Java runtime'}"
-    )
+    versions = f"hrcplan {health['hrcplan']}, Python {health['python']}, {health['platform']}"
+    output.result(output.fold(versions))
+    java = health["java"] or "not found; install hrcplan[java], or a Java runtime"
+    output.result(output.fold(f"java: {java}"))
     cache = health["cache"]
     output.result(f"cache: {cache['folder'] or 'none'}, {cache['bytes'] / 1e6:.1f} MB")
     output.result("\npackages")
@@ -66,7 +66,8 @@ def _print(health: dict[str, Any]) -> None:
     ):
         output.result(f"\n{title}")
         for name, state in health[key].items():
-            output.result(f"  {name:18} {'ready' if state['present'] else state['missing']}")
+            words = "ready" if state["present"] else state["missing"]
+            output.result(output.fold(f"  {name:18} {words}", indent=21))
     if not health["planners"]["fast-downward"]["present"]:
         output.result("\nwithout Fast Downward, large classical plans come from kairos, unproven")
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import shutil
+import textwrap
 import time
 from dataclasses import dataclass, field
+from itertools import zip_longest
 from typing import TYPE_CHECKING
 
 from hrcplan.cli import output
@@ -23,6 +25,7 @@ if TYPE_CHECKING:
 
 _BEGUN, _MARK = "▶", {ev.DONE: "✓", ev.FAILED: "✗", ev.CANCELLED: "·"}
 _WIDTH = (14, 34)
+_TIME = 11  # characters before the lanes
 
 
 @dataclass
@@ -100,31 +103,43 @@ class Live:
         if self._cells:
             self._print_cells(when, self._progress(run))
         for note in self._notes:
-            self._line(when, f"· {note}")
+            self._line(when, f"· {note}", fold=True)
         self._notes = []
 
     def _progress(self, run: Run) -> str:
         if run.current_plan is None:
             return ""
         n, whole = len(run.current_plan.ended), len(run.current_plan.plan.actions)
-        return f"{'█' * n}{'░' * (whole - n)} {n}/{whole}" if whole <= 30 else f"{n}/{whole}"
+        count = f"{n}/{whole}"
+        room = self._columns() - _TIME - self._width() * len(self._agents) - 2 * len(str(whole)) - 2
+        return f"{'█' * n}{'░' * (whole - n)} {count}" if whole <= min(30, room) else count
 
     def _print_cells(self, when: str, progress: str = "") -> None:
-        width = self._width()
-        cells = "".join(f"{self._cells.get(agent, ''):<{width - 1}} " for agent in self._agents)
-        self._line(when, f"{cells}{progress}")
+        width = self._width() - 1
+        lanes = (
+            textwrap.wrap(self._cells.get(agent, ""), width, subsequent_indent="  ",
+                          break_long_words=False, break_on_hyphens=False)
+            for agent in self._agents
+        )  # fmt: skip
+        for row in zip_longest(*lanes, fillvalue=""):
+            self._line(when, "".join(f"{cell:<{width}} " for cell in row) + progress)
+            when = progress = ""
         self._cells = {}
 
+    def _columns(self) -> int:
+        return shutil.get_terminal_size((110, 24)).columns
+
     def _width(self) -> int:
-        room = (shutil.get_terminal_size((110, 24)).columns - 30) // len(self._agents)
+        room = (self._columns() - 30) // len(self._agents)
         return max(_WIDTH[0], min(_WIDTH[1], room))
 
-    def _line(self, when: str, text: str) -> None:
+    def _line(self, when: str, text: str, fold: bool = False) -> None:
         if not self._has_head:
             self._has_head = True
             names = "".join(f"{agent:<{self._width()}}" for agent in self._agents)
             output.result(f"{'':9}  {names}done".rstrip())
-        output.result(f"{when:>9}  {text}".rstrip())
+        line = f"{when:>9}  {text}".rstrip()
+        output.result(output.fold(line, indent=_TIME + 2) if fold else line)
 
     def finish(self, run: Run, row: Outcome) -> None:
         """Print how the run ended and what was counted."""
@@ -136,11 +151,12 @@ class Live:
         }  # fmt: skip
         counts = ", ".join(f"{n} {kind}" for kind, n in reasons.items() if n)
         n_failed = row.failed_human + row.failed_robot
-        output.result(
-            f"\n{row.ending}{why}: {row.makespan_s:g}{unit}, {plural(row.replans, 'replan')}"
+        counted = (
+            f"{row.ending}{why}: {row.makespan_s:g}{unit}, {plural(row.replans, 'replan')}"
             f"{f' ({counts})' if counts else ''}, {plural(row.plans_confirmed, 'plan')} confirmed, "
             f"{row.executed_human} human and {row.executed_robot} robot actions, {n_failed} failed"
         )
+        output.result(f"\n{output.fold(counted)}")
 
 
 def _value(value: float | Number) -> str:

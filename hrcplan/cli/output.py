@@ -116,15 +116,22 @@ def table(grid: RenderableType) -> None:
     _echo("\n".join(line.rstrip() for line in text.get().splitlines()))
 
 
-def fold(line: str) -> str:
+def table_width() -> int:
+    """Return how many characters a line of a table may have."""
+    return shutil.get_terminal_size().columns if sys.stdout.isatty() else FILE_WIDTH
+
+
+def fold(line: str, indent: int = 2) -> str:
     """Return a line folded between its words at a terminal; for files and programs as it is.
 
-    A no-break space joins words that belong together; it is printed as a space.
+    A no-break space joins words that belong together; it is printed as a space. ``indent`` is the
+    number of spaces before the second line and all that follow.
     """
     if sys.stdout.isatty():
         width = shutil.get_terminal_size().columns
         line = "\n".join(
-            textwrap.wrap(line, width, subsequent_indent="  ", break_long_words=False,
+            textwrap.wrap(line.replace(" %", f"{NO_BREAK}%"), width,
+                          subsequent_indent=" " * indent, break_long_words=False,
                           break_on_hyphens=False)
         )  # fmt: skip
     return line.replace(NO_BREAK, " ")

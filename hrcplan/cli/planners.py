@@ -26,9 +26,13 @@ def command() -> None:
     for card, missing in cards:
         kinds = [kind for kind in ("classical", "temporal", "numeric") if getattr(card, kind)]
         proof = "proves optimality" if card.proves else "proves nothing"
-        output.result(f"{card.name:14} {card.summary}")
-        output.result(f"{'':14} {', '.join(kinds)}; metric: {card.metric}; {proof}; {card.licence}")
+        _line(card.name, card.summary)
+        _line("", f"{', '.join(kinds)}; metric: {card.metric}; {proof}; {card.licence}")
         if missing:
-            output.result(f"{'':14} missing: {missing}")
-    output.result("up:NAME        any installed unified-planning engine, as in up:pyperplan")
-    output.result("cmd:PROGRAM …  any program, as in 'cmd:popf {domain} {problem}'")
+            _line("", f"missing: {missing}")
+    _line("up:NAME", "any installed unified-planning engine, as in up:pyperplan")
+    _line("cmd:PROGRAM …", "any program, as in 'cmd:popf {domain} {problem}'")
+
+
+def _line(name: str, text: str) -> None:
+    output.result(output.fold(f"{name:14} {text}", indent=15))

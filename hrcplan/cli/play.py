@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from hrcplan.studies.changed_mind.script import NarratedEpisode, NarratedTurn
 
 
+_INDENT = "  "  # of what a robot believes
+
+
 @click.command(
     "play",
     epilog=options.notes(
@@ -43,12 +46,23 @@ def command(script: str, methods: tuple[str, ...], show_why: bool) -> int:
     if output.JSON:
         output.document(scripts.as_json(episode_script, narratives))
         return 0
-    output.result(str(episode_script.get("title", script)))
-    output.table(_side_by_side(narratives))
+    output.result(output.fold(str(episode_script.get("title", script))))
+    n_columns = _n_columns(narratives, output.table_width())
+    for first in range(0, len(narratives), n_columns):
+        output.table(_side_by_side(narratives[first : first + n_columns]))
     if show_why:
         for episode in narratives:
             output.result("\n".join(_reasons(episode)))
     return 0
+
+
+def _n_columns(narratives: Sequence[NarratedEpisode], width: int) -> int:
+    """Return how many methods fit side by side so that no goal in them is cut."""
+    goals = {goal for e in narratives for turn in e.turns for goal, _ in turn.top}
+    names = {turn.goal for e in narratives for turn in e.turns}
+    left = 5 + max(map(len, names), default=0) + 2  # the columns of turns and of goals
+    column = len(_INDENT) + 5 + max(map(len, goals), default=0) + 2 + 2
+    return max(1, (width - left) // column)
 
 
 def _side_by_side(narratives: Sequence[NarratedEpisode]) -> Table:
@@ -57,10 +71,10 @@ def _side_by_side(narratives: Sequence[NarratedEpisode]) -> Table:
     from rich.table import Table
 
     table = Table(box=None, padding=(0, 2, 0, 0), header_style="bold")
-    table.add_column("t", justify="right")
+    table.add_column("t", justify="right", no_wrap=True)
     table.add_column("goal", no_wrap=True)
     for episode in narratives:
-        table.add_column(escape(episode.method), no_wrap=True)
+        table.add_column(escape(episode.method))
     for t in range(max(len(episode.turns) for episode in narratives)):
         turns = [e.turns[t] if t < len(e.turns) else None for e in narratives]
         goal = next(turn.goal for turn in turns if turn is not None)
@@ -84,7 +98,7 @@ def _cell(turn: NarratedTurn | None) -> str:
 
 def _belief_text(goal: str, probability: float, is_right: bool) -> str:
     line = f"{probability:4.0%} {goal}"
-    return f"      [green]{line} ✓[/]" if is_right else f"      {line}"
+    return f"{_INDENT}[green]{line} ✓[/]" if is_right else f"{_INDENT}{line}"
 
 
 def _reasons(episode: NarratedEpisode) -> list[str]:

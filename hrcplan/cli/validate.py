@@ -66,7 +66,7 @@ def command(names: tuple[str, ...], epsilon: str) -> int:
         output.result(f"invalid: {step}{report.reason}")
         if (hint := _hint(report)) is not None:
             output.result(f"  hint: {hint}")
-        output.result(f"state there: {_fluents(report, problem)}")
+        output.result(output.fold(f"state there: {_fluents(report, problem)}"))
     return 0 if report.valid else 1
 
 
