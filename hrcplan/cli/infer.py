@@ -87,7 +87,7 @@ def as_text(answer: Inference) -> str:
         what = _likeliest(posterior, names)
         if row - 1 in by_step:
             what += f"  [ignored: {by_step[row - 1].reason}]"
-        lines.append(f"{row or '':>4}  {action:<{width}}  {what}")
+        lines.append(output.fold(f"{row or '':>4}  {action:<{width}}  {what}", indent=width + 8))
     if long:
         lines += ["", *(f"{name}: {goal}" for name, goal in zip(names, answer.goals, strict=True))]
     if answer.changed is not None:
@@ -112,4 +112,6 @@ def _likeliest(posterior: tuple[float, ...], names: list[str]) -> str:
     best = [goal for goal in order if posterior[goal] == posterior[order[0]]]
     if len(best) > N_SHOWN:
         return f"{posterior[best[0]]:.2f} each of {len(best)} goals"
-    return ", ".join(f"{posterior[goal]:.2f} {names[goal]}" for goal in order[:N_SHOWN])
+    return ", ".join(
+        f"{posterior[goal]:.2f}{output.NO_BREAK}{names[goal]}" for goal in order[:N_SHOWN]
+    )

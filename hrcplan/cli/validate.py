@@ -99,7 +99,8 @@ def _fluents(report: Report, problem: Problem) -> str:
     from hrcplan.pddl.model import fact_text
 
     changing = {e.target.name for action in problem.domain.actions for e in action.effects}
-    return " ".join(fact_text(fact) for fact in sorted(report.state) if fact[0] in changing)
+    facts = (fact_text(fact) for fact in sorted(report.state) if fact[0] in changing)
+    return " ".join(fact.replace(" ", output.NO_BREAK) for fact in facts)
 
 
 def _figures(report: Report) -> str:

@@ -12,11 +12,14 @@ import click
 import pytest
 from click.testing import CliRunner
 
+from hrcplan.bank import build_bank
 from hrcplan.cli import output
+from hrcplan.cli.infer import as_text
 from hrcplan.cli.live import Live
 from hrcplan.cli.planners import command as planners
 from hrcplan.cli.play import _n_columns, _side_by_side
 from hrcplan.execution.execute import carry_out, prepare_run
+from hrcplan.inference import infer
 from hrcplan.pddl.inputs import read
 from hrcplan.studies.changed_mind.script import NarratedEpisode, NarratedTurn
 
@@ -98,6 +101,15 @@ def test_no_color_takes_the_color(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("NO_COLOR", "1")
     lines = printed(lambda: side_by_side([episode("hrcplan")]))
     assert not re.search(r"\x1b\[([0-9;]*;)?3[0-7]\b", "\n".join(lines))
+
+
+def test_a_posterior_is_folded_between_its_goals(width: int) -> None:
+    answer = infer(build_bank("transport", "transport-goals"), ["(move human wp1 wp4)"])
+    text = as_text(answer)  # no terminal
+    lines = printed(lambda: output.result(as_text(answer)))
+    assert max(map(len, lines)) <= width
+    assert words(lines) == text.split()
+    assert not any(re.search(r" \d\.\d\d$", line) for line in lines[:-1])
 
 
 def side_by_side(episodes: list[NarratedEpisode]) -> None:
