@@ -215,7 +215,8 @@ def _shape(bank: Bank, goal: int) -> str:
     )
     rows = [["steps", "states"], *([str(i), str(n)] for i, n in enumerate(widths))]
     picture = (
-        f'<div class="scroll"><svg width="{16 * len(widths)}" height="80" role="img" '
+        f'<div class="scroll"><svg width="{16 * len(widths)}" height="80" '
+        f'viewBox="0 0 {16 * len(widths)} 80" role="img" '
         f'aria-label="states after each step" {save_data("states", rows)}>{bars}</svg></div>'
     )
     try:
