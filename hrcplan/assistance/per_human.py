@@ -216,14 +216,15 @@ class PerHuman(Generic[S]):
         """Return what steps are worth in timesteps, to all humans or the one who comes first."""
         choices = [self.helpers[place].options(state.parts[place]) for place in active]
         steps, worth = choices[0].steps, np.array([choice.values for choice in choices])
-        if not steps:
+        if not steps or len(active) == 1:
             return choices[0]
         total = worth.sum(axis=0)
         best = int(total.round(TIES).argmax())
         is_harmless = (worth[:, best] > -HARM).all()
-        if len(active) > 1 and not (total[best] > 0 and is_harmless):
+        least = min(choice.wait for choice in choices)
+        if not (total[best] > least and is_harmless):
             needs = [self.helpers[place].need(state.parts[place]) for place in active]
             for place in np.argsort(needs, kind="stable"):
-                if worth[place].max() > 0:
-                    return StepChoice(steps, tuple(worth[place].tolist()))
-        return StepChoice(steps, tuple(total.tolist()))
+                if choices[place].best is not None:
+                    return choices[place]
+        return StepChoice(steps, tuple(total.tolist()), least)

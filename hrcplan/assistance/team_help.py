@@ -15,7 +15,7 @@ from hrcplan.bank.team_moves import OUT_OF_REACH, Moment, TeamChoices, TeamMoves
 from hrcplan.core.arrays import Floats
 
 ACTION = 1 / TIMESTEP  # timesteps that an action costs besides its own
-LEAST_SAVING = 0.02  # timesteps: a step for goals that nearly nobody has is left undone
+LEAST_SAVING = 0.02  # timesteps: a step for improbable goals alone is left undone
 RISK = 0.02  # the probability of losing the goal that is taken to end a standstill
 PATIENCE = 3  # rounds without a human's step, after which any risk is taken
 NEGLIGIBLE = 1e-3  # the share of humans that a step must have to be looked beyond

@@ -57,7 +57,7 @@ def format_text(text: str, path: str = "PDDL") -> str:
       (:predicates
         (p ?x)
         (q))  ; two
-      )
+    )
     """
     source = SourceText(path, text)
     read_nodes(source)

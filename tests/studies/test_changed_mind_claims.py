@@ -384,7 +384,7 @@ def test_the_page_needs_nothing_but_itself_and_its_names_are_unique(folder: Path
         claims.GROUP, reach.GROUP, "Figure 3: guesses and steps", "Whose human is it?",
         "All measures", "Paired differences", "Time of a decision",
         "More changes, waits and alternatives", "Two banks, two kinds of consistency",
-        "Parts exchanged", "Readings",
+        "Parts exchanged", "Readings", "How to read these figures",
     ]  # fmt: skip
 
 

@@ -205,6 +205,8 @@ def test_participants_do_not_see_the_robot_or_its_belief(service: PageService) -
 def test_the_scripted_change_is_shown_after_so_many_steps(service: PageService) -> None:
     desk = service.desk
     assert desk is not None
+    for _ in range(4):  # one of them begins with the goal that changes
+        arrive(service)
     person = next(p for p in desk.participants.all() if desk.study.plan(p.number)[0].task.change_to)
     tasks = [
         desk.news(person, {"now": {"round": n}, "entries": []})["now"]["task"] for n in range(4)
