@@ -224,7 +224,7 @@ class PerHuman(Generic[S]):
         least = min(choice.wait for choice in choices)
         if not (total[best] > least and is_harmless):
             needs = [self.helpers[place].need(state.parts[place]) for place in active]
-            for place in np.argsort(needs, kind="stable").tolist():
+            for place in sorted(range(len(active)), key=needs.__getitem__):
                 if choices[place].best is not None:
                     return choices[place]
         return StepChoice(steps, tuple(total.tolist()), least)
