@@ -38,7 +38,7 @@ class ProgressLine:
     def __call__(self, what: str, count: int | None) -> None:
         """Show how much there is, or clear the line if the work has ended."""
         now = self._clock()
-        if os.getpid() != self._pid:
+        if os.getpid() != self._pid or self._stream.closed:
             return
         if count is None:
             self._next_s = None
@@ -80,7 +80,7 @@ class ProgressLog:
     def __call__(self, what: str, count: int | None) -> None:
         """Write how much there is, if it is time for that; an end of some work says nothing."""
         now = self._clock()
-        if os.getpid() != self._pid or count is None:
+        if os.getpid() != self._pid or self._stream.closed or count is None:
             return
         if self._next_s is None:
             self._next_s = now + LOG_DELAY_S

@@ -134,3 +134,13 @@ def test_planners_at_work_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
         listen(None)
     assert any(what.startswith("s; at work: thinker") for what in heard)
     assert any(what.endswith("best so far: 2") for what in heard)
+
+
+@pytest.mark.parametrize("kind", [ProgressLine, ProgressLog])
+def test_a_stream_that_was_closed_is_left_alone(kind: type[ProgressLine | ProgressLog]) -> None:
+    seconds, stream = iter(range(0, 1000, 100)), io.StringIO()
+    show = kind(stream, lambda: next(seconds))
+    show("states", 1)
+    stream.close()
+    for count in (2, 3):
+        show("states", count)
