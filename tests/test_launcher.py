@@ -5,6 +5,7 @@ on are empty wheels in a folder, so that pip does its real work and finds everyt
 """
 
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -244,6 +245,13 @@ def test_killed_installation_is_repeated(tmp_path: Path) -> None:
     code, stdout, stderr = outcome(start(root))
     assert (code, stdout) == (7, f"{root} [] part_java=1\n"), stderr
     assert builds(root) == 2
+
+
+def test_launcher_installs_what_the_readme_runs() -> None:
+    launcher = (TOOLS / "hrcplan").read_text()
+    (extras,) = re.findall(r"^need_venv (.+)$", launcher, re.MULTILINE)
+    # tools/hrcplan serve stands in README.md, tools/hrcplan lsp in docs/how-to/editors.md.
+    assert {"planners", "studies", "web", "lsp"} <= set(extras.split(","))
 
 
 def test_failed_installation_says_so_and_is_no_answer(tmp_path: Path) -> None:
