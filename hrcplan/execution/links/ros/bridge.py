@@ -19,6 +19,7 @@ import sys
 import threading
 import time
 import traceback
+from abc import ABC, abstractmethod
 from collections import deque
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from importlib import import_module
@@ -170,7 +171,7 @@ class RobotAction:
         self.why = ""
 
 
-class Executive:
+class Executive(ABC):
     """What all ways to carry actions out have in common."""
 
     def __init__(self, node: Any) -> None:
@@ -178,7 +179,7 @@ class Executive:
         self.actions: dict[int, RobotAction] = {}
         self.outcomes: dict[int, tuple[str, str]] = {}
 
-    def check(self, samples: Sequence[Mapping[str, Any]]) -> None:
+    def check(self, samples: Sequence[Mapping[str, Any]]) -> None:  # noqa: B027 - not all check
         """Check what can be checked before the first action.
 
         Raises:
@@ -249,17 +250,17 @@ class Executive:
                 action.why = f"it did not end within {action.order['limit_s']:g} s"
                 self.cancel(action.n)
 
+    @abstractmethod
     def request(self, action: RobotAction) -> None:
         """Ask for an action."""
-        raise NotImplementedError
 
+    @abstractmethod
     def break_off(self, action: RobotAction) -> None:
         """Ask to break an action off that was accepted."""
-        raise NotImplementedError
 
+    @abstractmethod
     def is_gone(self, action: RobotAction) -> bool:
         """Whether who carries an action out is there no more."""
-        raise NotImplementedError
 
 
 class ActionServers(Executive):
