@@ -20,34 +20,49 @@ LOG_DELAY_S = 5.0
 LOG_EVERY_S = 10.0
 
 
-class ProgressLine:
-    """Rewrites one line of a terminal; a copy of the process (a planner's worker) writes nothing.
+class _ProgressWriter:
+    """Decides when progress is written; a copy of the process (a planner's worker) writes nothing.
 
     Args:
-        stream: The terminal.
+        stream: Where to.
         clock: Seconds that only grow.
     """
+
+    delay_s: float
+    every_s: float
 
     def __init__(self, stream: TextIO, clock: Callable[[], float] = time.monotonic) -> None:
         self._stream = stream
         self._clock = clock
         self._pid = os.getpid()
         self._next_s: float | None = None
-        self._width = 0
 
     def __call__(self, what: str, count: int | None) -> None:
-        """Show how much there is, or clear the line if the work has ended."""
+        """Show how much there is if it is time for that; None ends the work."""
         now = self._clock()
         if os.getpid() != self._pid or self._stream.closed:
             return
         if count is None:
-            self._next_s = None
-            self._write("")
+            self._end()
         elif self._next_s is None:
-            self._next_s = now + DELAY_S
+            self._next_s = now + self.delay_s
         elif now >= self._next_s:
-            self._next_s = now + EVERY_S
+            self._next_s = now + self.every_s
             self._write(f"{count:,} {what} …")
+
+    def _write(self, text: str) -> None:
+        raise NotImplementedError
+
+    def _end(self) -> None:
+        """Do what the end of some work needs."""
+
+
+class ProgressLine(_ProgressWriter):
+    """Rewrites one line of a terminal, and clears it when the work has ended."""
+
+    delay_s = DELAY_S
+    every_s = EVERY_S
+    _width = 0
 
     def _write(self, text: str) -> None:
         text = cut(text, max(1, self._columns() - 1))
@@ -56,6 +71,10 @@ class ProgressLine:
             self._stream.flush()
             self._width = len(text)
 
+    def _end(self) -> None:
+        self._next_s = None
+        self._write("")
+
     def _columns(self) -> int:
         try:
             return os.get_terminal_size(self._stream.fileno()).columns or COLUMNS
@@ -63,31 +82,15 @@ class ProgressLine:
             return COLUMNS
 
 
-class ProgressLog:
-    """Writes a line now and then, where standard error is a file or a pipe.
+class ProgressLog(_ProgressWriter):
+    """Writes a line now and then, where standard error is a file or a pipe."""
 
-    Args:
-        stream: Where to.
-        clock: Seconds that only grow.
-    """
+    delay_s = LOG_DELAY_S
+    every_s = LOG_EVERY_S
 
-    def __init__(self, stream: TextIO, clock: Callable[[], float] = time.monotonic) -> None:
-        self._stream = stream
-        self._clock = clock
-        self._pid = os.getpid()
-        self._next_s: float | None = None
-
-    def __call__(self, what: str, count: int | None) -> None:
-        """Write how much there is, if it is time for that; an end of some work says nothing."""
-        now = self._clock()
-        if os.getpid() != self._pid or self._stream.closed or count is None:
-            return
-        if self._next_s is None:
-            self._next_s = now + LOG_DELAY_S
-        elif now >= self._next_s:
-            self._next_s = now + LOG_EVERY_S
-            self._stream.write(f"{count:,} {what} …\n")
-            self._stream.flush()
+    def _write(self, text: str) -> None:
+        self._stream.write(f"{text}\n")
+        self._stream.flush()
 
 
 def show_progress(stream: TextIO | None) -> None:

@@ -83,7 +83,7 @@ def test_grounding_tells_how_far_it_is_and_always_ends() -> None:
 def test_a_line_is_rewritten_on_a_terminal_only(
     stream: io.StringIO, shown: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("hrcplan.cli.progress_line.DELAY_S", 0)
+    monkeypatch.setattr(ProgressLine, "delay_s", 0)
     show_progress(stream)
     try:
         with counting("steps") as tell:
