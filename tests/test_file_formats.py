@@ -30,7 +30,7 @@ from hrcplan.collaboration.events import KINDS as COLLABORATION_KINDS
 from hrcplan.execution import FactChange, Nature, StateChange
 from hrcplan.execution import events as ev
 from hrcplan.execution.codec import KINDS, to_json
-from hrcplan.inference.traces import ActionTrace, TraceAction
+from hrcplan.inference.traces import ActionTrace, TraceAction, TraceAnswer, TracedEpisode
 from hrcplan.pddl.model import Problem
 from hrcplan.studies.changed_mind import script
 from hrcplan.studies.study import find
@@ -292,7 +292,14 @@ def test_every_section_is_looked_at() -> None:
 
 
 def test_traces() -> None:
-    actions = (TraceAction(0.0, "ann", "cut", ("ann", "pipe")), TraceAction(1.0, None, "ring", ()))
-    lines = [json.loads(line) for line in ActionTrace("d", "0", actions).text().splitlines()]
-    schema.check(lines[:1], SECTIONS["Trace: first line"])
-    schema.check(lines[1:], SECTIONS["Trace: other lines"])
+    """The trace of an episode has the keys of every trace, and more."""
+    plain = TraceAction(1.0, None, "ring", ())
+    noted = TraceAction(0.0, "ann", "cut", ("ann", "pipe"), "done", (0.25, 0.75), 1)
+    answers = {"all": TraceAnswer(("g", "h"), (3,))}
+    episode = TracedEpisode(("g", "h"), 7, answers, "s", "rows", ("a",), 2, 0, {"world": "w"})
+    traces = [ActionTrace("d", "0", (plain,)), ActionTrace("d", "0", (noted, plain), episode)]
+    files_of = [[json.loads(line) for line in trace.text().splitlines()] for trace in traces]
+    schema.check([files_of[0][0]], SECTIONS["Trace: first line"])
+    schema.check([files_of[1][0]], SECTIONS["Trace: first line of an episode"])
+    schema.check(files_of[0][1:] + files_of[1][1:], SECTIONS["Trace: other lines"])
+    assert files_of[0][0].items() <= files_of[1][0].items()

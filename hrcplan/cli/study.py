@@ -119,6 +119,12 @@ command.add_command(trials.collect_command)
     help="The world: simulated, pddlgym or module:Class. Only changed-mind.",
 )
 @click.option(
+    "--traces",
+    metavar="FOLDER",
+    type=click.Path(file_okay=False, path_type=Path),
+    help="Also write a trace of every episode to this folder. Not failure-anticipation.",
+)
+@click.option(
     "-o",
     "--output",
     "folder",
@@ -130,7 +136,7 @@ command.add_command(trials.collect_command)
 @output.common_options
 def run(
     name: str, runs: int | None, seed: int, jobs: int, limit: int | None, folder: Path,
-    methods: tuple[str, ...], humans: tuple[str, ...], tables: tuple[str, ...],
+    traces: Path | None, methods: tuple[str, ...], humans: tuple[str, ...], tables: tuple[str, ...],
     **choices: str | None,
 ) -> int:  # fmt: skip
     """Run the study NAME, and write one row per episode to DIR.
@@ -143,7 +149,7 @@ def run(
     with study_progress() as progress:
         n_new = run_study(
             name, folder, runs=runs, seed=seed, jobs=jobs, limit=limit, options=choices,
-            tables=tables, progress=progress, say=output.note,
+            tables=tables, traces=traces, progress=progress, say=output.note,
         )  # fmt: skip
     if output.JSON:
         output.document({"study": name, "folder": str(folder), "n_new": n_new})

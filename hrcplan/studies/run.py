@@ -14,8 +14,10 @@ from hrcplan import __version__
 from hrcplan.core.extras import require
 from hrcplan.core.safe_path import safe_path
 from hrcplan.errors import UsageError
+from hrcplan.inference.traces import ActionTrace
 from hrcplan.studies.store import Store
 from hrcplan.studies.study import Episode, Say, Seed, Study, StudyOptions, StudyRow, episodes, find
+from hrcplan.studies.trace_files import EpisodeResult, TraceFiles
 
 FIRST_RUNS = 10  # of each cell, before what others need is prepared
 _FEW = 16  # episodes that one process has done before others have prepared what they need
@@ -33,6 +35,7 @@ def run_study(
     limit: int | None = None,
     options: Mapping[str, str | None] | None = None,
     tables: Sequence[str] = (),
+    traces: str | Path | None = None,
     progress: ReportProgress | None = None,
     say: Say = lambda text: None,
 ) -> int:
@@ -50,6 +53,8 @@ def run_study(
             many of all its other tables together.
         options: The study's own options; None values stand for its defaults.
         tables: The only tables that are run; all by default.
+        traces: A folder to which a trace of each episode is written, too; episodes that have a row
+            but no trace are run again.
         progress: Called with the numbers of rows done and wanted.
         say: Called with what is going on, where that takes long.
 
@@ -69,17 +74,22 @@ def run_study(
     digest = hashlib.sha256(study.inputs(choice).encode()).hexdigest()
     about = {"study": name, "version": __version__, "seed": seed, "options": choice,
              "inputs_sha256": digest}  # fmt: skip
+    files = None if traces is None else TraceFiles(Path(traces), study, all_episodes)
     with Store.to_write(Path(folder), about, study.tables) as store:
         missing = store.missing(study.tables, all_episodes)
+        if files is not None:
+            missing = files.missing(all_episodes, missing)
         n_done = len(all_episodes) - len(missing)
         if progress is not None:
             progress(n_done, len(all_episodes))
         for part, needs_more in _parts(study, missing):
             if needs_more:
                 study.prepare(choice, jobs, say)
-            for results in _results(name, choice, seed, part, jobs):
-                for table, rows in groupby(results, lambda pair: pair[0].table):
-                    store.add(study.table(table), list(rows))
+            for results in _results(name, choice, seed, part, jobs, files is not None):
+                if files is not None:
+                    files.write(choice, seed, results)
+                for table, group in groupby(results, lambda result: result.episode.table):
+                    store.add(study.table(table), [(one.episode, one.row) for one in group])
                 n_done += len(results)
                 if progress is not None:
                     progress(n_done, len(all_episodes))
@@ -102,19 +112,22 @@ def _parts(study: Study, missing: list[Episode]) -> Iterator[tuple[list[Episode]
 
 
 def _results(
-    name: str, options: StudyOptions, seed: int, missing: list[Episode], jobs: int
-) -> Iterator[list[tuple[Episode, StudyRow]]]:
-    """Yield rows in the order of the episodes, not in that of their ends."""
+    name: str, options: StudyOptions, seed: int, missing: list[Episode], jobs: int,
+    is_traced: bool,
+) -> Iterator[list[EpisodeResult]]:  # fmt: skip
+    """Yield results in the order of the episodes, not in that of their ends."""
     chunks = _chunks(missing)
     if jobs == 1 or len(missing) < _FEW:
-        yield from (_rows(name, options, seed, chunk) for chunk in chunks)
+        yield from (_rows(name, options, seed, chunk, is_traced) for chunk in chunks)
         return
     from joblib import Parallel, delayed
 
     workers = Parallel(n_jobs=jobs, return_as="generator", batch_size=1,
                        initializer=_end_with, initargs=(os.getpid(),))  # fmt: skip
     with safe_path():
-        yield from workers(delayed(_rows)(name, options, seed, chunk) for chunk in chunks)
+        yield from workers(
+            delayed(_rows)(name, options, seed, chunk, is_traced) for chunk in chunks
+        )
 
 
 def _chunks(missing: list[Episode]) -> list[list[Episode]]:
@@ -139,16 +152,20 @@ def _end_with(parent: int) -> None:
 
 
 def _rows(
-    name: str, options: StudyOptions, seed: int, chunk: list[Episode]
-) -> list[tuple[Episode, StudyRow]]:
+    name: str, options: StudyOptions, seed: int, chunk: list[Episode], is_traced: bool
+) -> list[EpisodeResult]:
     study = find(name)
-    return [(episode, _row(study, options, seed, episode)) for episode in chunk]
+    return [EpisodeResult(e, *_row(study, options, seed, e, is_traced)) for e in chunk]
 
 
-def _row(study: Study, options: StudyOptions, seed: int, episode: Episode) -> StudyRow:
+def _row(
+    study: Study, options: StudyOptions, seed: int, episode: Episode, is_traced: bool
+) -> tuple[StudyRow, ActionTrace | None]:
     table = study.table(episode.table)
     try:
-        return table.episode(options, episode.cell, Seed(seed, episode.run))
+        if is_traced and table.traced is not None:
+            return table.traced(options, episode.cell, Seed(seed, episode.run))
+        return table.episode(options, episode.cell, Seed(seed, episode.run)), None
     except Exception as error:
         error.add_note(f"in {episode.table}, cell {episode.cell}, run {episode.run}")
         raise

@@ -13,6 +13,7 @@ from itertools import islice
 from hrcplan.core.deprecation import warn_old_name
 from hrcplan.core.registry import ObjectRegistry
 from hrcplan.errors import UsageError
+from hrcplan.inference.traces import ActionTrace
 from hrcplan.studies.verdict import verdict_of
 
 CellValue = int | float | str | None
@@ -48,7 +49,8 @@ class StudyTable:
     seed, and nothing else decides about it, but for the ``clocked`` columns: they are measured by
     the clock and kept in a file of their own. The seed depends on study seed and run only, so that
     cells are paired. ``at_most`` is the largest number of runs per cell. ``grown`` are the columns
-    that rows of earlier versions lack, with what their value is there.
+    that rows of earlier versions lack, with what their value is there. ``traced`` returns the same
+    row as ``episode`` with a trace of the episode; None if a table has no traces.
     """
 
     name: str
@@ -59,6 +61,7 @@ class StudyTable:
     at_most: int | None = None
     clocked: tuple[str, ...] = ()
     grown: Mapping[str, Callable[[StudyRow], CellValue]] = field(default_factory=dict)
+    traced: Callable[[StudyOptions, Cell, Seed], tuple[StudyRow, ActionTrace]] | None = None
 
 
 @dataclass(frozen=True, slots=True)

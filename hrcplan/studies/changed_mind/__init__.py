@@ -19,7 +19,7 @@ STUDY = Study(
     tables=tuple(
         StudyTable(name, ("human", "method"), episodes.COLUMNS, partial(scenario.cells, name),
               episodes.simulate, at_most=table.get("at_most"), clocked=episodes.CLOCKED,
-              grown=episodes.GROWN)
+              grown=episodes.GROWN, traced=episodes.simulate_with_trace)
         for name, table in scenario.data()["tables"].items()
     ),
     measures=episodes.MEASURES,

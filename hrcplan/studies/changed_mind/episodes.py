@@ -6,11 +6,15 @@ from collections.abc import Callable, Mapping
 from dataclasses import asdict, replace
 from functools import lru_cache
 from statistics import fmean
+from typing import Any
 
+from hrcplan.bank import Bank
 from hrcplan.episodes.episode import REACHED, STUCK, UNFINISHED, EpisodeRecord, play
 from hrcplan.episodes.humans import Course
 from hrcplan.episodes.measures import changes, guesses, mistakes, n_wasted, waits
 from hrcplan.episodes.own_goals import play_own_goals
+from hrcplan.episodes.traces import BeliefLog, Beliefs, trace_of_episode
+from hrcplan.inference.traces import ActionTrace
 from hrcplan.studies.changed_mind import scenario
 from hrcplan.studies.study import Cell, CellValue, Seed, StudyOptions, StudyRow
 
@@ -49,36 +53,78 @@ ORACLE = "oracle"
 def simulate(options: StudyOptions, cell: Cell, seed: Seed) -> StudyRow:
     """Return the row of one episode: what was drawn, and its measures."""
     name, method = map(str, cell)
-    task = scenario.task_of(options, name)
-    bank = scenario.bank_of(*task)
-    courses = scenario.courses(name, bank, seed, options)
-    record = _play(options, name, method, courses)
+    courses = _courses(options, name, seed)
+    return _row(options, name, courses, _play(options, name, method, courses))
+
+
+def simulate_with_trace(
+    options: StudyOptions, cell: Cell, seed: Seed
+) -> tuple[StudyRow, ActionTrace]:
+    """Return the same, and what was done and believed."""
+    name, method = map(str, cell)
+    courses = _courses(options, name, seed)
+    bank = scenario.bank_of(*scenario.task_of(options, name))
+    beliefs: Beliefs = {}
+    record = _play(options, name, method, courses, beliefs)
+    return _row(options, name, courses, record), trace_of_episode(bank, record, beliefs)
+
+
+def _courses(options: StudyOptions, name: str, seed: Seed) -> Mapping[str, Course]:
+    bank = scenario.bank_of(*scenario.task_of(options, name))
+    return scenario.courses(name, bank, seed, options)
+
+
+def _row(
+    options: StudyOptions, name: str, courses: Mapping[str, Course], record: EpisodeRecord
+) -> StudyRow:
+    bank = scenario.bank_of(*scenario.task_of(options, name))
     n_faultless, n_oracle = _oracles(tuple(options.items()), name, tuple(courses.items()))
+    return {
+        **drawn(bank, courses, record),
+        **measures_of(record),
+        "extra_steps": record.cost - n_faultless,
+        "extra_vs_oracle": record.cost - n_oracle,
+        "decision_ms": fmean(record.decisions_ms) if record.decisions_ms else 0.0,
+    }
+
+
+def drawn(bank: Bank, courses: Mapping[str, Course], record: EpisodeRecord) -> StudyRow:
+    """Return the columns that say what humans wanted, and how the episode ended."""
     names = [bank.names[goal] for goal in record.course.goals]
-    ending = record.ending if record.is_reachable else UNREACHABLE
     return {
         "first": names[0],
         "second": names[1] if len(names) > 1 else None,
         "goals": "; ".join(" ".join(bank.names[g] for g in c.goals) for c in courses.values()),
         "turns": "; ".join(" ".join(map(str, course.turns)) for course in courses.values()),
-        "ending": ending,
+        "ending": ending_of(record),
+    }
+
+
+def ending_of(record: EpisodeRecord) -> str:
+    """Return how an episode ended; `UNREACHABLE` if no agent can reach the goal any more."""
+    return record.ending if record.is_reachable else UNREACHABLE
+
+
+def measures_of(record: EpisodeRecord) -> StudyRow:
+    """Return the measures of an episode that need no other episode."""
+    ending = ending_of(record)
+    return {
         **asdict(guesses(record)),
         **asdict(changes(record)),
         "wasted_robot_steps": n_wasted(record),
         "human_mistakes": mistakes(record),
         "robot_waits": waits(record),
         "total_steps": record.cost,
-        "extra_steps": record.cost - n_faultless,
-        "extra_vs_oracle": record.cost - n_oracle,
         **{f"{name}_pct": 100.0 * (ending == name) for name in (*ENDINGS, UNREACHABLE)},
         "played_steps": record.n_turns,
-        "decision_ms": fmean(record.decisions_ms) if record.decisions_ms else 0.0,
     }
 
 
 def _play(
-    options: StudyOptions, name: str, method: str, courses: Mapping[str, Course]
-) -> EpisodeRecord:
+    options: StudyOptions, name: str, method: str, courses: Mapping[str, Course],
+    beliefs: Beliefs | None = None,
+) -> EpisodeRecord:  # fmt: skip
+    """Return the record of an episode; what the robot believes is added to ``beliefs``."""
     task = scenario.task_of(options, name)
     bank, world = scenario.bank_of(*task), scenario.world(options["world"], *task)
     if scenario.has_own_goals(options, bank):
@@ -87,10 +133,14 @@ def _play(
             for who, course in courses.items()
         }
         helper = scenario.robot_per_human(method, *task)
-        return play_own_goals(bank, humans, helper, courses, world)
+        own_log: BeliefLog[Any] = BeliefLog(
+            lambda state, turn: helper.posterior_of(state, turn.agent or ""), beliefs
+        )
+        return play_own_goals(bank, humans, helper, courses, world, own_log.watch)
     (course,) = courses.values()
-    human = scenario.human(name, bank, course, options)
-    return play(bank, human, scenario.robot(method, *task), course, world)
+    human, robot = scenario.human(name, bank, course, options), scenario.robot(method, *task)
+    log: BeliefLog[Any] = BeliefLog(lambda state, turn: robot.posterior(state), beliefs)
+    return play(bank, human, robot, course, world, log.watch)
 
 
 @lru_cache(maxsize=64)

@@ -18,7 +18,8 @@ STUDY = Study(
     title="Collaboration",
     tables=tuple(
         StudyTable(name, scenario.KEYS, episodes.COLUMNS, partial(scenario.cells, name),
-              episodes.simulate, at_most=table.get("at_most"))
+              episodes.simulate, at_most=table.get("at_most"),
+              traced=episodes.simulate_with_trace)
         for name, table in scenario.data()["tables"].items()
     ),
     measures=tuple(MEASURES),

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
+from dataclasses import asdict, replace
 
 from hrcplan.collaboration.collaborate import simulated
 from hrcplan.collaboration.history import AskedGoal, EndedAction, actions_in
 from hrcplan.collaboration.run import CompanionRun
-from hrcplan.episodes.episode import PATIENCE, REACHED, STUCK, UNFINISHED, EpisodeRecord
+from hrcplan.episodes.episode import PATIENCE, REACHED, STUCK, UNFINISHED
 from hrcplan.episodes.humans import Course
 from hrcplan.episodes.measures import changes, guesses, n_wasted
+from hrcplan.episodes.traces import answer_of
 from hrcplan.execution import events as ev
+from hrcplan.inference.traces import ALL_HUMANS, ActionTrace, TracedEpisode
 from hrcplan.studies.collaboration import scenario
 from hrcplan.studies.collaboration.measures import DETAILS, MEASURES
 from hrcplan.studies.collaboration.record import GuessLog, record_of
@@ -25,39 +27,60 @@ ENDINGS = (REACHED, STUCK, UNFINISHED)
 
 def simulate(options: StudyOptions, cell: Cell, seed: Seed) -> StudyRow:
     """Return the row of one episode: what was drawn, and its measures."""
-    case, method = map(str, cell)
-    name, human = scenario.split_case(case)
-    task = scenario.task_of(*scenario.files_of(options, name))
-    course = scenario.course(task.bank, human, seed)
-    run, record = _play(task, options, human, method, course, seed)
-    names = [task.bank.names[goal] for goal in course.goals]
+    return _row(_Collaboration(options, cell, seed))
+
+
+def simulate_with_trace(
+    options: StudyOptions, cell: Cell, seed: Seed
+) -> tuple[StudyRow, ActionTrace]:
+    """Return the same, and what was done and believed."""
+    episode = _Collaboration(options, cell, seed)
+    return _row(episode), episode.trace()
+
+
+class _Collaboration:
+    """A finished collaboration of a run, and its record."""
+
+    def __init__(self, options: StudyOptions, cell: Cell, seed: Seed) -> None:
+        case, method = map(str, cell)
+        name, human = scenario.split_case(case)
+        self.task = scenario.task_of(*scenario.files_of(options, name))
+        self.course = scenario.course(self.task.bank, human, seed)
+        setup = self.task.setup(options, method, seed)
+        mean_s = self.task.prices.mean_duration_s
+        lasts_s = _n_steps(self.task, self.course) * mean_s / len(setup.slots)
+        nature = scenario.nature(setup, human, seed, lasts_s)
+        parts = simulated(
+            setup, self.task.bank, self.course, options["chooser"],
+            lambda bank: self.task.assistant(setup), nature,
+        )  # fmt: skip
+        self.log = GuessLog(parts.adviser)
+        self.run = parts.run(watch=self.log.watch)
+        self.record = record_of(self.run, parts, self.course, self.log)
+
+    def trace(self) -> ActionTrace:
+        """Return what was done, with the belief after each action of people."""
+        bank = self.task.bank
+        actions = self.log.trace(bank.goals.problem)
+        answers = {ALL_HUMANS: answer_of(bank, self.course)}
+        return replace(actions, episode=TracedEpisode(bank.names, None, answers))
+
+
+def _row(episode: _Collaboration) -> StudyRow:
+    task, run, record = episode.task, episode.run, episode.record
+    names = [task.bank.names[goal] for goal in episode.course.goals]
     return {
         "first": names[0],
         "second": names[1] if len(names) > 1 else None,
-        "change": " ".join(map(str, course.turns)),
+        "change": " ".join(map(str, episode.course.turns)),
         "ending": record.ending,
         **{f"{ending}_pct": 100.0 * (record.ending == ending) for ending in ENDINGS},
-        **_costs(task, run, course, record.ending == REACHED),
+        **_costs(task, run, episode.course, record.ending == REACHED),
         **_shares(run),
         **_only(asdict(guesses(record))),
         **_only(asdict(changes(record))),
         "wasted_robot_steps": n_wasted(record),
     }
-
-
-def _play(
-    task: StudyTask, options: StudyOptions, human: str, method: str, course: Course, seed: Seed
-) -> tuple[CompanionRun, EpisodeRecord]:
-    """Return a finished collaboration, and its record."""
-    setup = task.setup(options, method, seed)
-    lasts_s = _n_steps(task, course) * task.prices.mean_duration_s / len(setup.slots)
-    nature = scenario.nature(setup, human, seed, lasts_s)
-    parts = simulated(
-        setup, task.bank, course, options["chooser"], lambda bank: task.assistant(setup), nature
-    )
-    log = GuessLog(parts.adviser)
-    run = parts.run(watch=log.watch)
-    return run, record_of(run, parts, course, log)
 
 
 def _n_steps(task: StudyTask, course: Course) -> int:

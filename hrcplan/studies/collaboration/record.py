@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from hrcplan.bank.team_moves import Moment, TeamMoves
 from hrcplan.bank.turn_moves import team_moves
 from hrcplan.collaboration.adviser import Adviser
@@ -15,7 +17,11 @@ from hrcplan.core.arrays import Floats
 from hrcplan.episodes.episode import REACHED, STUCK, UNFINISHED, EpisodeRecord, EpisodeTurn
 from hrcplan.episodes.humans import Course
 from hrcplan.execution import events as ev
+from hrcplan.execution.codec import to_json
+from hrcplan.execution.traces import trace_of
 from hrcplan.inference.belief import n_declared
+from hrcplan.inference.traces import ActionTrace
+from hrcplan.pddl.model import Problem
 
 
 def ending_of(run: CompanionRun) -> str:
@@ -31,15 +37,29 @@ class GuessLog:
     def __init__(self, adviser: Adviser) -> None:
         self.adviser = adviser
         self.by_number: dict[int, tuple[Floats, int]] = {}
+        self._steps: list[tuple[SharedEvent, tuple[SharedCommand, ...]]] = []
 
     def watch(
         self, run: CompanionRun, event: SharedEvent, commands: tuple[SharedCommand, ...]
     ) -> None:
         """Note the belief after an action of people, and after they have said what they want."""
+        self._steps.append((event, commands))
         if isinstance(event, Begun | Wanted) and (last := run.last_reported) is not None:
             state = self.adviser.fold.state(run.history)
             posterior = self.adviser.assistant.posterior(state)
             self.by_number[last.number] = posterior, n_declared(state)
+
+    def trace(self, problem: Problem) -> ActionTrace:
+        """Return what was done, with what was noted of each action."""
+        beliefs = {
+            number: (tuple(posterior.tolist()), n_known)
+            for number, (posterior, n_known) in self.by_number.items()
+        }
+        lines: list[dict[str, Any]] = [{}]
+        for event, commands in self._steps:
+            decided = [to_json(one) for one in commands if isinstance(one, ev.Dispatch)]
+            lines += [{"event": to_json(event)}, {"decided": decided}]
+        return trace_of(lines, problem, beliefs)
 
 
 def record_of(
