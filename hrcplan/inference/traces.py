@@ -79,7 +79,7 @@ class TracedEpisode:
         goals: The goals' names, in the order of the posteriors.
         timesteps: How many timesteps the episode has, waits included; None if agents act at any
             time. A timestep without an action is a wait.
-        answers: What each human wanted; whoever infers the goal must not look at it.
+        answers: What each human wanted; a method that infers the goal must not read it.
         study: The name of the study.
         table: The name of its table.
         cell: The cell.

@@ -80,7 +80,7 @@ def _row(
     bank = scenario.bank_of(*scenario.task_of(options, name))
     n_faultless, n_oracle = _oracles(tuple(options.items()), name, tuple(courses.items()))
     return {
-        **drawn(bank, courses, record),
+        **columns_of_course(bank, courses, record),
         **measures_of(record),
         "extra_steps": record.cost - n_faultless,
         "extra_vs_oracle": record.cost - n_oracle,
@@ -88,7 +88,7 @@ def _row(
     }
 
 
-def drawn(bank: Bank, courses: Mapping[str, Course], record: EpisodeRecord) -> StudyRow:
+def columns_of_course(bank: Bank, courses: Mapping[str, Course], record: EpisodeRecord) -> StudyRow:
     """Return the columns that say what humans wanted, and how the episode ended."""
     names = [bank.names[goal] for goal in record.course.goals]
     return {
