@@ -60,6 +60,7 @@ if TYPE_CHECKING:
     from hrcplan.plans import Plan, PlannedAction
     from hrcplan.studies import run_study
     from hrcplan.task import Task
+    from hrcplan.task.batch import BatchSimulator
     from hrcplan.task.ground import ground
     from hrcplan.validation import Report, validate
 
@@ -67,6 +68,7 @@ __all__ = [
     "Answer",
     "Assistant",
     "Bank",
+    "BatchSimulator",
     "Belief",
     "BeliefAssistant",
     "Capabilities",
@@ -157,6 +159,7 @@ _HOMES = {
     "hrcplan.plans": ("Plan", "PlannedAction"),
     "hrcplan.studies": ("run_study",),
     "hrcplan.task": ("Task",),
+    "hrcplan.task.batch": ("BatchSimulator",),
     "hrcplan.task.ground": ("ground",),
     "hrcplan.validation": ("Report", "validate"),
 }  # fmt: skip

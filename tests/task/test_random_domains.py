@@ -33,6 +33,7 @@ from hrcplan.pddl.model import (
     Signature,
 )
 from hrcplan.task import Task
+from tests.task.test_batch import compare as compare_batch
 
 MAX_STATES = 25
 THING, AGENT = ("thing",), ("agent",)
@@ -164,7 +165,10 @@ def ground(problem: Problem) -> Task | None:
 @settings(max_examples=30, suppress_health_check=list(HealthCheck))
 @given(problem=problems())
 def test_every_reachable_state(problem: Problem, oracle: Any) -> None:
-    """No ground action is missing, none is too many, and each does and costs what it should."""
+    """No ground action is missing, none is too many, and each does and costs what it should.
+
+    Many states at once are treated like each of them.
+    """
     task, lifted = ground(problem), oracle(problem)
     if task is None:
         return
@@ -179,6 +183,7 @@ def test_every_reachable_state(problem: Problem, oracle: Any) -> None:
             if bits not in seen:
                 seen.add(bits)
                 waiting.append(after.state)
+    compare_batch(task, sorted(seen))
 
 
 @settings(max_examples=25, suppress_health_check=list(HealthCheck))

@@ -11,6 +11,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+import numpy as np
 from rows import Row, interleaved
 
 from hrcplan.episodes.pddlgym_world import environment
@@ -18,9 +19,11 @@ from hrcplan.pddl.classical import classical, classical_texts
 from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import Problem
 from hrcplan.task import Task
+from hrcplan.task.batch import BatchSimulator
 
 EPISODE = 50  # steps until the walk starts anew
 RATE, OVER_UP, OVER_GYM = 150_000, 100, 10
+BATCH_RATE, BATCH_SIZES = 1_000_000, (1_000, 10_000)
 N_ROUNDS, OURS_N, THEIRS_S = 5, 10_000, 0.5
 BLOCKS = """
 (define (domain blocks) (:requirements :strips :typing) (:types block)
@@ -54,8 +57,23 @@ def rows() -> Iterator[Row]:
         rate = max(interleaved({"ours": partial(_walk, Task(problem))}, 3 * N_ROUNDS, max).values())
         goal = f">= {RATE:,} steps/s"
         yield Row(f"{domain}/{name}", f"{rate:,.0f} steps/s", "", goal, rate < RATE)
+        yield from _batches(f"{domain}/{name}", Task(problem))
     for title, problem in _classical():
         yield from _compare(title, problem)
+
+
+def _batches(title: str, task: Task) -> Iterator[Row]:
+    """Yield the rates of many walks at once, on tasks that the rates of one walk are of."""
+    for size in BATCH_SIZES:
+        walk = partial(_walk_batch, BatchSimulator(task), size)
+        rate = max(interleaved({"ours": walk}, N_ROUNDS, max).values())
+        yield Row(
+            f"{title}, {size:,} walks at once",
+            f"{rate:,.0f} steps/s",
+            "",
+            f">= {BATCH_RATE:,} steps/s",
+            rate < BATCH_RATE,
+        )
 
 
 def _classical() -> Iterator[tuple[str, Problem]]:
@@ -71,8 +89,10 @@ def _classical() -> Iterator[tuple[str, Problem]]:
 
 def _compare(title: str, problem: Problem) -> Iterator[Row]:
     bare = classical(problem)
+    task = Task(bare)
     runs: dict[str, Callable[[], float]] = {
-        "ours": partial(_walk, Task(bare)),
+        "ours": partial(_walk, task),
+        "ours at once": partial(_walk_batch, BatchSimulator(task), BATCH_SIZES[0]),
         "unified-planning": _unified_planning(*classical_texts(problem)),
     }
     gym = _pddlgym(problem)
@@ -89,6 +109,12 @@ def _compare(title: str, problem: Problem) -> Iterator[Row]:
                 f">= {least} x",
                 ratio < least,
             )
+            at_once = rates["ours at once"]
+            yield Row(
+                f"{title}, {BATCH_SIZES[0]:,} walks at once",
+                f"{at_once:,.0f} steps/s",
+                f"{name}: {rates[name]:,.0f} steps/s, ratio {at_once / rates[name]:,.0f}",
+            )
 
 
 def _walk(task: Task) -> float:
@@ -101,6 +127,13 @@ def _walk(task: Task) -> float:
         actions = applicable(state)
         state = successor(state, actions[int(draw() * len(actions))])
     return OURS_N / (time.process_time() - start)
+
+
+def _walk_batch(simulator: BatchSimulator, n_states: int) -> float:
+    states, rng = simulator.initial(n_states), np.random.default_rng(1)
+    start = time.process_time()
+    simulator.walk(states, EPISODE, rng)
+    return n_states * EPISODE / (time.process_time() - start)
 
 
 def _unified_planning(domain: str, problem: str) -> Callable[[], float]:
