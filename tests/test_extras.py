@@ -42,8 +42,8 @@ def distributions(requirements: list[str]) -> set[str]:
     return {re.split(r"[\[<>=!;~ ]", text)[0] for text in requirements}
 
 
-def test_core_is_five_packages() -> None:
-    packages = {"kairos-planner", "numpy", "rapidfuzz", "rich", "rich-click"}
+def test_core_is_six_packages() -> None:
+    packages = {"click", "kairos-planner", "numpy", "rapidfuzz", "rich", "rich-click"}
     assert distributions(EXTRAS["dependencies"]) == packages
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-import rich_click as click
+import click
 
 from hrcplan.cli import options, output
 

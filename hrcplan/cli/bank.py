@@ -8,9 +8,10 @@ from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import rich_click as click
+import click
 
 from hrcplan.cli import options, output
+from hrcplan.cli.help import Group
 from hrcplan.core.files import check_target
 from hrcplan.core.numbers import fraction_of, int_text
 from hrcplan.errors import UsageError
@@ -37,7 +38,7 @@ class _Factor(click.ParamType):  # type: ignore[type-arg]
         return factor
 
 
-@click.group("bank")
+@click.group("bank", cls=Group)
 def command() -> None:
     """Policy banks: every valid plan of every goal, counted exactly."""
 

@@ -6,7 +6,7 @@ import platform
 from importlib import metadata
 from typing import Any
 
-import rich_click as click
+import click
 
 from hrcplan import __version__
 from hrcplan.cli import output

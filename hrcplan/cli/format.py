@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-import rich_click as click
+import click
 
 from hrcplan.cli import output
 from hrcplan.core.files import write_atomically
@@ -19,7 +19,7 @@ STDIN = "-"
               "file would change.")  # fmt: skip
 @output.common_options
 def command(files: tuple[str, ...], only_check: bool) -> int:
-    """Write domain and problem FILEs again in one layout; words and comments do not change.
+    """Write domain and problem FILEs again in one layout; words and comments stay.
 
     FILE - is standard input, and its layout goes to standard output.
     """

@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import rich_click as click
+import click
 
 from hrcplan.cli import options, output
 
@@ -42,7 +42,7 @@ def command(
     source: str, actions: str | None, method: str | None, goals_per: str,
     timeout: float | None, seed: int, plot: Path | None,
 ) -> int:  # fmt: skip
-    """Infer the human's goal from the observed ACTIONS, step by step, and where it changed."""
+    """Infer the human's goal, and where it changed, from the observed ACTIONS."""
     from hrcplan.inference import infer
 
     options.check_picture(plot, "--plot", source, *([] if actions is None else [actions]))

@@ -14,11 +14,12 @@ from contextlib import contextmanager
 from functools import partial
 from typing import Any, NoReturn, TextIO
 
-import rich_click as click
+import click
 from click.exceptions import Abort, ClickException, Exit
 
 from hrcplan import __version__
 from hrcplan.cli import output, streams
+from hrcplan.cli.help import Group, HelpContext, set_help
 from hrcplan.cli.progress_line import show_progress
 from hrcplan.core.deprecation import OldNameWarning
 from hrcplan.core.files import reason_of
@@ -26,33 +27,39 @@ from hrcplan.core.text import harmless
 from hrcplan.errors import HrcplanError, InputError, LimitError, PddlError, UsageError
 
 COMMANDS = {
-    "plan": "hrcplan.cli.plan",
-    "allocation": "hrcplan.cli.allocation",
-    "validate": "hrcplan.cli.validate",
-    "execute": "hrcplan.cli.execute",
-    "collaborate": "hrcplan.cli.collaborate",
-    "serve": "hrcplan.cli.serve",
-    "robot": "hrcplan.cli.robot",
-    "replay": "hrcplan.cli.replay",
-    "check": "hrcplan.cli.check",
-    "format": "hrcplan.cli.format",
-    "lsp": "hrcplan.cli.lsp",
-    "mcp": "hrcplan.cli.mcp",
-    "new-problem": "hrcplan.cli.new_problem",
-    "bank": "hrcplan.cli.bank",
-    "infer": "hrcplan.cli.infer",
-    "study": "hrcplan.cli.study",
-    "planners": "hrcplan.cli.planners",
-    "doctor": "hrcplan.cli.doctor",
+    "plan": "Find a plan for the PROBLEM of a DOMAIN.",
+    "allocation": "Show which agent does how much in the best plan, for every value of ELEMENT.",
+    "validate": "Replay PLAN step by step, and print whether it is valid or where it fails.",
+    "execute": "Carry out DOMAIN PROBLEM with a simulated human, and replan before actions fail.",
+    "collaborate": "Work together with a robot that does not know your goal.",
+    "serve": "Serve a page in which you work together with a robot. Ctrl-C ends it.",
+    "robot": "Simulate a robot, to try robot links with.",
+    "replay": "Check that every decision in JOURNAL follows from what was written before it.",
+    "check": "Report every fault of domain and problem FILEs, with line and column.",
+    "format": "Write domain and problem FILEs again in one layout; words and comments stay.",
+    "lsp": "Serve an editor over standard input and output, as the Language Server Protocol says.",
+    "mcp": "Serve check, plan, validate, allocation and infer to a language model.",
+    "new-problem": "Write a copy of PROBLEM with another goal and other values.",
+    "bank": "Policy banks: every valid plan of every goal, counted exactly.",
+    "infer": "Infer the human's goal, and where it changed, from the observed ACTIONS.",
+    "study": "Run a study, and report on its rows.",
+    "planners": "List the planners: the problems each can solve, and whether it can run here.",
+    "doctor": "Show versions, Java and planners, and what to install.",
 }
+"""By name: the first sentence of a command's help, so that a list of them imports none."""
 INTERNAL_ERROR = 5
 INTERRUPTED = 130
 TERMINATED = 143
 HUNG_UP = 129
 
 
-class _Commands(click.RichGroup):
-    """Commands that are imported when they are called, so that ``--help`` answers at once."""
+class _Commands(Group):
+    """Commands that are imported when they are called, so that ``--help`` answers at once.
+
+    ``commands`` holds their names and summaries only.
+    """
+
+    context_class = HelpContext
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Return the names in the order of a first walk through the tool."""
@@ -62,8 +69,9 @@ class _Commands(click.RichGroup):
         """Return a command, or None if there is none of this name."""
         if cmd_name not in COMMANDS:
             return None
-        module = importlib.import_module(COMMANDS[cmd_name])
+        module = importlib.import_module(f"hrcplan.cli.{cmd_name.replace('-', '_')}")
         command: click.Command = module.command
+        set_help(command)
         return command
 
     def main(
@@ -186,7 +194,11 @@ def _notes(error: BaseException) -> str:
     return "".join(f" ({note})" for note in getattr(error, "__notes__", ()))
 
 
-@click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"]})
+@click.group(
+    cls=_Commands,
+    commands={name: click.Command(name, help=text) for name, text in COMMANDS.items()},
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
 @click.version_option(__version__, prog_name="hrcplan")
 @click.option("--debug", is_flag=True, help="Show tracebacks.")
 def main(debug: bool) -> None:

@@ -6,7 +6,7 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
-import rich_click as click
+import click
 
 from hrcplan.cli import options, output
 from hrcplan.core.files import check_target

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, TypeVar
 
-import rich_click as click
+import click
 
 from hrcplan.core.extras import require
 from hrcplan.core.files import check_target
@@ -61,7 +61,7 @@ def goals_per(default: str | None) -> Callable[[F], F]:
 _JOINED = {"--set": "=", "--change": "@"}
 
 
-class SettingsCommand(click.RichCommand):
+class SettingsCommand(click.Command):
     """A command whose ``--set`` and ``--change`` also work without quotes around their value."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:

@@ -9,7 +9,7 @@ import textwrap
 from collections.abc import Callable, Container, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar
 
-import rich_click as click
+import click
 
 from hrcplan.core.files import reason_of
 from hrcplan.core.files import write_atomically as write_atomically

@@ -6,7 +6,7 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import rich_click as click
+import click
 
 from hrcplan.cli import options, output
 from hrcplan.core.files import check_target

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import asdict
 
-import rich_click as click
+import click
 
 from hrcplan.cli import output
 

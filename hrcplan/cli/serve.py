@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import rich_click as click
+import click
 
 from hrcplan.cli import options, output
 from hrcplan.core.extras import require

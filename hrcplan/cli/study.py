@@ -6,13 +6,14 @@ import os
 from pathlib import Path
 from typing import Any
 
-import rich_click as click
+import click
 
 from hrcplan.cli import options, output, play, trials
+from hrcplan.cli.help import Group
 from hrcplan.cli.study_progress import study_progress
 
 
-@click.group("study", context_settings={"help_option_names": ["-h", "--help"]})
+@click.group("study", cls=Group, context_settings={"help_option_names": ["-h", "--help"]})
 def command() -> None:
     """Run a study, and report on its rows."""
 

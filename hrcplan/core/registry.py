@@ -19,15 +19,18 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from functools import partial
 from importlib import import_module, invalidate_caches
-from importlib.metadata import EntryPoint, entry_points
 from importlib.util import find_spec
 from inspect import isfunction
 from types import ModuleType
-from typing import Generic, ParamSpec, Protocol, TypeVar, cast
+from typing import TYPE_CHECKING, Generic, ParamSpec, Protocol, TypeVar, cast
 
 from hrcplan.core.deprecation import current_name
+from hrcplan.core.entry_points import entry_points
 from hrcplan.core.text import nearest
 from hrcplan.errors import HrcplanError, UsageError
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -67,7 +70,7 @@ class PartNames:
         return current_name(self.kind, name, self.aliases)
 
     def _entry_points(self) -> Iterable[EntryPoint]:
-        return entry_points(group=self.group)
+        return entry_points(self.group)
 
     def _entry(self, name: str) -> Hashable | None:
         """Return a built-in or installed part; None if there is none of this name.

@@ -92,7 +92,7 @@ class _Race:
         self._on_better = on_better
         self._start_s = time.monotonic()
         self._share = request.memory_bytes // min(max(1, len(waiting)), self._slots)
-        self._look_at_memory_s = 0.0
+        self._look_at_memory_s = self._start_s + STAGGER_S  # until then memory holds little
 
     def run(self) -> Portfolio:
         """Return the portfolio once it is settled, all jobs have ended, or time is up."""

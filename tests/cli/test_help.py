@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import re
+import subprocess
+import sys
 from collections.abc import Iterator
+from types import SimpleNamespace
 
+import click
 import pytest
-import rich_click as click
 from click.testing import CliRunner
 
 from hrcplan.cli import main, options
+from hrcplan.cli.help import summary
 
 
 def commands(
@@ -74,3 +78,44 @@ def test_help_keeps_to_the_width_and_loses_no_word(width: int) -> None:
 )
 def test_words_of_a_setting_are_joined(args: str, joined: list[str]) -> None:
     assert options.join_settings(args.split()) == joined
+
+
+def test_the_list_of_commands_says_what_each_command_says() -> None:
+    context = click.Context(main)
+    for name, placeholder in main.commands.items():
+        command = main.get_command(context, name)
+        assert command is not None
+        assert summary(command) == placeholder.help, name
+
+
+def test_the_list_of_commands_imports_none() -> None:
+    code = """if True:
+        import sys
+        from hrcplan.cli import main
+        sys.argv[1:] = ["--help"]
+        try:
+            main()
+        finally:
+            known = [name for name in sys.modules if name.startswith("hrcplan.cli.")]
+            assert not set(known) & {f"hrcplan.cli.{name}" for name in main.commands}, known
+            assert not {"rich_click", "importlib.metadata", "hrcplan.pddl"} & set(sys.modules)
+    """
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
+    assert (run.returncode, run.stderr) == (0, "")
+    assert "  bank  " in run.stdout
+
+
+@pytest.mark.parametrize("words", [[], ["bank"], ["plan", "--help"]])
+def test_help_is_in_frames_at_a_terminal(words: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    plain = CliRunner().invoke(main, words, prog_name="hrcplan").output
+    monkeypatch.setattr("hrcplan.cli.help.sys", SimpleNamespace(stdout=_Terminal()))
+    framed = CliRunner().invoke(main, words, prog_name="hrcplan", terminal_width=80).output
+    assert "╭─ Options ─" in framed
+    assert "╭─" not in plain
+    letters = re.compile(r"[a-z]{3,}")
+    assert set(letters.findall(plain)) - {"multiple"} <= set(letters.findall(framed))
+
+
+class _Terminal:
+    def isatty(self) -> bool:
+        return True

@@ -61,7 +61,7 @@ def test_ctrl_c_leaves_nothing_behind(tmp_path: Path, flags: list[str]) -> None:
 
 
 def test_ctrl_c_while_the_command_line_is_imported(tmp_path: Path) -> None:
-    (tmp_path / "rich_click.py").write_text("raise KeyboardInterrupt\n")
+    (tmp_path / "click.py").write_text("raise KeyboardInterrupt\n")
     run = subprocess.run(
         [sys.executable, "-m", "hrcplan", "planners"], capture_output=True, text=True,
         env={**os.environ, "PYTHONPATH": f"{tmp_path}:{ROOT}"}, check=False, timeout=20,
