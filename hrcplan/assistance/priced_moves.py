@@ -9,6 +9,7 @@ import numpy as np
 
 from hrcplan.assistance.step_prices import StepPrices
 from hrcplan.assistance.team_help import ACTION
+from hrcplan.bank.graph import PlanGraph
 from hrcplan.bank.solo_moves import SoloMoves
 from hrcplan.bank.team_moves import OUT_OF_REACH, Moment, TeamChoices, TeamMoves
 from hrcplan.core.arrays import Floats
@@ -45,6 +46,10 @@ class PricedMoves(TeamMoves):
     def knows(self, world: int) -> bool:
         """Return whether a state is one that the team can get to."""
         return self.inner.knows(world)
+
+    def locate(self, goal: int, world: int, turn: int) -> tuple[PlanGraph, int | None]:
+        """Return a graph of a goal and the node that a state is at; see `Bank.locate`."""
+        return self.inner.locate(goal, world, turn)
 
     def choices(self, world: int, moment: Moment) -> TeamChoices:
         """Return what the agent whose turn it is can do, with its costs at the present prices."""

@@ -109,6 +109,22 @@ class CostToGo:
         mine = (self._owners[part] == turn) | (self._owners[part] == ANY_AGENT)
         return self._steps[part][mine], self._targets[part][mine]
 
+    def actions_of(self, places: Ids, turn: int) -> tuple[Ids, Ids, Ids]:
+        """Return the actions of an agent in states: which of them, the steps, where they lead."""
+        lengths = self._first[places + 1] - self._first[places]
+        begins = np.repeat(self._first[places] - (lengths.cumsum() - lengths), lengths)
+        edges, which = begins + np.arange(len(begins)), np.arange(len(places)).repeat(lengths)
+        mine = (self._owners[edges] == turn) | (self._owners[edges] == ANY_AGENT)
+        edges = edges[mine]
+        return which[mine], self._steps[edges], self._targets[edges]
+
+    def facts(self, places: Ids) -> NDArray[np.uint8]:
+        """Return which facts hold in states, one row each."""
+        keys = np.ascontiguousarray(self._keys[places])
+        rows = keys.view(">u8").reshape(len(places), -1).astype("<u8")
+        bits = np.unpackbits(rows.view(np.uint8), axis=1, bitorder="little")
+        return bits[:, : len(self._packing.positions)]
+
     def prices(self, place: int, turn: int, prices: Floats) -> Floats:
         """Return what the actions of an agent in its turn cost, by the price of each way."""
         part = slice(self._first[place], self._first[place + 1])

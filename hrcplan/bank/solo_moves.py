@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from hrcplan.bank.bank import Bank
+from hrcplan.bank.graph import PlanGraph
 from hrcplan.bank.team_moves import OUT_OF_REACH, Moment, TeamChoices, TeamMoves
 from hrcplan.core.arrays import Floats
 
@@ -24,6 +25,10 @@ class SoloMoves(TeamMoves):
     def knows(self, world: int) -> bool:
         """Return True: any state will do."""
         return True
+
+    def locate(self, goal: int, world: int, turn: int) -> tuple[PlanGraph, int | None]:
+        """Return a graph of a goal and the node that a state is at; see `Bank.locate`."""
+        return self.bank.locate(goal, world, turn=turn)
 
     def can_reach(self, goal: int, world: int) -> bool:
         """Return whether a plan of any agents leads to a goal."""

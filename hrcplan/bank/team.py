@@ -70,18 +70,36 @@ def team_graph(
     Raises:
         LimitError: if time or memory runs out.
     """
-    team = Team(turn_order(table.task.problem), turn)
-    turns = _Turns(table, team.agents)
-    ops, literals = relevant(turns.ops, goal)
+    actions = TeamActions(table, turn_order(table.task.problem))
+    ops, literals = relevant(actions.ops, goal)
     packing = FactPacking.of_facts(literals.facts)
-    space = _explore(ops, packing, goal, state | turns.facts[turn], name,
+    space = _explore(ops, packing, goal, state | actions.facts[turn], name,
                      replace(limits, hint=HINT))  # fmt: skip
+    return graph_without_waits(actions, space, packing, goal, turn, name)
+
+
+def graph_without_waits(
+    actions: TeamActions, space: StateSpaceLayers | None, packing: FactPacking, goal: Tests,
+    turn: int, name: str,
+) -> PlanGraph:  # fmt: skip
+    """Return the graph of team plans out of all optimal sequences of actions and waits.
+
+    Args:
+        actions: What the agents do in their turns.
+        space: The sequences; None if there is none.
+        packing: The facts of its states.
+        goal: The goal's alternatives.
+        turn: Whose turn it is where plans begin.
+        name: The goal's name.
+    """
+    team = Team(tuple(actions.agents), turn)
     if space is None:
-        plain = FactPacking.of_facts(literals.facts & ~turns.all_facts)
+        n_facts = len(actions.table.task.facts)
+        plain = FactPacking(tuple(place for place in packing.positions if place < n_facts))
         return replace(empty_graph(name, plain), team=team)
     whole = assemble(_Units(), space, packing, name)
-    graph = replace(_without_waits(whole, turns), team=team)
-    return merge_equivalent_nodes(graph, table, goal)
+    graph = replace(_without_waits(whole, actions), team=team)
+    return merge_equivalent_nodes(graph, actions.table, goal)
 
 
 class _Units:
@@ -112,7 +130,7 @@ def _explore(
 
 
 @dataclass(frozen=True)
-class _Turns:
+class TeamActions:
     """The steps of a table with turns: a fact for each agent's turn, and a wait for each.
 
     The step ids of waits follow those of the table.
@@ -126,11 +144,6 @@ class _Turns:
         """For each agent the fact that it is its turn, as a bit; none if there is only one."""
         n, n_facts = len(self.agents), len(self.table.task.facts)
         return [1 << n_facts + i for i in range(n)] if n > 1 else [0]
-
-    @property
-    def all_facts(self) -> int:
-        """The facts of all turns."""
-        return sum(self.facts)
 
     @property
     def ops(self) -> tuple[Operator, ...]:
@@ -170,21 +183,21 @@ def step_owners(table: StepTable, agents: Sequence[str]) -> list[int]:
     return [place.get(actions[table[i].actions[0]].agent, ANY_AGENT) for i in range(len(table))]
 
 
-def _without_waits(graph: PlanGraph, turns: _Turns) -> PlanGraph:
+def _without_waits(graph: PlanGraph, actions: TeamActions) -> PlanGraph:
     """Return a graph whose edges lead over waits: each is an action and the waits before it.
 
     What names no agent is done at once, without a wait before it. Nodes that only a wait leads to
     stay, because a team may be there.
     """
     n, sources = graph.n_nodes, np.repeat(np.arange(graph.n_nodes), np.diff(graph.first))
-    is_wait = graph.steps >= len(turns.table)
+    is_wait = graph.steps >= len(actions.table)
     after_wait = np.full(n, -1, dtype=np.int64)
     after_wait[sources[is_wait]] = graph.targets[is_wait]
-    owner = np.array([*turns.owners, *range(len(turns.agents))])
+    owner = np.array([*actions.owners, *range(len(actions.agents))])
     anybody = owner[graph.steps] == ANY_AGENT
     owners, places = np.arange(n), np.arange(n)
     parts: list[tuple[Ids, SmallIds, Ids]] = []
-    for n_waits in range(len(turns.agents)):
+    for n_waits in range(len(actions.agents)):
         is_allowed = ~is_wait & ~anybody if n_waits else ~is_wait
         edges, which = _edges_of(graph.first, places)
         fits = is_allowed[edges]

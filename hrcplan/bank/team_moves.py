@@ -15,7 +15,9 @@ import numpy as np
 
 from hrcplan.bank.bank import Bank
 from hrcplan.bank.cost_to_go import NEVER, TIMESTEP, Costs, cost_to_go_of
+from hrcplan.bank.graph import PlanGraph
 from hrcplan.bank.team import ANY_AGENT, step_owners
+from hrcplan.bank.team_graphs import TeamGraphs
 from hrcplan.core.arrays import Bools, Floats, Ids
 from hrcplan.errors import UsageError
 from hrcplan.pddl.conventions import robots
@@ -95,6 +97,7 @@ class TeamMoves:
 
     def __init__(self, bank: Bank) -> None:
         self.costs = cost_to_go_of(bank)
+        self._graphs = TeamGraphs(bank, self.costs)
         self._choices_by_key: dict[tuple[int, int, bool], TeamChoices] = {}
         self.take_turns(bank)
 
@@ -144,6 +147,10 @@ class TeamMoves:
         except UsageError:
             return False
         return True
+
+    def locate(self, goal: int, world: int, turn: int) -> tuple[PlanGraph, int | None]:
+        """Return a graph of a goal and the node that a state is at; see `Bank.locate`."""
+        return self._graphs.locate(goal, world, turn)
 
     def can_reach(self, goal: int, world: int) -> bool:
         """Return whether the team can still reach a goal."""

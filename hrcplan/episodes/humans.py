@@ -122,8 +122,8 @@ class Frontier:
         draw: Draw,
     ) -> int:  # fmt: skip
         """Return one of the next steps; all alike if they are not in the plans of the goal."""
-        if self.needs_graph:
-            graph, node = self.bank.locate(goal, world, turn=moment.turn)
+        if self.needs_graph and self._moves is not None:
+            graph, node = self._moves.locate(goal, world, moment.turn)
             if node is not None and graph.next(node).keys() >= set(steps):
                 return self.choose(graph, node, steps, last, draw)
         return self.prefer(steps, last, draw)

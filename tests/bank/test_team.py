@@ -9,6 +9,8 @@ from hypothesis import strategies as st
 
 from hrcplan.bank import BuildLimits, build, build_bank, find_fault, load, save
 from hrcplan.bank.audit import fault
+from hrcplan.bank.cost_to_go import CostToGo
+from hrcplan.bank.team_graphs import TeamGraphs
 from hrcplan.bank.walk import is_prefix, plans
 from hrcplan.errors import InputError, LimitError
 from tests.worlds import ERRAND, ERRANDS, HALL, world
@@ -153,6 +155,27 @@ def test_graphs_hold_exactly_the_best_plans_of_all_turns(world, data, read_world
         assert (total, other.steps_left[node]) == best
         wanted = slow.plans(state, turn, best)
         assert other.plans_from(node) == len(wanted) == len(set(wanted))
+
+
+@settings(max_examples=40, deadline=None)
+@given(world=teams(), data=st.data())
+def test_costs_to_go_give_the_graphs_that_a_search_finds(world, data, read_world):
+    bank = build(read_world(*world))
+    assume(bank.agents == "kept")
+    graphs = TeamGraphs(bank, CostToGo(bank))
+    state = bank.initial
+    for _ in range(data.draw(st.integers(0, 4))):
+        steps = list(bank.table.applicable(state))
+        assume(steps)
+        state = bank.table.successor(state, data.draw(st.sampled_from(steps)))
+    turn = data.draw(st.integers(0, len(bank.team) - 1))
+    by_search, by_costs = bank.graph_from(0, state, turn=turn), graphs.graph_from(0, state, turn)
+    assert by_search.layers == by_costs.layers
+    assert by_search.team == by_costs.team
+    assert by_search.packing == by_costs.packing
+    for name in ("rows", "first", "steps", "targets", "is_goal"):
+        assert getattr(by_search, name).tolist() == getattr(by_costs, name).tolist()
+    assert (graphs.locate(0, state, turn)[1] is None) == (not by_search.n_nodes)
 
 
 def test_static_skills_and_two_of_a_kind():
