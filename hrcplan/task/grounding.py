@@ -9,7 +9,7 @@ from math import inf
 
 from hrcplan.core.numbers import Number
 from hrcplan.errors import UnsupportedError
-from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, Constant, Fact, Problem
+from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, Constant, Expr, Fact, Problem
 from hrcplan.pddl.semantics import ground_key, instances, mentions
 from hrcplan.pddl.walks import compares
 from hrcplan.task.actions import GroundAction, ground_actions
@@ -72,6 +72,13 @@ class Grounding:
     def index(self) -> ActionIndex:
         """The actions, laid out for inner loops, when that is first asked for."""
         return ActionIndex.of(self.actions, len(self.facts))
+
+    @cached_property
+    def costs(self) -> tuple[tuple[tuple[Expr, ...], ...], tuple[int, ...]]:
+        """The different sums that actions cost, and which of them each action costs."""
+        index: dict[tuple[Expr, ...], int] = {}
+        which = tuple([index.setdefault(action.costs, len(index)) for action in self.actions])
+        return tuple(index), which
 
     def with_actions(self, actions: Sequence[GroundAction], costs: Sequence[Number]) -> Grounding:
         """Return the grounding with other actions, numbered from 0, at constant costs."""

@@ -134,9 +134,9 @@ class Task:
     @cached_property
     def costs(self) -> tuple[Number, ...]:
         """What each action adds to total-cost; 1 each if the domain counts no total-cost."""
-        values = self.problem.values
-        sums = (sum(evaluate(cost, values, {}) for cost in a.costs) for a in self.actions)
-        return tuple(exact(total) for total in sums)
+        values, (sums, which) = self.problem.values, self.grounding.costs
+        totals = [exact(sum(evaluate(cost, values, {}) for cost in costs)) for costs in sums]
+        return tuple([totals[i] for i in which])
 
     def with_values(self, values: Mapping[FluentKey, Number]) -> Task:
         """Return this task with other function values, grounded again only where that matters.

@@ -14,6 +14,7 @@ from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import And, Atom
 from hrcplan.planners.contract import Answer, Request, Status
 from hrcplan.planners.exact import ExactPlanner, proof, search
+from hrcplan.planners.exact.arcs import Arcs
 from hrcplan.planners.exact.estimates import Landmarks
 from hrcplan.planners.exact.graph import FAR
 from hrcplan.planners.exact.memory import TaskMemory
@@ -105,8 +106,9 @@ def test_landmarks_are_never_above_the_distance(name: str) -> None:
     memory.graph.complete(task, FAR, LATER)
     n_states = len(memory.graph.states)
     goals = [i for i, state in enumerate(memory.graph.states) if task.is_goal(state)]
+    arcs = Arcs(task, memory.graph)
     by_work, by_cost, by_ticks = (
-        memory.graph.distances(each, goals, LATER) for each in (costs.work, costs.cost, costs.busy)
+        arcs.distances(each, goals, LATER) for each in (costs.work, costs.cost, costs.busy)
     )
     landmarks = Landmarks(task, memory.graph, costs, LATER)
     for state in walk(task, seed=1):

@@ -11,7 +11,7 @@ from hrcplan import ground
 from hrcplan.planners.contract import Status
 from hrcplan.planners.exact import ExactPlanner
 
-MOST_S = 0.02
+MOST_S = 0.003
 
 
 def rows() -> Iterator[Row]:
@@ -34,6 +34,6 @@ def rows() -> Iterator[Row]:
         "replan of transport/two-boxes, median of 22",
         milliseconds(median(found)),
         f"slowest {milliseconds(max(found))}",
-        "<= 20 ms",
+        "<= 3 ms",
         median(found) > MOST_S,
     )

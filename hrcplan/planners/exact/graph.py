@@ -1,15 +1,11 @@
-"""The states of the sequential reading, and how far each is from the goal.
+"""The states of the sequential reading, and the actions between them.
 
 A state is expanded when a search first comes to it, and stays so: the graph does not depend on
 costs or goal, and is kept between replans. Where there are few states the whole of it is worth
-having, as distances in it are the best bounds. It is plain Python: for two thousand states that is
-faster than importing numpy.
+having, as distances in it (``arcs.py``) are the best bounds.
 """
 
 from __future__ import annotations
-
-from collections.abc import Sequence
-from heapq import heappop, heappush
 
 from hrcplan.core.clock import check_time
 from hrcplan.task import GroundAction, Task
@@ -18,7 +14,6 @@ from hrcplan.task.conditions import meets
 MAX_STATES = 1_000_000  # about 0.7 kB each
 FAR = 1 << 200
 """Above every distance: no goal can be reached."""
-_CHECK = 256  # states between two looks at the clock
 
 
 class Graph:
@@ -28,7 +23,6 @@ class Graph:
         self.states: list[int] = []
         self._index: dict[int, int] = {}
         self._edges: list[tuple[int, ...] | None] = []
-        self._before: list[list[int]] = []
         self._idle: list[int] | None = None
         self._n_complete = 0
 
@@ -82,46 +76,9 @@ class Graph:
         while self._n_complete < len(self.states) <= most:
             source = self._n_complete
             check_time(deadline, f"after {source:,} states in sequence")
-            edges = iter(self.edges(task, source))
-            self._before += [[] for _ in range(len(self.states) - len(self._before))]
-            for action, target in zip(edges, edges, strict=True):
-                self._before[target] += (action, source)
+            self.edges(task, source)
             self._n_complete += 1
         return self._n_complete == len(self.states)
-
-    def distances(self, weights: Sequence[int], goals: Sequence[int], deadline: float) -> list[int]:
-        """Return the least sum of action weights from each state to a goal, or ``FAR``.
-
-        The graph must be complete. Dijkstra's algorithm, backward, with one bucket for each
-        distance: few distances occur.
-
-        Raises:
-            LimitError: at the deadline.
-        """
-        least = [FAR] * len(self.states)
-        for goal in goals:
-            least[goal] = 0
-        buckets = {0: list(goals)}
-        waiting = [0]
-        while waiting:
-            distance = heappop(waiting)
-            for n, state in enumerate(buckets.pop(distance)):
-                if n % _CHECK == 0:
-                    check_time(deadline, "while measuring distances to the goal")
-                if least[state] < distance:
-                    continue
-                pairs = iter(self._before[state])
-                for action, source in zip(pairs, pairs, strict=True):
-                    longer = distance + weights[action]
-                    if longer < least[source]:
-                        least[source] = longer
-                        bucket = buckets.get(longer)
-                        if bucket is None:
-                            buckets[longer] = [source]
-                            heappush(waiting, longer)
-                        else:
-                            bucket.append(source)
-        return least
 
 
 def may_change_nothing(action: GroundAction) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from hrcplan.planners.exact.arcs import Arcs
 from hrcplan.planners.exact.estimates import Estimates, GraphDistances, Landmarks
 from hrcplan.planners.exact.frame import StaticMasks, frame
 from hrcplan.planners.exact.gaps import Gaps
@@ -28,6 +29,7 @@ class TaskMemory:
         self.lanes: tuple[tuple[str, ...], ...] = ()
         self.graph = Graph()
         self.gaps = Gaps()
+        self._arcs: Arcs | None = None
         self._n_asked = 0
         self._goal: tuple[Test, ...] = ()
         self._goals: list[int] = []
@@ -53,8 +55,9 @@ class TaskMemory:
         """
         self._n_asked += 1
         if self._n_asked > 1 and self.graph.complete(task, MAX_GRAPH, deadline):
+            self._arcs = self._arcs or Arcs(task, self.graph)
             return GraphDistances(
-                self.graph.distances(weights.work, self._goals_of(task), deadline)
+                self._arcs.distances(weights.work, self._goals_of(task), deadline)
             )
         return Landmarks(task, self.graph, weights, deadline)
 
