@@ -10,7 +10,8 @@ from pathlib import Path
 
 from fuzzing import branches
 from fuzzing.campaign import Outcome, campaign
-from fuzzing.targets import TARGETS, TOKENISED
+from fuzzing.files import TOKENISED
+from fuzzing.targets import TARGETS
 
 MEMORY = 4 << 30
 """Bytes of address space that a run may use."""
@@ -46,7 +47,7 @@ def show(found: Outcome, seed: int) -> int:
     typed = sum(found.typed.values())
     print(f"{found.kind:13} {found.n} mutants: {found.n_accepted} accepted, {typed} typed errors, "
           f"{wrong} wrong; slowest {found.slowest_s:.1f} s", flush=True)  # fmt: skip
-    if found.kind in ("pddl", "public"):
+    if found.kind in ("pddl", "public", "tree"):
         print(f"{'':13} {TOKENISED['yes'] / max(1, sum(TOKENISED.values())):.0%} can be tokenised")
     codes = ", ".join(f"{code} {times}" for code, times in found.typed.most_common(5))
     print(f"{'':13} {codes}" if codes else "", end="\n" if codes else "")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import random
 import signal
 import time
@@ -49,6 +50,8 @@ def campaign(kind: str, n: int, seed: int, folder: Path, first: int = 0) -> Outc
     place = folder / kind
     place.mkdir(parents=True, exist_ok=True)
     warm(kind, folder)
+    gc.freeze()  # what the mutants share is not looked through again
+    gc.set_threshold(20_000)
     before = [(number, signal.signal(number, _hang)) for number in (signal.SIGALRM, signal.SIGPROF)]
     try:
         for number in range(first, first + n):

@@ -17,6 +17,8 @@ from unittest import mock
 from click.testing import CliRunner
 
 from fuzzing import mutate
+from fuzzing.files import PAIRS, pddl, public, texts, tree
+from fuzzing.plans import log, plan, planned
 from hrcplan.agents import load_profile
 from hrcplan.bank import build_bank, find_fault, load, save
 from hrcplan.cli import main
@@ -25,25 +27,10 @@ from hrcplan.execution.journal import read_journal
 from hrcplan.execution.replay import replay
 from hrcplan.inference import infer
 from hrcplan.pddl import library
-from hrcplan.pddl.check import check_files, domain_in, problem_in
-from hrcplan.pddl.inputs import read
-from hrcplan.pddl.reader import read as read_tree
-from hrcplan.pddl.source import SourceText
-from hrcplan.pddl.write import problem_text
-from hrcplan.plans import format_plan
-from hrcplan.plans.logs import read_plan
 from hrcplan.plots import style
 from hrcplan.studies import report_study, run_study
 from hrcplan.studies.changed_mind import scenario, script
-from hrcplan.task import Task
-from hrcplan.validation import validate
 
-PAIRS = (
-    ("transport", "two-boxes"),
-    ("transport", "handover"),
-    ("transport-coached", "two-boxes"),
-    ("kitchen", "parfait-nut"),
-)
 COMMANDS = (
     "plan", "validate", "check", "execute", "replay", "new-problem", "bank build", "bank show",
     "bank sample", "bank verify", "infer", "study report", "study play", "planners", "allocation",
@@ -69,75 +56,8 @@ scale = 5.0
 """
 DRAWN = 0.05
 """Share of the mutated rows whose figures are drawn."""
-PUBLIC = Path(__file__).parents[2] / "tests" / "data" / "public"
-TOKENISED = {"yes": 0, "no": 0}
 
 Target = Callable[[random.Random, Path], None]
-
-
-def pddl(rng: random.Random, folder: Path) -> None:
-    """Check, read, ground and write a mutated domain or problem."""
-    _read_mutant(rng, folder, _texts(rng.choice(PAIRS)))
-
-
-def public(rng: random.Random, folder: Path) -> None:
-    """Do the same with public files: derived predicates, preferences, timed literals, numbers."""
-    pair = rng.choice(_public_pairs())
-    _read_mutant(
-        rng, folder, [(pair / name).read_text() for name in ("domain.pddl", "problem.pddl")]
-    )
-
-
-@cache
-def _public_pairs() -> list[Path]:
-    return sorted(path.parent for path in PUBLIC.glob("*/*/problem.pddl"))
-
-
-@cache
-def _texts(pair: tuple[str, str]) -> list[str]:
-    return [library.find_domain(pair[0]).read_text(), library.find_problem(*pair).read_text()]
-
-
-def _read_mutant(rng: random.Random, folder: Path, sources: list[str]) -> None:
-    texts, which = list(sources), rng.randrange(2)
-    texts[which] = mutate.text(rng, texts[which])
-    paths = folder / "d.pddl", folder / "p.pddl"
-    for path, text in zip(paths, texts, strict=True):
-        raw = text.encode("utf-8", "replace")
-        path.write_bytes(mutate.data(rng, raw) if rng.random() < 0.05 else raw)
-    _count_tokenised(texts[which])
-    check_files([str(path) for path in paths])
-    loaded = problem_in(domain_in(SourceText("d", texts[0])), SourceText("p", texts[1]))
-    problem_text(loaded)
-    task = Task(loaded)
-    for action in task.applicable(task.initial)[:20]:
-        task.successor(task.initial, action)
-
-
-def _count_tokenised(text: str) -> None:
-    source = SourceText("x", text)
-    tree = read_tree(source)
-    TOKENISED["yes" if tree is not None and not source.has_errors else "no"] += 1
-
-
-def plan(rng: random.Random, folder: Path) -> None:
-    """Read and replay a mutated plan; what was read is read again from how it is written."""
-    problem, text = _planned(rng.choice(PAIRS[:2]))
-    found, _ = read_plan(mutate.text(rng, text), problem)
-    validate(problem, found)
-    if found.is_schedule:
-        return
-    again, _ = read_plan(format_plan(found), problem)
-    assert [str(a) for a in again.actions] == [str(a) for a in found.actions]
-
-
-@cache
-def _planned(pair: tuple[str, str]):  # type: ignore[no-untyped-def]
-    import hrcplan
-
-    result = hrcplan.plan(*pair, planner="exact")
-    assert result.plan is not None
-    return read(*pair), format_plan(result.plan)
 
 
 def toml(rng: random.Random, folder: Path) -> None:
@@ -170,7 +90,7 @@ def _small_bank(folder: Path) -> bytes:
     """Return a bank of two goals that is loaded in half of the time."""
     goals = folder / "small-goals"
     goals.mkdir(exist_ok=True)
-    text = _texts(PAIRS[0])[1]
+    text = texts(PAIRS[0])[1]
     (goals / "one.pddl").write_text(text)
     other = text.replace("green wp2", "green wp1").replace("two-boxes", "other-place")
     (goals / "other.pddl").write_text(other)
@@ -316,17 +236,18 @@ def arguments(rng: random.Random, folder: Path) -> None:
 
 
 TARGETS: dict[str, Target] = {
-    "pddl": pddl, "public": public, "plan": plan, "toml": toml, "bank": bank, "rows": rows,
-    "journal": journal, "observations": observations, "arguments": arguments,
+    "pddl": pddl, "public": public, "tree": tree, "plan": plan, "log": log, "toml": toml,
+    "bank": bank, "rows": rows, "journal": journal, "observations": observations,
+    "arguments": arguments,
 }  # fmt: skip
 
 
 def warm(kind: str, folder: Path) -> None:
     """Make what the mutants of a kind are made of, which takes longer than any of them."""
     match kind:
-        case "plan":
+        case "plan" | "log":
             for pair in PAIRS[:2]:
-                _planned(pair)
+                planned(pair)
         case "toml":
             script.episodes(script.read("golden"), ["oracle"])
         case "bank" | "observations":
