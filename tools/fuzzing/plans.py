@@ -29,7 +29,9 @@ def log(rng: random.Random, folder: Path) -> None:
     text = mutate.text(rng, rng.choice(LOGS)(result))
     for found in find_plans(text, problem):
         validate(problem, found)
-    observed_words(text)
+    path = folder / "x.log"
+    path.write_bytes(text.encode("utf-8", "replace"))
+    observed_words(path)
     _read_again(text, problem)
 
 
