@@ -113,9 +113,9 @@ def _bound(problem: Problem, result: Result) -> str | None:
     if result.gap is None:
         return f"bound     {_short(result.bound)}"
     side = "below" if problem.metric is not None and problem.maximize else "above"
-    return (
-        f"bound     {_short(result.bound)}   (at most {100 * result.gap:.2g} % {side} the optimum)"
-    )
+    percent = 100 * result.gap
+    words = f"{percent:.2g}" if percent < 99.5 else f"{percent:,.0f}"
+    return f"bound     {_short(result.bound)}   (at most {words} % {side} the optimum)"
 
 
 def _short(value: Number) -> str:

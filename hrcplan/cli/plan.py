@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from hrcplan.planners.result import Result
 
 QUIET_S = 1.0
+"""How long plans are improved before a line says so."""
+PAUSE_S = 1.0
+"""The least time between two lines about better plans: some metrics improve without end."""
 STATUS_EXIT = {"solved-optimally": 0, "solved": 0, "unsolvable": 1, "unsolved": 4}
 
 
@@ -83,7 +86,7 @@ def command(
         check_target(path, problem.path, problem.domain.path)
     result = solve(
         problem, planner, timeout_s=timeout, any_plan=any_plan, lanes=lanes or gantt is not None,
-        memory_bytes=memory << 20, on_better=_Progress(),
+        memory_bytes=memory << 20, on_better=Improvements(),
     )  # fmt: skip
     for attempt in result.attempts:
         output.say(f"{attempt.planner}: {attempt.outcome} ({attempt.wall_s:.2f} s)")
@@ -113,19 +116,21 @@ def _name_missing() -> None:
         output.note(f"unproven; {' and '.join(names)} might prove more, but cannot run: {cure}")
 
 
-class _Progress:
+class Improvements:
     """Says on stderr which plan is the best so far, where the search takes more than a moment."""
 
     def __init__(self) -> None:
         self._start_s = time.monotonic()
+        self._next_s = QUIET_S
 
     def __call__(self, result: Result) -> None:
         """Tell of a plan that is better than those before it."""
         from hrcplan.core.numbers import number_text
 
         elapsed_s = time.monotonic() - self._start_s
-        if elapsed_s < QUIET_S or result.objective is None:
+        if elapsed_s < self._next_s or result.objective is None:
             return
+        self._next_s = elapsed_s + PAUSE_S
         value = number_text(result.objective)
         output.note(f"after {elapsed_s:.0f} s: {value} ({result.planner})")
 

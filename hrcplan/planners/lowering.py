@@ -18,6 +18,7 @@ from hrcplan.core.numbers import Number, exact
 from hrcplan.errors import PlanFormatError, UnsupportedError
 from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME
 from hrcplan.pddl.write import decimal_text
+from hrcplan.planners.gains import idle_gain
 from hrcplan.planners.handover import KEYWORDS
 from hrcplan.planners.instantaneous import unsure_changes
 from hrcplan.plans import Plan, PlannedAction, parse_plan
@@ -32,6 +33,7 @@ so no admissible heuristic value, is above it."""
 NO_SEQUENCE = "no sequence of actions reaches the goal, one after the other"
 """What a lowered temporal task without a plan means: concurrency may be needed."""
 
+_SMALL = "uniform-cost takes such tasks if they are small"
 _FUNCTIONS = "  (:functions (total-cost) - number)\n"
 _START = "    (= (total-cost) 0)\n"
 _METRIC = "  (:metric minimize (total-cost))\n"
@@ -118,7 +120,8 @@ def lower(task: Task) -> Lowering:
     >>> str(lowered.plan("(move--human--wp1--wp2)")).strip()
     '(move human wp1 wp2)'
     """
-    metric = _metric(task)
+    metric = prices(task)
+    _refuse_gains(task, metric.prices)
     scale = lcm(*(Fraction(price).denominator for price in metric.prices))
     costs = tuple(int(price * scale) for price in metric.prices)
     scale = -scale if task.problem.maximize else scale
@@ -140,20 +143,25 @@ def lower(task: Task) -> Lowering:
 
 
 @dataclass(frozen=True, slots=True)
-class _Metric:
-    """What the metric says: a price for every action, and a constant."""
+class Prices:
+    """The metric as a price for every action, with the sign that is minimized, and a constant."""
 
     prices: Sequence[Number]
     offset: Number
     exact: bool
 
 
-def _metric(task: Task) -> _Metric:
+def prices(task: Task) -> Prices:
+    """Return what each action adds to the metric; a negative price is for `lower` to refuse.
+
+    Raises:
+        UnsupportedError: if the metric is not a sum of costs, steps and constants.
+    """
     problem = task.problem
     temporal = problem.domain.is_temporal
     initial_cost = problem.values.get((TOTAL_COST,), 0)
     if problem.metric is None:
-        return _Metric(_weigh(task, 1), initial_cost, not temporal)
+        return Prices(_weigh(task, 1), initial_cost, not temporal)
     parts = linear(problem.metric, {})
     if parts is None:
         raise UnsupportedError(f"the metric {problem.metric} is not a weighted sum")
@@ -169,21 +177,29 @@ def _metric(task: Task) -> _Metric:
         offset += factor * (problem.values[key] if key else 1)
     step = parts.get((TOTAL_TIME,), 0)
     if temporal and step and not weight:
-        return _Metric([a.duration or 0 for a in task.actions], offset, False)
-    return _Metric(_weigh(task, weight, 0 if temporal else step), offset, not (temporal and step))
+        return Prices([a.duration or 0 for a in task.actions], offset, False)
+    return Prices(_weigh(task, weight, 0 if temporal else step), offset, not (temporal and step))
 
 
 def _weigh(task: Task, weight: Number, step: Number = 0) -> Sequence[Number]:
     """Return what each action adds to the metric, with the sign that is to be minimized."""
     sign = -1 if task.problem.maximize else 1
-    prices = [sign * (weight * cost + step) for cost in task.costs]
+    return [sign * (weight * cost + step) for cost in task.costs]
+
+
+def _refuse_gains(task: Task, prices: Sequence[Number]) -> None:
+    """Raise if an action improves the metric, or if one may that the ground task leaves out."""
     for action, price in zip(task.actions, prices, strict=True):
         if price < 0:
             cannot = f"{action} costs {decimal_text(price)}; negative costs cannot be lowered"
             if task.problem.maximize:
                 cannot = f"{action} adds {decimal_text(-price)} to the metric, which is maximized"
-            raise UnsupportedError(cannot, hint="uniform-cost takes such tasks if they are small")
-    return prices
+            raise UnsupportedError(cannot, hint=_SMALL)
+    idle = idle_gain(task.problem, task.value_sets)
+    if idle is not None:
+        raise UnsupportedError(
+            f"'{idle.name}' may improve the metric and change nothing else", hint=_SMALL
+        )
 
 
 class _Names:

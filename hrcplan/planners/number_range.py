@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from functools import reduce
 from math import lcm
+from types import MappingProxyType
 
 from hrcplan.core.numbers import Number
 from hrcplan.pddl.model import (
@@ -18,6 +20,7 @@ from hrcplan.pddl.model import (
     Problem,
 )
 from hrcplan.pddl.walks import parts_of
+from hrcplan.task.changing import ValueSets
 
 _MARGIN = 8
 """Bits that are left for sums and products of the numbers in the files."""
@@ -64,23 +67,49 @@ def _numbers(problem: Problem, expressions: Sequence[Expr]) -> Iterator[Number]:
 def never_lowers_cost(problem: Problem) -> bool:
     """Return whether no action can lower total-cost, as far as the files show it."""
     return all(
-        effect.kind == "increase" and _never_negative(effect.value, problem)
+        effect.kind == "increase" and not signs(effect.value, problem)[0]
         for action in problem.domain.actions
         for effect in action.effects
         if effect.target.name == TOTAL_COST
     )
 
 
-def _never_negative(expression: Expr | None, problem: Problem) -> bool:
+def signs(
+    expression: Expr | None, problem: Problem, value_sets: ValueSets = MappingProxyType({})
+) -> tuple[bool, bool]:
+    """Return whether an expression can be below zero, and whether it can be above.
+
+    A function that actions change can be both, unless ``value_sets`` has all its values.
+    """
     match expression:
         case Constant(value):
-            return value >= 0
+            return value < 0, value > 0
         case Function(name):
-            values = (v for key, v in problem.values.items() if key[0] == name)
-            return name not in problem.domain.changed_functions and all(v >= 0 for v in values)
-        case Arithmetic(op, parts) if op != "-":
-            return all(_never_negative(part, problem) for part in parts)
-    return False
+            values = [value for key, value in problem.values.items() if key[0] == name]
+            if name in problem.domain.changed_functions:
+                sets = [known for key, known in value_sets.items() if key[0] == name]
+                values = [value for known in sets for value in known]
+                if not sets:
+                    return True, True
+            return any(v < 0 for v in values), any(v > 0 for v in values)
+        case Arithmetic("+", parts):
+            return _sum([signs(part, problem, value_sets) for part in parts])
+        case Arithmetic("-", parts):
+            first, *rest = (signs(part, problem, value_sets) for part in parts)
+            turned = [(above, below) for below, above in (rest or [first])]
+            return _sum([first, *turned] if rest else turned)
+        case Arithmetic(_, parts):
+            return reduce(_product, (signs(part, problem, value_sets) for part in parts))
+    return True, True
+
+
+def _sum(parts: Sequence[tuple[bool, bool]]) -> tuple[bool, bool]:
+    return any(below for below, _ in parts), any(above for _, above in parts)
+
+
+def _product(one: tuple[bool, bool], other: tuple[bool, bool]) -> tuple[bool, bool]:
+    (below, above), (low, high) = one, other
+    return (below and high) or (above and low), (below and low) or (above and high)
 
 
 def _pricing(problem: Problem) -> Iterator[Expr]:

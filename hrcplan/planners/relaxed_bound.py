@@ -19,7 +19,8 @@ from hrcplan.pddl.model import TRUE, Domain
 from hrcplan.pddl.walks import lifted_names
 from hrcplan.planners.contract import Answer, Capabilities, OwnPlanner, Request, Status
 from hrcplan.planners.exact.weights import metric
-from hrcplan.planners.lowering import lower
+from hrcplan.planners.gains import idle_gain, most_gain
+from hrcplan.planners.lowering import prices
 from hrcplan.search.lm_cut import landmarks, longest_chain
 from hrcplan.task import BitEffect, Task
 from hrcplan.task.conditions import all_of
@@ -64,11 +65,18 @@ class RelaxedBound(OwnPlanner):
 
 
 def _classical(task: Task) -> Answer:
-    lowering = lower(task)
-    cost = _least_cost(task, lowering.costs)
+    metric = prices(task)
+    idle = idle_gain(task.problem, task.value_sets)
+    if idle is not None:
+        raise UnsupportedError(f"'{idle.name}' can improve the metric again and again")
+    gain = most_gain(task, metric.prices)
+    scale = lcm(*(Fraction(price).denominator for price in metric.prices))
+    cost = _least_cost(task, [int(max(0, price) * scale) for price in metric.prices])
     if cost is None:
         return Answer(Status.UNSOLVABLE)
-    return Answer(Status.UNSOLVED, note="", bound=lowering.objective(cost))
+    sign = -1 if task.problem.maximize else 1
+    bound = sign * (Fraction(cost, scale) - gain) + metric.offset
+    return Answer(Status.UNSOLVED, note="", bound=exact(bound))
 
 
 def _temporal(task: Task) -> Answer:

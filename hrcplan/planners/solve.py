@@ -10,11 +10,13 @@ from hrcplan.pddl.model import Problem
 from hrcplan.planners import registry
 from hrcplan.planners.choice import Job, jobs
 from hrcplan.planners.contract import MEMORY_BYTES, LazyTask, Planner, Request, Status
+from hrcplan.planners.metric_costs import with_total_cost
 from hrcplan.planners.portfolio import AUTO, Portfolio
 from hrcplan.planners.race import OnBetter, can_race, race
 from hrcplan.planners.race_process import race_in_process
 from hrcplan.planners.result import Attempt, Result, ask, compare
 from hrcplan.task import Task
+from hrcplan.validation import validate
 
 __all__ = ["AUTO", "DEFAULT_TIMEOUT_S", "Attempt", "Result", "compare", "solve"]
 
@@ -52,6 +54,14 @@ def solve(
         LimitError: if grounding ran out of bounds and no other planner was left.
     """
     start_s = time.monotonic()
+    if planner in (AUTO, *registry.BUILT_IN):
+        costs = with_total_cost(problem)
+        if costs is not problem:
+            result = solve(
+                costs, planner, timeout_s=timeout_s, any_plan=any_plan, lanes=lanes,
+                memory_bytes=memory_bytes, on_better=lambda r: on_better(_of(problem, r)),
+            )  # fmt: skip
+            return _of(problem, result)
     request = Request(problem, start_s + timeout_s, any_plan, memory_bytes, LazyTask(task))
     if planner == AUTO:
         if not any_plan:  # planners that look for any plan can do without, or ground it themselves
@@ -62,6 +72,14 @@ def solve(
         job = Job(one, any_plan, "it was asked for")
         answer = _confirm(_ask_one(request, job, planner is not one, lanes, on_better), request)
     return replace(answer, wall_s=time.monotonic() - start_s, problem=problem)
+
+
+def _of(problem: Problem, result: Result) -> Result:
+    """Return a result for a problem whose metric is the same under other names."""
+    if result.plan is None or result.report is None:
+        return replace(result, problem=problem)
+    report = validate(problem, result.plan)
+    return replace(result, report=report, problem=problem)
 
 
 def _run(request: Request, waiting: Sequence[Job], lanes: bool, on_better: OnBetter) -> Portfolio:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import itertools
 import time
 from collections.abc import Hashable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from heapq import heappop, heappush
 from typing import NamedTuple
@@ -20,6 +21,7 @@ from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, Problem
 from hrcplan.pddl.semantics import Undefined
 from hrcplan.pddl.walks import functions_in
 from hrcplan.planners.contract import Answer, Capabilities, OwnPlanner, Request, Status
+from hrcplan.planners.gains import idle_gain
 from hrcplan.planners.state_spaces import BitSpace, LiftedSpace, StateSpace
 from hrcplan.plans import Plan, PlannedAction
 from hrcplan.task.numbers import linear
@@ -60,10 +62,11 @@ class UniformCost(OwnPlanner):
 
 
 def _space(request: Request) -> StateSpace:
-    try:
-        return BitSpace(request.task)
-    except UnsupportedError:
-        return LiftedSpace(request.problem, request.deadline)
+    """Return the states as bits; as facts and numbers where idle actions may gain."""
+    if idle_gain(request.problem) is None:
+        with suppress(UnsupportedError):
+            return BitSpace(request.task)
+    return LiftedSpace(request.problem, request.deadline)
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import json
+from fractions import Fraction
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
 from hrcplan.cli import output
 from hrcplan.cli.lanes import as_json, as_text
 from hrcplan.cli.main import main
+from hrcplan.cli.plan import Improvements
 from hrcplan.planners.contract import Answer, Capabilities, Status
 from hrcplan.planners.result import check_answer
 from hrcplan.plans import parse_plan
@@ -40,6 +43,30 @@ def test_the_sense_of_the_metric_is_its_own() -> None:
     text = as_text(problem, found)
     assert "maximize (gain)" in text
     assert "at most 50 % below the optimum" in text
+
+
+def test_a_large_gap_is_a_whole_number() -> None:
+    problem = problem_from(JOBS, TWO.replace("maximize", "minimize"))
+    answer = Answer(Status.SOLVED, parse_plan("(do a) (do b)"), bound=Fraction(1, 3))
+    found = check_answer(Capabilities("by hand", ""), problem, answer, False, "")
+    assert "at most 1,100 % above the optimum" in as_text(problem, found)
+
+
+def test_better_plans_are_told_once_a_second(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    problem = problem_from(JOBS, TWO)
+    answer = Answer(Status.SOLVED, parse_plan("(do a) (do b)"))
+    found = check_answer(Capabilities("by hand", ""), problem, answer, False, "")
+    now = iter([0.0, 0.5, 1.2, 1.3, 1.9, 2.5])
+    monkeypatch.setattr("hrcplan.cli.plan.time", SimpleNamespace(monotonic=lambda: next(now)))
+    tell = Improvements()
+    for _ in range(5):
+        tell(found)
+    assert capsys.readouterr().err.splitlines() == [
+        "after 1 s: 4 (by hand)",
+        "after 2 s: 4 (by hand)",
+    ]
 
 
 @pytest.fixture

@@ -19,7 +19,7 @@ from tests.worlds import problem_from
 
 WALK = """(define (domain walk) (:requirements :strips :numeric-fluents)
   (:predicates (at ?p) (link ?p ?q)) (:functions (views))
-  (:action go :parameters (?p ?q) :precondition (and (at ?p) (link ?p ?q))
+  (:action go :parameters (?p ?q) :precondition (and (at ?p) (link ?p ?q) (< (views) 99))
     :effect (and (at ?q) (not (at ?p)) (increase (views) 1))))"""
 ABC = """(define (problem p) (:domain walk) (:objects a b c)
   (:init (at a) (link a b) (link b c) (link a c) (= (views) 0)) (:goal (at c)) METRIC)"""
