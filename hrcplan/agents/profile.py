@@ -6,7 +6,7 @@ A profile is data (``profiles.toml``, or a file of the user's); this module only
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import MISSING, asdict, dataclass, fields, replace
 from fractions import Fraction
 from pathlib import Path
@@ -21,7 +21,8 @@ from hrcplan.core.numbers import Number, exact
 from hrcplan.core.text import nearest, quote
 from hrcplan.core.toml import read_toml
 from hrcplan.errors import InputError, UsageError
-from hrcplan.pddl.model import FluentKey
+from hrcplan.pddl.model import FluentKey, Problem
+from hrcplan.pddl.settings import parse_setting
 
 _SHIPPED = Path(__file__).with_name("profiles.toml")
 REPLAN_ALWAYS = "replan-always"
@@ -186,6 +187,25 @@ def profile(name: str) -> Profile:
     """Return a profile: the earlier name of `load_profile`, deprecated."""
     warn_old_name("function", "hrcplan.agents.profile", "hrcplan.agents.load_profile")
     return load_profile(name)
+
+
+def agent_values(
+    problem: Problem, settings: Sequence[str], profile: str | None = None
+) -> dict[FluentKey, Number]:
+    """Return the function values that planners get for settings such as ``motivation human=8``.
+
+    Args:
+        problem: The problem.
+        settings: Values of functions, in place of those of the problem.
+        profile: How agent state becomes costs, as in ``execute``; as it is by default.
+
+    Raises:
+        UsageError: if a setting is none of the problem, or there is no such profile.
+    """
+    values = dict(parse_setting(text, problem) for text in settings)
+    if profile is not None:
+        values |= load_profile(profile).planner_values(AgentModel(problem), values, Memory())
+    return values
 
 
 def profile_from_table(table: Mapping[str, Any], path: str | None = None) -> Profile:

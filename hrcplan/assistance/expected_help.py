@@ -7,6 +7,7 @@ that no goal may need has a price.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -14,11 +15,15 @@ import numpy as np
 
 from hrcplan.assistance.assistant import AssistantState, BeliefAssistant
 from hrcplan.assistance.explanation import StepChoice
+from hrcplan.assistance.priced_help import PricedHelp, priced_help
+from hrcplan.assistance.step_prices import PriceModel, StepPrices
 from hrcplan.assistance.team_help import TeamHelp
 from hrcplan.bank import Bank
+from hrcplan.core.numbers import Number
 from hrcplan.inference.adaptive import AdaptiveBelief
 from hrcplan.inference.belief import Belief
 from hrcplan.inference.switching import SwitchingBelief
+from hrcplan.pddl.model import FluentKey
 
 WASTE_PRICE = 0.95  # steps; tuned on randomly generated kitchens; more saves waste, but costs time
 N_LOOKED, N_ANSWERS = 5, 6  # best steps that are looked beyond, and likeliest answers to each
@@ -38,17 +43,27 @@ class ExpectedHelp(BeliefAssistant[Any]):
         look_ahead: Also count what the robot's next step is expected to save after the human's
             response. This favours steps after which the response is more informative.
         may_wait: Whether it waits if no step has a positive value; else it does the best one.
+        agent_state: Function values as planners get them, such as ``{("motivation", "human"): 7}``;
+            those that are missing are low. What steps then cost whom counts in the cost to go.
     """
 
     def __init__(
         self, bank: Bank, belief: Belief[Any] | None = None, waste_price: float = WASTE_PRICE,
         look_ahead: bool = False, may_wait: bool = True,
+        agent_state: Mapping[FluentKey, Number] | None = None,
     ) -> None:  # fmt: skip
         super().__init__(bank, AdaptiveBelief(bank) if belief is None else belief)
         self.waste_price, self.look_ahead, self.may_wait = waste_price, look_ahead, may_wait
         moves = self.tracker.moves
         takes_turns = moves is not None and any(moves.is_robot)
         self.team_help = TeamHelp(moves) if moves is not None and takes_turns else None
+        prices = PriceModel(bank).prices(agent_state) if agent_state else None
+        self._priced = self.help_at(prices) if prices is not None and prices.changes else None
+
+    def help_at(self, prices: StepPrices) -> PricedHelp:
+        """Return what values steps at other prices than those of low agent states."""
+        moves = None if self.team_help is None else self.team_help.moves
+        return priced_help(self.step_values, moves, prices, self.waste_price)
 
     def options(self, state: AssistantState[Any]) -> StepChoice:
         """Return the steps that some goal could have next, and what each is expected to save."""
@@ -84,6 +99,8 @@ class ExpectedHelp(BeliefAssistant[Any]):
 
     def _now(self, state: AssistantState[Any]) -> StepChoice:
         progress = state.progress
+        if self._priced is not None:
+            return self._priced.options(progress, self.posterior(state))
         if self.team_help is not None:
             moment = self.step_values.next_robot(progress)
             return self.team_help.options(progress.world, moment, self.posterior(state))

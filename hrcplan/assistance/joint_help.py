@@ -16,14 +16,14 @@ from hrcplan.assistance.assistant import AssistantState
 from hrcplan.assistance.bounded_roots import BoundedBelief
 from hrcplan.assistance.expected_help import ExpectedHelp
 from hrcplan.assistance.explanation import Explanation, StepChoice, explanation_of
-from hrcplan.assistance.priced_help import PricedHelp, PricedSteps, PricedTeam
+from hrcplan.assistance.priced_help import PricedHelp
 from hrcplan.assistance.questions import (
     answer_likelihood,
     best_question,
     one_goal,
 )
 from hrcplan.assistance.situation import Advice, PossibleInteraction, Situation, Values
-from hrcplan.assistance.step_prices import Changes, PriceModel, StepPrices
+from hrcplan.assistance.step_prices import Changes, PriceModel
 from hrcplan.bank import Bank
 from hrcplan.bank.progress import Evidence, Progress
 from hrcplan.core.arrays import Bools, Floats
@@ -78,13 +78,8 @@ class JointHelp(ExpectedHelp):
         if helper is None:
             while len(self._helpers) >= MAX_PRICED:
                 self._helpers.pop(next(iter(self._helpers)))
-            helper = self._helpers[prices.changes] = self._make_helper(prices)
+            helper = self._helpers[prices.changes] = self.help_at(prices)
         return helper
-
-    def _make_helper(self, prices: StepPrices) -> PricedHelp:
-        if self.team_help is not None:
-            return PricedTeam(self.step_values, self.team_help.moves, prices)
-        return PricedSteps(self.step_values, prices, self.waste_price)
 
     def advise(self, state: JointState, situation: Situation) -> Advice:
         """Return what the robot should do now."""

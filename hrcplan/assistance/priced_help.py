@@ -56,6 +56,22 @@ class PricedHelp(Protocol):
         """
 
 
+def priced_help(
+    values: StepValues, moves: TeamMoves | None, prices: StepPrices, waste_price: float
+) -> PricedHelp:
+    """Return what values the steps of a robot at the present prices.
+
+    Args:
+        values: What steps are worth in steps.
+        moves: What the agents of a team do in their turns; None where any agent can do any step.
+        prices: The prices.
+        waste_price: What a step that is not needed costs; a team has no such price.
+    """
+    if moves is not None:
+        return PricedTeam(values, moves, prices)
+    return PricedSteps(values, prices, waste_price)
+
+
 class PricedSteps:
     """The help of steps that any agent can do.
 

@@ -194,17 +194,11 @@ def show(
 
 
 def _print_allocation(bank: Bank, settings: tuple[str, ...], profile: str | None) -> None:
-    from hrcplan.agents.memory import Memory
-    from hrcplan.agents.profile import load_profile
-    from hrcplan.agents.state import AgentModel
+    from hrcplan.agents.profile import agent_values
     from hrcplan.bank.allocation import allocations
-    from hrcplan.pddl.settings import parse_setting
 
     problem = bank.goals.problem
-    values = dict(parse_setting(text, problem) for text in settings)
-    if profile is not None:
-        values |= load_profile(profile).planner_values(AgentModel(problem), values, Memory())
-    rows = allocations(bank, values)
+    rows = allocations(bank, agent_values(problem, settings, profile))
     if output.JSON:
         entries = [asdict(row) for row in rows]
         output.document({"domain": problem.domain.name, "note": bank.note, "goals": entries})

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from hrcplan.cli import options, output
+from hrcplan.errors import UsageError
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -20,7 +21,10 @@ _INDENT = "  "  # of what a robot believes
 
 @click.command(
     "play",
+    cls=options.SettingsCommand,
     epilog=options.notes(
+        options.SETTING,
+        options.PROFILE,
         "SCRIPT: golden, or a TOML file with the keys domain, wanted, change_turns, human and "
         "methods.",
         options.ROBOTS,
@@ -32,17 +36,26 @@ _INDENT = "  "  # of what a robot believes
 @click.option(
     "--why", "show_why", is_flag=True, help="Also print how the robot valued its options."
 )
+@options.settings
+@click.option("--profile", metavar="PROFILE",
+              help="With --set: how agent state becomes costs, as in `execute`.")  # fmt: skip
 @output.common_options
-def command(script: str, methods: tuple[str, ...], show_why: bool) -> int:
+def command(
+    script: str, methods: tuple[str, ...], show_why: bool, settings: tuple[str, ...],
+    profile: str | None,
+) -> int:  # fmt: skip
     """Play a scripted episode with several robots, side by side.
 
     The human does the same steps each time. Below each step of a robot are the goals that it then
-    believes most probable.
+    believes most probable. With --set, what steps cost agents in that state counts in the choice
+    of hrcplan: it takes over more of what is hard for the human.
     """
     from hrcplan.studies.changed_mind import script as scripts
 
+    if profile is not None and not settings:
+        raise UsageError("--profile says what the agent state of --set costs: use them together")
     episode_script = scripts.read(script)
-    narratives = scripts.episodes(episode_script, methods)
+    narratives = scripts.episodes(episode_script, methods, settings, profile)
     if output.JSON:
         output.document(scripts.as_json(episode_script, narratives))
         return 0

@@ -98,6 +98,25 @@ def test_a_step_that_is_hard_for_people_is_taken_over() -> None:
     assert prices.human[choice.best] > 5 > 1 == prices.robot[choice.best]
 
 
+@pytest.mark.parametrize(("name", "values"), [("kitchen", STOVE), ("kitchen", TIRED), ("hall", {})])
+def test_the_plain_robot_counts_agent_state_in_the_same_way(name, values) -> None:
+    bank, robot = bank_of(name), joint(name)
+    priced = ExpectedHelp(bank, agent_state=values)
+    state = priced.start()
+    for n, step in enumerate(random_walk(bank, 3, 6)):
+        expected = robot.helper(values).options(state.progress, priced.posterior(state))
+        assert priced.options(state) == expected
+        state = priced.observe(state, step, robot=bool(n % 2))
+
+
+def test_values_at_their_low_value_are_no_prices() -> None:
+    bank = bank_of("kitchen")
+    low = PriceModel(bank).agents.low
+    assert ExpectedHelp(bank, agent_state=low).options(ExpectedHelp(bank).start()) == (
+        ExpectedHelp(bank).options(ExpectedHelp(bank).start())
+    )
+
+
 def test_costs_of_tired_people_are_higher() -> None:
     graph = bank_of("kitchen").graphs[0]
     prices = joint("kitchen").price_model.prices(TIRED)

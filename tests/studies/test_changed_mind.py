@@ -279,6 +279,16 @@ def test_the_golden_episode_beside_recursive_bayes() -> None:
     assert len(ours.turns) < len(theirs.turns)
 
 
+def test_what_is_hard_for_the_human_counts_in_a_scripted_episode() -> None:
+    golden, state = script.read("golden"), ["motivation human=8"]
+    (plain,) = script.episodes(golden, ["hrcplan"])
+    (priced,) = script.episodes(golden, ["hrcplan"], state, "hrcplan")
+    values = [e.turns[1].why.candidates[0].value for e in (plain, priced) if e.turns[1].why]
+    assert values[1] > 2 * values[0]
+    with pytest.raises(UsageError, match="without prices"):
+        script.episodes(golden, ["oracle"], state)
+
+
 SCRIPT = "domain = 'x'\nwanted = {}\nchange_turns = {}\nhuman = {}\nmethods = {}\n"
 
 

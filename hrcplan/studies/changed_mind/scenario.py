@@ -13,11 +13,13 @@ from typing import Any
 
 from hrcplan.assistance import ASSISTANTS, Assistant
 from hrcplan.assistance.assistant import needs_training
+from hrcplan.assistance.expected_help import ExpectedHelp
 from hrcplan.assistance.per_human import PerHuman
 from hrcplan.assistance.waiting import may_wait
 from hrcplan.bank import Bank, BuildOptions, Goals, build, read_goals
 from hrcplan.bank.bank import OPTIMAL
 from hrcplan.bank.cache import cached_bank
+from hrcplan.core.numbers import Number
 from hrcplan.core.text import nearest
 from hrcplan.episodes.episode import TurnWorld
 from hrcplan.episodes.humans import HUMANS, Course, EpisodeHuman
@@ -31,6 +33,7 @@ from hrcplan.inference.recursive import LIKELIHOODS
 from hrcplan.inference.registry import METHODS
 from hrcplan.inference.run import GOALS_PER, HUMAN
 from hrcplan.pddl.conventions import people, robots
+from hrcplan.pddl.model import FluentKey
 from hrcplan.studies.scenario import Scenario
 from hrcplan.studies.study import Cell, Say, Seed, StudyOptions
 
@@ -195,9 +198,21 @@ def robot_per_human(name: str, domain: str, goals: str, *multiples: str) -> PerH
     return PerHuman(bank, lambda view: _robot(name, view))
 
 
-def _robot(
-    name: str, bank: Bank, other: Callable[[str], Assistant[Any]] | None = None
+def robot_at_prices(
+    name: str, bank: Bank, agent_state: Mapping[FluentKey, Number]
 ) -> Assistant[Any]:
+    """Return an assistant that counts what steps cost agents in this state.
+
+    Raises:
+        UsageError: if the method chooses steps without prices.
+    """
+    return _robot(name, bank, agent_state=agent_state)
+
+
+def _robot(
+    name: str, bank: Bank, other: Callable[[str], Assistant[Any]] | None = None,
+    agent_state: Mapping[FluentKey, Number] | None = None,
+) -> Assistant[Any]:  # fmt: skip
     """Return an assistant; ``other`` returns the method whose belief it has."""
     options = dict(data()["methods"].get(name, {}))
     kind, waits = ASSISTANTS.find(options.pop("part", name)), options.pop("waits", False)
@@ -208,6 +223,11 @@ def _robot(
         options["belief"] = METHODS.find(belief)(bank)
     elif isinstance(belief, str) and belief in data()["methods"]:
         options["belief"] = other(belief) if other else _robot(belief, bank)
+    if agent_state and kind is not ExpectedHelp:
+        message = f"'{name}' chooses steps without prices, so agent state changes nothing for it"
+        raise UsageError(message, hint="leave --set and --profile out, or name hrcplan")
+    if agent_state:
+        options["agent_state"] = agent_state
     assistant = kind(bank, **options)
     return may_wait(assistant) if waits else assistant
 

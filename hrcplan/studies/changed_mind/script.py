@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from hrcplan.agents.profile import agent_values
 from hrcplan.assistance import ASSISTANTS, Assistant, Explains, Explanation
 from hrcplan.bank import Bank
 from hrcplan.core.text import nearest
@@ -91,15 +92,20 @@ def _fault(script: Mapping[str, Any]) -> str | None:
     return None if script["methods"] else "methods names none"
 
 
-def episodes(script: Mapping[str, Any], methods: Sequence[str] = ()) -> list[NarratedEpisode]:
+def episodes(
+    script: Mapping[str, Any], methods: Sequence[str] = (), settings: Sequence[str] = (),
+    profile: str | None = None,
+) -> list[NarratedEpisode]:  # fmt: skip
     """Return the episodes of a script, one for each method.
 
     Args:
         script: What ``read`` returns.
         methods: Names of methods, if not those that the script names.
+        settings: The agents' state, such as ``motivation human=8``: what steps cost the robots.
+        profile: How agent state becomes costs, as in ``execute``; as it is by default.
 
     Raises:
-        UsageError: if there is no such method.
+        UsageError: if there is no such method, or it has no use for agent state.
         InputError: if the script names a goal or a step that there is not.
     """
     task = str(script["domain"]), str(script.get("goals", ""))
@@ -112,7 +118,12 @@ def episodes(script: Mapping[str, Any], methods: Sequence[str] = ()) -> list[Nar
     for name in present_names if not methods else ():
         if name not in scenario.data()["methods"]:
             ASSISTANTS.find_listed(name)  # a script must not choose which code runs
-    robots = {method: scenario.robot(method, *task) for method in present_names}
+    values = agent_values(bank.goals.problem, settings, profile)
+    robots = {
+        method: scenario.robot_at_prices(method, bank, values) if settings
+        else scenario.robot(method, *task)
+        for method in present_names
+    }  # fmt: skip
     return [_play(name, robot, bank, course, steps) for name, robot in robots.items()]
 
 
