@@ -17,7 +17,7 @@ from hrcplan.assistance.priced_moves import PricedMoves
 from hrcplan.assistance.step_prices import StepPrices
 from hrcplan.assistance.step_values import NextSteps, StepValues
 from hrcplan.assistance.team_help import TeamHelp
-from hrcplan.assistance.turn_costs import human_turn_costs
+from hrcplan.assistance.turn_costs import costs_to_go
 from hrcplan.bank import PlanGraph
 from hrcplan.bank.progress import OffGraph, Progress
 from hrcplan.bank.team_moves import OUT_OF_REACH, Moment, TeamMoves
@@ -143,14 +143,14 @@ class PricedSteps:
         for goal in goals:
             if goal not in self._priced:
                 first, graph = int(self.graph.offsets[goal]), self.values.bank.graphs[goal]
-                costs = human_turn_costs(graph, self.prices)
+                costs = costs_to_go(graph, self.prices)
                 self._costs[first : first + graph.n_nodes] = costs
                 self._priced.add(goal)
 
     def _costs_off(self, graph: PlanGraph) -> Floats:
         costs = self._off_costs.get(id(graph))
         if costs is None:  # the graph is held, so that no other one gets its id
-            costs = self._off_costs[id(graph)] = graph, human_turn_costs(graph, self.prices)
+            costs = self._off_costs[id(graph)] = graph, costs_to_go(graph, self.prices)
         return costs[1]
 
     def least_cost(self, progress: Progress, weights: Floats) -> float:

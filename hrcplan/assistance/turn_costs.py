@@ -1,8 +1,8 @@
 """What a pair of people and robots still pays for a goal, where steps do not say who does them.
 
-They take turns. In a human turn each next step of the plans is equally likely, at its price in the
-hands of a person; in a robot turn the robot does what is best, or waits for a price of 1. With all
-prices 1 it is the number of steps that are left.
+Who acts next is open: each of the two as likely as the other. A person does any next step of the
+plans, each as likely, at its price in their hands; the robot does what is best, or waits for a price
+of 1. With all prices 1 it is the number of steps that are left.
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ from hrcplan.core.arrays import Floats, Ids
 OUT_OF_REACH = 1000.0  # what counts for a goal that no agent can bring nearer
 
 
-def human_turn_costs(graph: PlanGraph, prices: StepPrices) -> Floats:
-    """Return what is still to be paid from each node, at the beginning of a human turn.
+def costs_to_go(graph: PlanGraph, prices: StepPrices) -> Floats:
+    """Return what is still to be paid from each node.
 
     Args:
         graph: The plans of the goal.
@@ -25,7 +25,7 @@ def human_turn_costs(graph: PlanGraph, prices: StepPrices) -> Floats:
     """
     if not graph.n_nodes:  # the goal is out of reach
         return np.zeros(0)
-    costs, robot_turn = np.zeros(graph.n_nodes), np.zeros(graph.n_nodes)
+    costs = np.where(graph.is_goal, 0.0, OUT_OF_REACH)
     by_human, by_robot = prices.human[graph.steps], prices.robot[graph.steps]
     ends = [*(first for _, first in graph.layers[1:]), graph.n_nodes]
     for (_, begin), end in zip(reversed(graph.layers), reversed(ends), strict=True):
@@ -33,17 +33,14 @@ def human_turn_costs(graph: PlanGraph, prices: StepPrices) -> Floats:
         edges = slice(first[0], first[-1])
         is_open = ~graph.is_goal[begin:end] & (np.diff(first) > 0)
         nodes, starts = begin + np.flatnonzero(is_open), first[:-1][is_open] - first[0]
-        costs[begin:end] = robot_turn[begin:end] = np.where(
-            graph.is_goal[begin:end], 0.0, OUT_OF_REACH
-        )
         if not len(nodes):
             continue
-        targets = graph.targets[edges]
-        acts = np.minimum.reduceat(by_robot[edges] + costs[targets], starts)
-        own = _mean(by_human[edges] + robot_turn[targets], starts)
-        own = np.where(np.isfinite(own), own, 1 + acts)  # no step of a person: they wait
-        costs[nodes] = np.minimum(own, OUT_OF_REACH)
-        robot_turn[nodes] = np.minimum(acts, 1 + costs[nodes])
+        after = costs[graph.targets[edges]]
+        acts = np.minimum.reduceat(by_robot[edges] + after, starts)
+        own = _mean(by_human[edges] + after, starts)
+        # Who waits pays 1 and is where they were: the other one acts, after one wait on average.
+        both = np.where(np.isfinite(own), (own + acts) / 2, 1 + acts)
+        costs[nodes] = np.minimum(np.minimum(both, 1 + own), OUT_OF_REACH)
     return costs
 
 

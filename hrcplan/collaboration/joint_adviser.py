@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from functools import cached_property
 
@@ -20,11 +20,13 @@ from hrcplan.collaboration.history import (
     BegunAction,
     History,
     PassedTurn,
+    as_failed,
     state_after,
 )
 from hrcplan.collaboration.robots import JOINT_ROBOTS
 from hrcplan.collaboration.setup import TURNS, CollaborationSetup
 from hrcplan.execution.action_model import BoundAction
+from hrcplan.pddl.model import FluentKey
 from hrcplan.pddl.semantics import instances
 from hrcplan.plans import PlannedAction
 
@@ -63,7 +65,7 @@ class JointAdviser:
             chosen: What is believed about the goals.
         """
         agents = self.agents.belief(history) if self.weighs_agents else None
-        state = self.fold.state(history)
+        state = self.fold.state(self._as_it_will_end(history, agents))
         chosen = replace(chosen, none_of_these=round(float(state.none), 4))
         has_turns = self.fold.has_turns
         for doers in [(agent,) for agent in ask.agents] if has_turns else [ask.agents]:
@@ -80,6 +82,22 @@ class JointAdviser:
             if action is not None:
                 return self._with_action(chosen, state, action, agents)
         return chosen
+
+    def _as_it_will_end(self, history: History, agents: AgentBelief | None) -> History:
+        """Return a history in which what people attempt has failed if that is likelier than not.
+
+        What runs counts as done; a robot that built on an attempt in vain would do so, too.
+        """
+        risks = {} if agents is None else self.agents.risks(agents)
+        if agents is None or not risks:
+            return history
+        for number, action in agents.running.items():
+            if not action.is_robot and self._failure(action.words, risks) >= HARD:
+                history = as_failed(history, number)
+        return history
+
+    def _failure(self, words: tuple[str, ...], risks: Mapping[FluentKey, float]) -> float:
+        return self.assistant.price_model.failure(words, risks)
 
     def values(self, history: History) -> Values:
         """Return the agent state after a history, as function values that planners get."""
@@ -117,7 +135,7 @@ class JointAdviser:
         if not risks:
             return ""
         chances = [
-            (self.assistant.price_model.failure(words, risks), words[0], person)
+            (self._failure(words, risks), words[0], person)
             for person, words in self._by_people(action)
         ]
         p, name, person = min(chances, default=(0.0, "", ""))

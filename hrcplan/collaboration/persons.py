@@ -15,6 +15,7 @@ from hrcplan.collaboration.history import (
     EndedAction,
     History,
     PassedTurn,
+    WantedGoal,
     actions_in,
 )
 from hrcplan.collaboration.run import CompanionRun
@@ -117,9 +118,10 @@ class SimulatedPerson:
             return ()  # it could not be begun
         self._tried = agents, run.history
         event = self._event(run, agents, self._move(run, agents, turn))
-        if not self.tells_goal:
+        goal = self.bank.names[self.course.goal(turn)]
+        if not self.tells_goal or goal == _goal_told(run.history):
             return (event,)
-        return event, shared.Wanted(run.t, self.bank.names[self.course.goal(turn)])
+        return event, shared.Wanted(run.t, goal)
 
     def _turn(self, run: CompanionRun) -> int:
         if self.setup.pace == TURNS:
@@ -171,6 +173,11 @@ class SimulatedPerson:
             return shared.Passed(run.t, agents[0])  # another person has to do it
         ground = table.task.actions[action]
         return shared.Begun(run.t, ground.agent or agents[0], ground.name, ground.args)
+
+
+def _goal_told(history: History) -> str | None:
+    """Return the goal that the robot was told last; None if it was told none."""
+    return next((m.goal for m in reversed(history) if isinstance(m, WantedGoal)), None)
 
 
 def task_state_after(history: History, bank: Bank, moves: TeamMoves | None) -> tuple[int, Moment]:

@@ -13,7 +13,7 @@ from hrcplan.assistance.questions import ASK_PRICE, AskingRecord, answer_likelih
 from hrcplan.assistance.situation import Situation
 from hrcplan.assistance.step_prices import PriceModel
 from hrcplan.assistance.team_help import ACTION
-from hrcplan.assistance.turn_costs import human_turn_costs
+from hrcplan.assistance.turn_costs import costs_to_go
 from hrcplan.bank import Bank, build, build_bank
 from hrcplan.bank.cost_to_go import NEVER, TIMESTEP, cost_to_go_of
 from hrcplan.bank.team_moves import Moment
@@ -58,7 +58,7 @@ def test_with_low_agent_states_it_is_the_robot_of_expected_help(name: str) -> No
 def test_costs_of_turns_are_the_steps_that_are_left(name: str) -> None:
     prices = PriceModel(bank_of(name)).prices({})
     for graph in bank_of(name).graphs:
-        assert np.array_equal(human_turn_costs(graph, prices), graph.steps_left)
+        assert np.array_equal(costs_to_go(graph, prices), graph.steps_left)
 
 
 def test_costs_of_a_team_are_its_timesteps() -> None:
@@ -120,7 +120,7 @@ def test_values_at_their_low_value_are_no_prices() -> None:
 def test_costs_of_tired_people_are_higher() -> None:
     graph = bank_of("kitchen").graphs[0]
     prices = joint("kitchen").price_model.prices(TIRED)
-    costs = human_turn_costs(graph, prices)
+    costs = costs_to_go(graph, prices)
     assert (costs >= graph.steps_left - 1e-9).all()
     assert costs[0] > graph.steps_left[0]
 
