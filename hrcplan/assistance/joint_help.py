@@ -84,11 +84,12 @@ class JointHelp(ExpectedHelp):
     def advise(self, state: JointState, situation: Situation) -> Advice:
         """Return what the robot should do now."""
         helper, weights = self.helper(situation.values), self.posterior(state)
+        choice = helper.options(state.progress, weights)
         if self.asks and state.none <= NONE_HOLDS:
             question = best_question(helper, state.progress, weights, situation.asking)
             if question is not None:
                 return Advice(question=question, value=question.worth)
-        choice = self._claimed(helper, state, helper.options(state.progress, weights))
+        choice = self._claimed(helper, state, choice)
         if situation.stands_still:
             choice = helper.surely_nearer(choice, state.progress, weights)
         best = choice.best

@@ -29,7 +29,11 @@ MOST_TEAM, MOST_STEPS = 3, 12  # the likeliest goals whose costs are priced: a t
 
 
 class PricedHelp(Protocol):
-    """Values steps by what they save the team, for weights of the goals that sum to 1."""
+    """Values steps by what they save the team, for weights of the goals that sum to 1.
+
+    ``options`` and ``to_go`` price the goals that are likeliest by their weights, once for all; the
+    others take them at the prices that there are, so that what they compare is priced alike.
+    """
 
     def options(self, progress: Progress, weights: Floats) -> StepChoice:
         """Return the steps that a robot could do now, and what each is expected to save."""
@@ -85,7 +89,7 @@ class PricedSteps:
         self.values, self.prices, self.waste_price = values, prices, waste_price
         self.graph = values.tracker.combined_graph
         self._costs = np.zeros(self.graph.off + 1)
-        self._priced: set[int] = set()
+        self._is_priced = np.zeros(len(values.bank.names), dtype=np.bool_)
         self._off_costs: dict[int, tuple[PlanGraph, Floats]] = {}
         self._last: tuple[Progress, bytes, StepChoice] | None = None
 
@@ -108,29 +112,28 @@ class PricedSteps:
         steps = self.values.candidates(progress, next_steps)
         savings, needs = self.values.expected_saving(progress, next_steps, steps, weights)
         if self.prices.changes and steps:
+            self._price_goals(_likeliest(weights, MOST_STEPS))
             savings = savings + self._more(progress, next_steps, weights).take(steps)
         worth = savings - self.waste_price * (1 - needs)
         return StepChoice(tuple(steps), tuple(worth.tolist()))
 
     def _more(self, progress: Progress, next_steps: NextSteps, weights: Floats) -> Floats:
         """Return how much more than one step each step is expected to save."""
-        more = self._more_by_pair(progress, next_steps, weights)
+        more = self._more_by_pair(progress, next_steps)
         by_goal = more * weights.take(next_steps.goals)
         sums = np.bincount(next_steps.steps, by_goal, len(self.prices.robot))
         return sums.astype(np.float64)
 
-    def _more_by_pair(self, progress: Progress, next_steps: NextSteps, weights: Floats) -> Floats:
+    def _more_by_pair(self, progress: Progress, next_steps: NextSteps) -> Floats:
         """Return how much more than one step each next step saves the goal that it belongs to."""
         goals, steps = next_steps.goals, next_steps.steps
-        priced = _likeliest(weights, MOST_STEPS)
-        self._price_goals(priced)
         nodes = progress.nodes.take(goals)
         hit, places = self.graph.edges(nodes, steps)  # type: ignore[arg-type]  # one step for each
         targets = np.where(hit, self.graph.targets.take(places, mode="clip"), self.graph.off)
         more = self._costs[nodes] - self._costs[targets] - self.prices.robot[steps]
-        more = np.where(hit & np.isin(goals, priced), more, 0.0)
+        more = np.where(hit & self._is_priced[goals], more, 0.0)
         for goal, place in progress.off.items():
-            if goal in priced:
+            if self._is_priced[goal]:
                 graph, node = self.values.tracker.graph_of(goal, place)
                 following = graph.next(node) if graph.n_nodes else {}
                 costs = self._costs_off(graph)
@@ -141,11 +144,11 @@ class PricedSteps:
 
     def _price_goals(self, goals: Sequence[int]) -> None:
         for goal in goals:
-            if goal not in self._priced:
+            if not self._is_priced[goal]:
                 first, graph = int(self.graph.offsets[goal]), self.values.bank.graphs[goal]
                 costs = costs_to_go(graph, self.prices)
                 self._costs[first : first + graph.n_nodes] = costs
-                self._priced.add(goal)
+                self._is_priced[goal] = True
 
     def _costs_off(self, graph: PlanGraph) -> Floats:
         costs = self._off_costs.get(id(graph))
@@ -163,7 +166,7 @@ class PricedSteps:
         steps = self.values.candidates(progress, next_steps)
         worth = np.where(np.isin(next_steps.steps, steps), 1.0, 0.0)
         if self.prices.changes:
-            worth *= 1 + self._more_by_pair(progress, next_steps, weights)
+            worth *= 1 + self._more_by_pair(progress, next_steps)
         costs = np.zeros(len(self.values.bank.names))
         np.minimum.at(costs, next_steps.goals, -worth)
         return costs
@@ -211,21 +214,21 @@ class PricedTeam:
 
     def options(self, progress: Progress, weights: Floats) -> StepChoice:
         """Return how much time each step of the next robot is expected to save."""
-        return self.help.options(progress.world, self._moment(progress, weights), weights)
+        self._price_goals(weights)
+        return self.help.options(progress.world, self.values.next_robot(progress), weights)
 
-    def _moment(self, progress: Progress, weights: Floats) -> Moment:
+    def _price_goals(self, weights: Floats) -> None:
         if self._priced is not None:
             self._priced.price_goals(_likeliest(weights, MOST_TEAM))
-        return self.values.next_robot(progress)
 
     def least_cost(self, progress: Progress, weights: Floats) -> float:
         """Return what the best step or wait is expected to cost."""
-        costs = self.help.costs(progress.world, self._moment(progress, weights), weights)
+        costs = self.help.costs(progress.world, self.values.next_robot(progress), weights)
         return float(costs.min())
 
     def least_costs(self, progress: Progress, weights: Floats) -> Floats:
         """Return what the best step or wait costs for each goal if that is certain."""
-        moment = self._moment(progress, weights)
+        moment = self.values.next_robot(progress)
         costs: Floats = self.moves.choices(progress.world, moment).costs.min(axis=1)
         if self._priced is not None:  # people do not choose by price, so they may do worse
             for goal in _likeliest(weights, MOST_ASKED):
@@ -236,7 +239,8 @@ class PricedTeam:
 
     def to_go(self, progress: Progress, weights: Floats) -> float:
         """Return what is expected to be paid until the goal is reached, after a wait."""
-        moment = self.moves.after(self._moment(progress, weights), None)
+        self._price_goals(weights)
+        moment = self.moves.after(self.values.next_robot(progress), None)
         costs = self.moves.choices(progress.world, moment).costs.min(axis=1)
         return float(weights @ costs)
 
@@ -248,7 +252,7 @@ class PricedTeam:
 
     def surely_nearer(self, choice: StepChoice, progress: Progress, weights: Floats) -> StepChoice:
         """Return the steps that lower the expected cost of a team that knows the goal."""
-        choices = self.moves.choices(progress.world, self._moment(progress, weights))
+        choices = self.moves.choices(progress.world, self.values.next_robot(progress))
         costs = weights @ choices.costs
         pairs = [
             (step, value) for step, value in zip(choice.steps, choice.values, strict=True)

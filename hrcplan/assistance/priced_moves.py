@@ -29,19 +29,17 @@ class PricedMoves(TeamMoves):
         self.inner, self.extra = moves, prices.extra
         self.take_turns(moves.bank)
         self._tables: dict[int, Floats] = {}
-        self._goals: frozenset[int] = frozenset()
         self._by_moment: dict[tuple[int, Moment], TeamChoices] = {}
 
     def price_goals(self, goals: Sequence[int]) -> None:
-        """Price several goals from now on, and no other ones: a table of each takes a while."""
-        if isinstance(self.inner, SoloMoves):
+        """Price several goals from now on: a table of each takes a while."""
+        new = [goal for goal in goals if goal not in self._tables]
+        if isinstance(self.inner, SoloMoves) or not new:
             return
-        if self._goals != frozenset(goals):
-            self._goals, self._by_moment = frozenset(goals), {}
-        for goal in goals:
-            if goal not in self._tables:
-                extra = self.extra[[op.step for op in self.bank.table.ops]]
-                self._tables[goal] = self.inner.costs.priced(goal, extra + ACTION, 1.0)
+        self._by_moment = {}
+        extra = self.extra[[op.step for op in self.bank.table.ops]] + ACTION
+        for goal in new:
+            self._tables[goal] = self.inner.costs.priced(goal, extra, 1.0)
 
     def knows(self, world: int) -> bool:
         """Return whether a state is one that the team can get to."""
@@ -65,13 +63,12 @@ class PricedMoves(TeamMoves):
         extra = np.append(self.extra[choices.steps], 0.0)
         costs = np.where(choices.costs >= OUT_OF_REACH, OUT_OF_REACH, choices.costs + extra)
         costs = np.where(choices.costs == 0, 0.0, costs)
-        if self._goals:
+        if self._tables:
             place = self.inner.costs.place(world)
             _, targets = self.inner.costs.actions(place, moment.turn)
             following, places = (moment.turn + 1) % self.n_turns, np.append(targets, place)
             own = np.append(np.full(len(targets), ACTION), 0.0) + 1 + extra
-            for goal in self._goals:
-                table = self._tables[goal]
+            for goal, table in self._tables.items():
                 after = table[following, places] + own
                 reached = table[moment.turn, place] == 0
                 costs[goal] = 0.0 if reached else np.minimum(after, OUT_OF_REACH)

@@ -27,23 +27,26 @@ TIMESTEP = 1 << 12  # actions are counted below it
 NEVER = np.iinfo(np.int32).max - 2 * TIMESTEP  # the goal is out of reach
 
 Costs = NDArray[np.int32]
+AnyCosts = Costs | Floats
 
 
 @dataclass(frozen=True, slots=True)
 class _Backward:
     """Actions of one agent by the state they lead to: those of state ``s`` begin at ``first[s]``.
 
-    ``sources`` are the states in which they are done.
+    ``sources`` are the states in which they are done, ``ops`` the ways to do the steps.
     """
 
     first: Ids
     sources: Ids
+    ops: Ids
 
-    def into(self, states: Ids) -> tuple[Ids, Ids]:
-        """Return the sources of actions into states, and the state that each leads to."""
+    def into(self, states: Ids) -> tuple[Ids, Ids, Ids]:
+        """Return sources and ways of the actions into states, and the state each leads to."""
         lengths = self.first[states + 1] - self.first[states]
         begins = np.repeat(self.first[states] - (lengths.cumsum() - lengths), lengths)
-        return self.sources[begins + np.arange(len(begins))], np.repeat(states, lengths)
+        places = begins + np.arange(len(begins))
+        return self.sources[places], self.ops[places], np.repeat(states, lengths)
 
 
 MAX_PRICED_BYTES = 1 << 28  # of tables of prices that are remembered
@@ -146,8 +149,11 @@ class CostToGo:
         acting = self._acting(with_robots, human)
         costs = self._costs.get(acting)
         if costs is None:
-            by_goal = [self._backward(goal, acting) for goal in range(len(self._is_goal))]
-            costs = self._costs[acting] = np.stack(by_goal)
+            ways = np.full(len(self.bank.table.ops), TIMESTEP + 1, dtype=np.int32)
+            shape = len(self._is_goal), len(self.bank.team), len(self._keys)
+            costs = self._costs[acting] = np.full(shape, NEVER, dtype=np.int32)
+            for goal, table in enumerate(costs):
+                self._lower(table, goal, acting, ways, TIMESTEP)
         return costs[:, turn, places]
 
     def _acting(self, with_robots: bool, human: str | None) -> frozenset[int]:
@@ -172,39 +178,13 @@ class CostToGo:
         key = goal, prices.tobytes(), timestep
         table = self._priced.pop(key, None)
         if table is None:
-            table = self._least_prices(goal, prices, timestep)
+            table = np.full((len(self.bank.team), len(self._keys)), np.inf)
+            everybody = frozenset(range(len(table)))
+            self._lower(table, goal, everybody, prices + timestep, timestep)
         self._priced[key] = table
         while len(self._priced) > max(1, MAX_PRICED_BYTES // table.nbytes):
             self._priced.pop(next(iter(self._priced)))
         return table
-
-    def _least_prices(self, goal: int, prices: Floats, timestep: float) -> Floats:
-        n_turns = len(self.bank.team)
-        costs = np.where(self._is_goal[goal], 0.0, np.inf) * np.ones((n_turns, 1))
-        ways = [prices[self._ops[mine]] + timestep for mine in self._by_turn]
-        targets = [self._targets[mine].astype(np.int32) for mine in self._by_turn]
-        while True:
-            before = costs.copy()
-            for turn in reversed(range(n_turns)):
-                following, mine = costs[(turn + 1) % n_turns], self._by_turn[turn]
-                np.minimum(costs[turn], following + timestep, out=costs[turn])
-                if not len(mine):
-                    continue
-                sources, starts = self._groups[turn]
-                after = np.minimum.reduceat(ways[turn] + following[targets[turn]], starts)
-                costs[turn][sources] = np.minimum(costs[turn][sources], after)
-            if np.array_equal(before, costs):
-                return costs
-
-    @cached_property
-    def _by_turn(self) -> list[Ids]:
-        """For each turn which actions its agent can do, in order of their sources."""
-        return [self._mine(turn) for turn in range(len(self.bank.team))]
-
-    @cached_property
-    def _groups(self) -> list[tuple[Ids, Ids]]:
-        """For each turn the sources of actions, and where those of each source begin."""
-        return [np.unique(self._sources[mine], return_index=True) for mine in self._by_turn]
 
     def _mine(self, turn: int) -> Ids:
         """Return which actions an agent can do in its turn."""
@@ -220,33 +200,36 @@ class CostToGo:
             mine = self._mine(turn)
             order = mine[np.argsort(self._targets[mine], kind="stable")]
             first = self._targets[order].searchsorted(np.arange(len(self._keys) + 1))
-            yield _Backward(first, self._sources[order])
+            yield _Backward(first, self._sources[order], self._ops[order])
 
-    def _backward(self, goal: int, acting: frozenset[int]) -> Costs:
-        """Return the cost to go to one goal, by turn and state."""
-        n_turns = len(self.bank.team)
-        costs = np.full((n_turns, len(self._keys)), NEVER, dtype=np.int32)
+    def _lower(
+        self, costs: AnyCosts, goal: int, acting: frozenset[int], ways: AnyCosts, wait: float
+    ) -> None:
+        """Lower the costs to one goal, by turn and state, until no action lowers one further.
+
+        Args:
+            costs: What no cost is above; changed in place.
+            goal: The goal.
+            acting: The agents that do not only wait.
+            ways: What each way to do a step costs.
+            wait: What a wait costs.
+        """
         costs[:, self._is_goal[goal]] = 0
-        layer = [np.flatnonzero(self._is_goal[goal])] * n_turns
-        while any(map(len, layer)):
-            layer = [
-                self._one_before(costs, turn, layer[(turn + 1) % n_turns], turn in acting)
-                for turn in range(n_turns)
-            ]
-        return costs
-
-    def _one_before(self, costs: Costs, turn: int, states: Ids, acts: bool) -> Ids:
-        """Set the cost of what leads to states of the next turn; return where it was not set."""
-        following = costs[(turn + 1) % len(costs)]
-        sources, prices = states, following[states] + TIMESTEP
-        if acts:
-            before, targets = self._into[turn].into(states)
-            sources = np.concatenate([sources, before])
-            prices = np.concatenate([prices, following[targets] + TIMESTEP + 1])
-        # What is cheaper by timesteps was set in an earlier round.
-        new = costs[turn][sources] // TIMESTEP > prices // TIMESTEP
-        np.minimum.at(costs[turn], sources[new], prices[new])
-        return np.unique(sources[new])
+        is_new = np.tile(self._is_goal[goal], (len(costs), 1))
+        while is_new.any():
+            for turn in reversed(range(len(costs))):
+                following = (turn + 1) % len(costs)
+                states, after = np.flatnonzero(is_new[following]), costs[following]
+                is_new[following] = False
+                sources, sums = states, after[states] + wait
+                if turn in acting:
+                    before, ops, targets = self._into[turn].into(states)
+                    sources = np.concatenate([sources, before])
+                    sums = np.concatenate([sums, after[targets] + ways[ops]])
+                is_less = sums < costs[turn][sources]
+                sources, sums = sources[is_less], sums[is_less].astype(costs.dtype)
+                np.minimum.at(costs[turn], sources, sums)
+                is_new[turn, sources] = True
 
 
 def _keys(rows: Words) -> NDArray[np.bytes_]:
