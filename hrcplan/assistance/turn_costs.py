@@ -1,8 +1,9 @@
 """What a pair of people and robots still pays for a goal, where steps do not say who does them.
 
-Who acts next is open: each of the two as likely as the other. A person does any next step of the
-plans, each as likely, at its price in their hands; the robot does what is best, or waits for a price
-of 1. With all prices 1 it is the number of steps that are left.
+Who acts next is open: each of the two as likely as the other. Were their turns strict, a step would
+be worth nothing or twice as much, by whether the number of steps that are left is even or odd. A
+person does any next step of the plans, each as likely, at its price in their hands; the robot does
+what is best, or waits for a price of 1. With all prices 1 it is the number of steps that are left.
 """
 
 from __future__ import annotations

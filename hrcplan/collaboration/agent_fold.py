@@ -70,7 +70,9 @@ class AgentFold:
     def belief(self, history: History) -> AgentBelief:
         """Return what is believed after a history."""
         n = 0
-        while n < min(len(history), len(self._history)) and history[n] == self._history[n]:
+        for mark, before in zip(history, self._history, strict=False):
+            if mark is not before and mark != before:
+                break
             n += 1
         del self._beliefs[n + 1 :]
         self._history = history

@@ -54,9 +54,15 @@ class BeliefFold:
         self._robots = robots(bank.goals.problem)
         self._seen: tuple[SeenMark, ...] = ()
         self._states: list[_Folded] = [(assistant.start(), frozenset())]
+        self._last: tuple[History, Any] = (), self._states[0][0]
 
     def state(self, history: History) -> Any:
         """Return the assistant's state after a history."""
+        if history is not self._last[0]:
+            self._last = history, self._state(history)
+        return self._last[1]
+
+    def _state(self, history: History) -> Any:
         seen = evidence_in(history, self._model)
         n = 0
         while n < min(len(seen), len(self._seen)) and seen[n] == self._seen[n]:
