@@ -21,7 +21,6 @@ from hrcplan.core.registry import Registry
 from hrcplan.pddl.conventions import people
 
 MAX_NETWORKS = 256  # that are remembered
-N_DRAWS = 64  # random numbers of one turn: whether to wait or err, and what to choose
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,19 +102,19 @@ class Frontier:
         if self._moves is None:
             return self.move(turn, world, last)
         course, place = self.course, f"/{moment.turn}" if moment.turn else ""
-        draws = iter(_draws(course.seed + place, turn))
-        if next(draws) < course.wait_rate:
+        draw = _draws(course.seed + place, turn)
+        if draw() < course.wait_rate:
             return HumanMove(None)
-        goal, errs = course.goal(turn), next(draws) < course.mistake_rate
+        goal, errs = course.goal(turn), draw() < course.mistake_rate
         choices = self._moves.choices(world, moment)
         steps = choices.next_steps(goal)
         useful = self.bank.graphs[goal].used_steps.union(steps)
         wrong = [step for step in choices.steps.tolist() if step not in useful] if errs else []
         if wrong:
-            return HumanMove(wrong[int(next(draws) * len(wrong))], is_mistake=True)
+            return HumanMove(wrong[int(draw() * len(wrong))], is_mistake=True)
         if not steps:
             return HumanMove(None)
-        return HumanMove(self._choice(goal, world, moment, steps, last, draws.__next__))
+        return HumanMove(self._choice(goal, world, moment, steps, last, draw))
 
     def _choice(
         self, goal: int, world: int, moment: Moment, steps: Sequence[int], last: int | None,
@@ -132,17 +131,17 @@ class Frontier:
         """Return what the human does in a turn, in a state, after its own last step."""
         if self._moves is not None:
             return self.move_in_turn(turn, world, last, Moment())
-        course, draws = self.course, iter(_draws(self.course.seed, turn))
-        if next(draws) < course.wait_rate:
+        course, draw = self.course, _draws(self.course.seed, turn)
+        if draw() < course.wait_rate:
             return HumanMove(None)
-        goal, errs = course.goal(turn), next(draws) < course.mistake_rate
+        goal, errs = course.goal(turn), draw() < course.mistake_rate
         graph, node = self.bank.locate(goal, world)
         if errs and (wrong := self._useless(graph, world)):
-            return HumanMove(wrong[int(next(draws) * len(wrong))], is_mistake=True)
+            return HumanMove(wrong[int(draw() * len(wrong))], is_mistake=True)
         steps = [] if node is None else list(self._able(world, graph.next(node)))
         if node is None or not steps:
             return HumanMove(None)
-        return HumanMove(self.choose(graph, node, steps, last, draws.__next__))
+        return HumanMove(self.choose(graph, node, steps, last, draw))
 
     def choose(
         self, graph: PlanGraph, node: int, steps: Sequence[int], last: int | None, draw: Draw
@@ -241,10 +240,9 @@ def _network(graph: PlanGraph) -> Htn:
     return decompose(graph)
 
 
-@lru_cache(maxsize=64)
-def _draws(seed: str, turn: int) -> tuple[float, ...]:
-    stream = random.Random(f"{seed}/{turn}")
-    return tuple(stream.random() for _ in range(N_DRAWS))
+def _draws(seed: str, turn: int) -> Draw:
+    """Return the random numbers of a turn: whether to wait or err, and what to choose."""
+    return random.Random(f"{seed}/{turn}").random
 
 
 HUMANS: Registry[[Bank, Course], EpisodeHuman] = Registry(

@@ -7,7 +7,8 @@ all humans have what they want, so goals that exclude each other can all be reac
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
 
 import numpy as np
 
@@ -17,19 +18,9 @@ from hrcplan.bank.team import turn_order
 from hrcplan.bank.team_moves import OUT_OF_REACH, Moment
 from hrcplan.bank.turn_moves import team_moves
 from hrcplan.core.arrays import Floats
-from hrcplan.episodes.episode import (
-    PATIENCE,
-    REACHED,
-    ROUNDS,
-    STUCK,
-    UNFINISHED,
-    EpisodeRecord,
-    EpisodeWatch,
-    Play,
-    SimulatedTurns,
-    TurnWorld,
-)
+from hrcplan.episodes.episode import EpisodeRecord, EpisodeWatch, Play
 from hrcplan.episodes.humans import Course, EpisodeHuman, HumanMove, TakesTurns
+from hrcplan.episodes.turns import PATIENCE, ROUNDS, EpisodeTurns, Mover, TurnWorld
 from hrcplan.inference.belief import S
 
 
@@ -69,129 +60,129 @@ def play_own_goals(
     Raises:
         UsageError: as of `play`.
     """
-    return _OwnGoals(bank, humans, robot, courses, world, watch).run()
+    turns = OwnGoalTurns(bank, world)
+    turns.begin_each(courses)
+    return _OwnGoals(turns, humans, robot, watch).run()
 
 
-class _OwnGoals(Play[PerHumanState[S]]):
-    def __init__(
-        self, bank: Bank, humans: Mapping[str, EpisodeHuman], robot: PerHuman[S],
-        courses: Mapping[str, Course], world: TurnWorld | None,
-        watch: EpisodeWatch[PerHumanState[S]] | None,
-    ) -> None:  # fmt: skip
-        first = bank.humans[0]
-        super().__init__(
-            bank, humans[first], robot, courses[first], world or SimulatedTurns(bank), watch
-        )
-        self.humans, self.courses, self.per_human = humans, courses, robot
-        self.all_robots, self.order = self.robots, turn_order(bank.goals.problem)
+class OwnGoalTurns(EpisodeTurns):
+    """The turns of agents one after the other, where each human has goals of its own.
+
+    Attributes:
+        courses: What each human wants and when; ``course`` is that of the human who acted last.
+        pending: The humans who do not have yet what they want.
+    """
+
+    def __init__(self, bank: Bank, world: TurnWorld | None = None) -> None:
+        super().__init__(bank, world)
         self.views = {human: bank.for_human(human) for human in bank.humans}
         self.moves = {human: team_moves(view) for human, view in self.views.items()}
-        self.moment, self.lasts = Moment(), dict[str, int | None]()
-        self.pending = dict.fromkeys(bank.humans)
-        self.round = 0
+        self._lengths = {human: own_lengths(view) for human, view in self.views.items()}
 
-    def run(self) -> EpisodeRecord:
-        """Return the record."""
-        most = self._most()
-        turn, ending = 0, self._ending(0, most)
-        while ending is None:
-            ending = self._play_round(turn)
-            turn += 1
-            ending = ending or self._ending(turn, most)
-        can = [self._can_reach(human, turn) for human in self.pending]
-        decisions, record_turns = tuple(self.decisions_ms), tuple(self.turns)
-        return EpisodeRecord(
-            self.courses[self.bank.humans[0]], record_turns, ending, decisions, most,
-            ending == REACHED or all(can), self.courses,
-        )  # fmt: skip
+    def begin_each(self, courses: Mapping[str, Course]) -> None:
+        """Start an episode in which each human follows a course of its own."""
+        self.courses, self.moment = courses, Moment()
+        self.pending = dict.fromkeys(self.bank.humans)
+        super().begin(courses[self.bank.humans[0]])
 
-    def _most(self) -> int:
-        lengths = {human: own_lengths(view) for human, view in self.views.items()}
-        costs = (lengths[human][goal] for human, c in self.courses.items() for goal in c.goals)
-        return PATIENCE * int(sum(cost for cost in costs if cost < np.inf)) + len(self.order)
+    @property
+    def goal(self) -> int:
+        """The goal of the human who acts now; if it is a robot, of the one who acted last."""
+        acts = self.mover.is_human
+        return (self.courses[self.mover.name] if acts else self.course).goal(self.round)
 
-    def _can_reach(self, human: str, turn: int) -> bool:
-        goal, moves = self.courses[human].goal(turn), self.moves[human]
+    def human_move(self, human: EpisodeHuman) -> HumanMove:
+        """Return what a human does in this turn."""
+        if self.mover.name not in self.pending:
+            return HumanMove(None)
+        if isinstance(human, TakesTurns):
+            return human.move_in_turn(self.round, self.state, self.last, self.moment)
+        return human.move(self.round, self.state, self.last)
+
+    def next_steps(self) -> set[int]:
+        """Return the steps that are next for the human who acts, or for any human if a robot."""
+        humans = [self.mover.name] if self.mover.is_human else list(self.pending)
+        return {step for human in humans for step in self._next_steps(human)}
+
+    def _next_steps(self, human: str) -> Iterable[int]:
+        goal, moves = self.courses[human].goal(self.round), self.moves[human]
+        if moves is not None:
+            return moves.choices(self.state, self.moment).next_steps(goal)
+        graph, node = self.bank.locate(goal, self.state)
+        return () if node is None else graph.next(node)
+
+    def can_reach(self) -> bool:
+        """Return whether the humans who do not have what they want can still get it."""
+        return all(map(self._can_reach, self.pending))
+
+    def _can_reach(self, human: str) -> bool:
+        goal, moves = self.courses[human].goal(self.round), self.moves[human]
         if moves is not None:
             return moves.can_reach(goal, self.state)
         return self.bank.locate(goal, self.state)[1] is not None
 
-    def _play_round(self, turn: int) -> str | None:
-        self.round = turn
-        for agent in self.order:
-            self.agent = agent
-            self.robots = self.people = frozenset({agent})
-            if agent in self.humans:
-                self.human, self.course = self.humans[agent], self.courses[agent]
-                self.last = self.lasts.get(agent)
-                self._human(turn)
-                self.lasts[agent] = self.last
-            else:
-                self._robot(turn)
-            self._note_reached(turn)
-            if not self.pending:
-                return REACHED
-        return None
+    def _order(self) -> tuple[Mover, ...]:
+        agents, humans = turn_order(self.bank.goals.problem), self.bank.humans
+        return tuple(Mover(frozenset({agent}), agent in humans) for agent in agents)
 
-    def _note_reached(self, turn: int) -> None:
-        """Take note of the humans whose last goal holds."""
+    def _cap(self) -> int:
+        costs = (self._lengths[who][goal] for who, c in self.courses.items() for goal in c.goals)
+        return PATIENCE * int(sum(cost for cost in costs if cost < np.inf)) + len(self.order)
+
+    def _pass_on(self, step: int | None) -> None:
+        if self.mover.is_human:
+            self.course = self.courses[self.mover.name]
+        moves = next(iter(self.moves.values()))
+        self.moment = Moment() if moves is None else moves.after(self.moment, step)
+
+    def _is_over(self) -> bool:
         for human in list(self.pending):
             course = self.courses[human]
-            is_last = turn >= max(course.turns, default=0)
-            if is_last and self.bank.goals.is_reached(course.goal(turn), self.state):
+            is_last = self.round >= max(course.turns, default=0)
+            if is_last and self.bank.goals.is_reached(course.goal(self.round), self.state):
                 del self.pending[human]
+        return not self.pending
 
-    def _ending(self, turn: int, most: int) -> str | None:
-        self._note_reached(turn)
-        if not self.pending:
-            return REACHED
-        last_change = max(max(course.turns, default=0) for course in self.courses.values())
-        if turn > last_change and self.n_waits >= ROUNDS * len(self.order):
-            return STUCK
-        return UNFINISHED if len(self.turns) >= most else None
+    @property
+    def _last_change(self) -> int:
+        return max(max(course.turns, default=0) for course in self.courses.values())
 
-    def _move(self, turn: int) -> HumanMove:
-        if self.agent not in self.pending:
-            return HumanMove(None)
-        if isinstance(self.human, TakesTurns):
-            return self.human.move_in_turn(turn, self.state, self.last, self.moment)
-        return self.human.move(turn, self.state, self.last)
+    def _is_stuck(self) -> bool:
+        return self.n_waits >= ROUNDS * len(self.order)
 
-    def _observe_human(self, step: int) -> None:
-        self.belief = self.per_human.observe_by(self.belief, step, self.agent or "")
+
+class _OwnGoals(Play[PerHumanState[S]]):
+    def __init__(
+        self, turns: OwnGoalTurns, humans: Mapping[str, EpisodeHuman], robot: PerHuman[S],
+        watch: EpisodeWatch[PerHumanState[S]] | None,
+    ) -> None:  # fmt: skip
+        super().__init__(turns, humans[turns.bank.humans[0]], robot, watch)
+        self.humans, self.per_human, self.own_turns = humans, robot, turns
+
+    def run(self) -> EpisodeRecord:
+        """Return the record."""
+        courses = self.own_turns.courses
+        first = courses[self.bank.humans[0]]
+        return replace(super().run(), course=first, courses=courses)
+
+    def _agent(self) -> str:
+        return self.now.mover.name
+
+    def _human(self) -> None:
+        self.human = self.humans[self._agent()]
+        super()._human()
+
+    def _observe_human(self, step: int, agent: str | None) -> None:
+        self.belief = self.per_human.observe_by(self.belief, step, agent or "")
 
     def _observe_wait(self) -> None:
         self.belief = self.per_human.observe_wait(self.belief)
 
-    def _inform(self, goal: int) -> None:
-        self.belief = self.per_human.inform_by(self.belief, goal, self.agent or "")
+    def _inform(self, goal: int, agent: str | None) -> None:
+        self.belief = self.per_human.inform_by(self.belief, goal, agent or "")
 
-    def _posterior(self) -> Floats:
-        return self.per_human.posterior_of(self.belief, self.agent or "")
+    def _posterior(self, agent: str | None) -> Floats:
+        return self.per_human.posterior_of(self.belief, agent or "")
 
-    def _n_declared(self) -> int:
-        return self.per_human.n_declared_of(self.belief, self.agent or "")
-
-    def _choice(self) -> int | None:
-        return self.own_choice(super()._choice(), self.all_robots)
-
-    def _do(self, step: int | None, goal: int, agents: frozenset[str]) -> bool:
-        """Do a step; return whether it is next for the human who acts, or for any if a robot."""
-        self.n_waits = self.n_waits + 1 if step is None else 0
-        asking = [self.agent] if self.agent in self.humans else list(self.pending)
-        is_needed = step is not None and any(
-            self._is_next(step, human) for human in asking if human is not None
-        )
-        if step is not None:
-            self.state = self.act(step, agents)
-        moves = next(iter(self.moves.values()))
-        self.moment = Moment() if moves is None else moves.after(self.moment, step)
-        return is_needed
-
-    def _is_next(self, step: int, human: str) -> bool:
-        """Return whether a step is next for the present goal of a human."""
-        goal, moves = self.courses[human].goal(self.round), self.moves[human]
-        if moves is not None:
-            return step in moves.choices(self.state, self.moment).next_steps(goal)
-        graph, node = self.bank.locate(goal, self.state)
-        return node is not None and step in graph.next(node)
+    def _n_declared(self, agent: str | None) -> int:
+        return self.per_human.n_declared_of(self.belief, agent or "")
