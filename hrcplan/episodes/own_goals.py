@@ -143,8 +143,7 @@ class OwnGoalTurns(EpisodeTurns):
                 del self.pending[human]
         return not self.pending
 
-    @property
-    def _last_change(self) -> int:
+    def _change(self) -> int:
         return max(max(course.turns, default=0) for course in self.courses.values())
 
     def _is_stuck(self) -> bool:

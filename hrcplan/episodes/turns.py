@@ -81,7 +81,7 @@ class EpisodeTurns:
         round: How many rounds are over.
         place: Whose turn it is, as an index of ``order``.
         n_turns: How many turns are over.
-        n_waits: How many turns in a row nobody has acted.
+        n_waits: How many turns in a row were waits.
         cap: The number of turns after which an episode ends at the latest, but for its last round.
         ending: How the episode has ended: `REACHED`, `STUCK` or `UNFINISHED`; None before.
     """
@@ -98,7 +98,7 @@ class EpisodeTurns:
 
     def begin(self, course: Course) -> None:
         """Start an episode in which the humans follow a course."""
-        self.course = course
+        self.course, self._last_change = course, self._change()
         self.state = self.world.begin()
         self.round = self.place = self.n_turns = self.n_waits = 0
         self.lasts: dict[int, int] = {}
@@ -133,7 +133,7 @@ class EpisodeTurns:
         """Return the ground action by which a step is done in this turn.
 
         Raises:
-            UsageError: if there is no such step, or nobody who acts now can do it.
+            UsageError: if there is no such step, or the agents who act now cannot do it.
         """
         return _action(self.bank.table, self.state, step, self.mover.agents)
 
@@ -179,8 +179,8 @@ class EpisodeTurns:
         is_last = self.round >= self._last_change
         return is_last and self.bank.goals.is_reached(self.goal, self.state)
 
-    @property
-    def _last_change(self) -> int:
+    def _change(self) -> int:
+        """Return the round of the last change of a goal; 0 without one."""
         return max(self.course.turns, default=0)
 
     def _ending(self) -> str | None:
