@@ -231,7 +231,7 @@ class _HasToldMethod(Protocol[S]):
     def told(self, state: S, goal: int) -> S: ...
 
 
-def inform(assistant: Assistant[S], state: S, goal: int) -> S:
+def inform(assistant: Belief[S], state: S, goal: int) -> S:
     """Return an assistant's state after a turn of the human whose goal is ``goal``.
 
     The goal changes nothing for an assistant that does not know it (`KnowsGoal`).

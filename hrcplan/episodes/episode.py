@@ -8,24 +8,25 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import Generic
+from typing import Generic, Protocol
 
 import numpy as np
 
-from hrcplan.assistance.assistant import Assistant, inform
+from hrcplan.assistance.assistant import Assistant
 from hrcplan.bank import Bank
 from hrcplan.core.arrays import Floats
 from hrcplan.episodes.humans import Course, EpisodeHuman
+from hrcplan.episodes.observers import Observer
 from hrcplan.episodes.turns import PATIENCE as PATIENCE
 from hrcplan.episodes.turns import REACHED as REACHED
 from hrcplan.episodes.turns import ROUNDS as ROUNDS
 from hrcplan.episodes.turns import STUCK as STUCK
 from hrcplan.episodes.turns import UNFINISHED as UNFINISHED
-from hrcplan.episodes.turns import EpisodeTurns, TeamTurns, turns_of
+from hrcplan.episodes.turns import EpisodeTurns, turns_of
 from hrcplan.episodes.turns import SimulatedTurns as SimulatedTurns
 from hrcplan.episodes.turns import TurnWorld as TurnWorld
 from hrcplan.errors import UsageError
-from hrcplan.inference.belief import S, after_wait, n_declared
+from hrcplan.inference.belief import S
 
 NEAR = 1e-6  # to what probabilities sum to
 
@@ -117,22 +118,45 @@ def play(
     """
     turns = turns_of(bank, world)
     turns.begin(course)
-    return Play(turns, human, robot, watch).run()
+    humans = {mover.name: human for mover in turns.order if mover.is_human}
+    return Play(turns, humans, robot, Observer(robot, turns), watch).run()
+
+
+class Robot(Protocol[S]):
+    """The part of an assistant that starts and chooses."""
+
+    def start(self) -> S:
+        """Return the state before anything was done."""
+        ...
+
+    def choose(self, state: S) -> int | None:
+        """Return the step that the robot should do now, or None to wait."""
+        ...
 
 
 class Play(Generic[S]):
-    """One episode as it happens; a subclass says what a robot observes."""
+    """One episode as it happens.
+
+    Args:
+        turns: The turns of an episode that has begun.
+        humans: The human who chooses for each human mover, by the mover's name.
+        robot: Chooses for all robots.
+        observer: What the robot observes.
+        watch: Is called with every turn.
+        names_agents: Whether the turns in the record say who acts.
+    """
 
     def __init__(
-        self, turns: EpisodeTurns, human: EpisodeHuman, robot: Assistant[S],
-        watch: EpisodeWatch[S] | None,
+        self, turns: EpisodeTurns, humans: Mapping[str, EpisodeHuman], robot: Robot[S],
+        observer: Observer[S], watch: EpisodeWatch[S] | None, *, names_agents: bool = False,
     ) -> None:  # fmt: skip
-        self.bank, self.now = turns.bank, turns
-        self.human, self.robot, self.watch = human, robot, watch
+        self.bank, self.now, self.humans = turns.bank, turns, humans
+        self.robot, self.observer, self.watch = robot, observer, watch
+        self.names_agents = names_agents
         self.belief = robot.start()
         self.turns: list[EpisodeTurn] = []
         self.decisions_ms: list[float] = []
-        self.all_robots = frozenset[str]().union(
+        self._robots = frozenset[str]().union(
             *(mover.agents for mover in turns.order if not mover.is_human)
         )
 
@@ -151,39 +175,36 @@ class Play(Generic[S]):
         )
 
     def _human(self) -> None:
-        now, t = self.now, self.now.n_turns
-        goal, turn, agent = now.goal, now.round, self._agent()
-        move = now.human_move(self.human)
+        now, mover = self.now, self.now.mover
+        t, goal, turn = now.n_turns, now.goal, now.round
+        move = now.human_move(self.humans[mover.name])
         is_needed = self._do(move.step)
-        if move.step is not None:
-            self._observe_human(move.step, agent)
-        else:
-            self._observe_wait()
-        self._inform(goal, agent)
+        self.belief = self.observer.after(self.belief, mover, move.step)
+        self.belief = self.observer.inform(self.belief, mover, goal)
+        agent = mover.name if self.names_agents else None
         if move.step is None:
             self._note(EpisodeTurn(t, True, None, goal, False, round=turn, agent=agent))
             return
-        posterior = _checked(self._posterior(agent), len(self.bank.names))
+        posterior = _checked(self.observer.posterior(self.belief, mover), len(self.bank.names))
         likelier = posterior > posterior[goal]
         rank = int(likelier.sum() + (posterior[:goal] == posterior[goal]).sum())
+        n_declared = self.observer.n_declared(self.belief, mover)
         self._note(
             EpisodeTurn(
                 t, True, move.step, goal, is_needed, move.is_mistake, int(posterior.argmax()),
-                rank, self._n_declared(agent), turn, agent,
+                rank, n_declared, turn, agent,
             )
         )  # fmt: skip
 
     def _robot(self) -> None:
-        now, t = self.now, self.now.n_turns
-        goal, turn, agent = now.goal, now.round, self._agent()
+        now, mover = self.now, self.now.mover
+        t, goal, turn = now.n_turns, now.goal, now.round
         began = time.perf_counter()
         step = self._own(self.robot.choose(self.belief))
         self.decisions_ms.append((time.perf_counter() - began) * 1e3)
         is_needed = self._do(step)
-        if step is not None:
-            self.belief = self.robot.observe(self.belief, step, robot=True)
-        else:
-            self._observe_wait()
+        self.belief = self.observer.after(self.belief, mover, step)
+        agent = mover.name if self.names_agents else None
         self._note(EpisodeTurn(t, False, step, goal, is_needed, round=turn, agent=agent))
 
     def _do(self, step: int | None) -> bool:
@@ -197,7 +218,7 @@ class Play(Generic[S]):
         if not isinstance(step, int | np.integer) or not 0 <= step < len(self.bank.table):
             return step
         state, own = self.now.state, self.now.mover.agents
-        is_others = self.bank.table.doer(state, int(step), self.all_robots - own)
+        is_others = self.bank.table.doer(state, int(step), self._robots - own)
         can = self.bank.table.doer(state, int(step), own)
         return None if can is None and is_others is not None else step
 
@@ -205,27 +226,6 @@ class Play(Generic[S]):
         self.turns.append(turn)
         if self.watch is not None:
             self.watch(turn, self.belief)
-
-    # What the robot observes. Where all humans share a goal it does not matter which of them acts.
-
-    def _agent(self) -> str | None:
-        return None
-
-    def _observe_human(self, step: int, agent: str | None) -> None:
-        self.belief = self.robot.observe(self.belief, step)
-
-    def _observe_wait(self) -> None:
-        if isinstance(self.now, TeamTurns):  # else it is not known whose turn it is
-            self.belief = after_wait(self.robot, self.belief)
-
-    def _inform(self, goal: int, agent: str | None) -> None:
-        self.belief = inform(self.robot, self.belief, goal)
-
-    def _posterior(self, agent: str | None) -> Floats:
-        return self.robot.posterior(self.belief)
-
-    def _n_declared(self, agent: str | None) -> int:
-        return n_declared(self.belief)
 
 
 def _checked(posterior: Floats, n_goals: int) -> Floats:

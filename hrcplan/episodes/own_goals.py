@@ -17,9 +17,9 @@ from hrcplan.bank import Bank
 from hrcplan.bank.team import turn_order
 from hrcplan.bank.team_moves import OUT_OF_REACH, Moment
 from hrcplan.bank.turn_moves import team_moves
-from hrcplan.core.arrays import Floats
 from hrcplan.episodes.episode import EpisodeRecord, EpisodeWatch, Play
 from hrcplan.episodes.humans import Course, EpisodeHuman, HumanMove, TakesTurns
+from hrcplan.episodes.observers import PerHumanObserver
 from hrcplan.episodes.turns import PATIENCE, ROUNDS, EpisodeTurns, Mover, TurnWorld
 from hrcplan.inference.belief import S
 
@@ -62,7 +62,9 @@ def play_own_goals(
     """
     turns = OwnGoalTurns(bank, world)
     turns.begin_each(courses)
-    return _OwnGoals(turns, humans, robot, watch).run()
+    observer = PerHumanObserver(robot)
+    record = Play(turns, humans, robot, observer, watch, names_agents=True).run()
+    return replace(record, course=courses[bank.humans[0]], courses=courses)
 
 
 class OwnGoalTurns(EpisodeTurns):
@@ -148,40 +150,3 @@ class OwnGoalTurns(EpisodeTurns):
 
     def _is_stuck(self) -> bool:
         return self.n_waits >= ROUNDS * len(self.order)
-
-
-class _OwnGoals(Play[PerHumanState[S]]):
-    def __init__(
-        self, turns: OwnGoalTurns, humans: Mapping[str, EpisodeHuman], robot: PerHuman[S],
-        watch: EpisodeWatch[PerHumanState[S]] | None,
-    ) -> None:  # fmt: skip
-        super().__init__(turns, humans[turns.bank.humans[0]], robot, watch)
-        self.humans, self.per_human, self.own_turns = humans, robot, turns
-
-    def run(self) -> EpisodeRecord:
-        """Return the record."""
-        courses = self.own_turns.courses
-        first = courses[self.bank.humans[0]]
-        return replace(super().run(), course=first, courses=courses)
-
-    def _agent(self) -> str:
-        return self.now.mover.name
-
-    def _human(self) -> None:
-        self.human = self.humans[self._agent()]
-        super()._human()
-
-    def _observe_human(self, step: int, agent: str | None) -> None:
-        self.belief = self.per_human.observe_by(self.belief, step, agent or "")
-
-    def _observe_wait(self) -> None:
-        self.belief = self.per_human.observe_wait(self.belief)
-
-    def _inform(self, goal: int, agent: str | None) -> None:
-        self.belief = self.per_human.inform_by(self.belief, goal, agent or "")
-
-    def _posterior(self, agent: str | None) -> Floats:
-        return self.per_human.posterior_of(self.belief, agent or "")
-
-    def _n_declared(self, agent: str | None) -> int:
-        return self.per_human.n_declared_of(self.belief, agent or "")

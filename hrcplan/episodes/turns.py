@@ -98,7 +98,8 @@ class EpisodeTurns:
 
     def begin(self, course: Course) -> None:
         """Start an episode in which the humans follow a course."""
-        self.course, self._last_change = course, self._change()
+        self.course = course
+        self._last_change = self._change()
         self.state = self.world.begin()
         self.round = self.place = self.n_turns = self.n_waits = 0
         self.lasts: dict[int, int] = {}

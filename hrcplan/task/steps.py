@@ -148,19 +148,27 @@ class StepTable:
 
         It is what ``doer`` says of each, and quicker.
         """
-        key = frozenset(agents)
-        rules = self._rules.get(key)
-        if rules is None:
-            rules = self._rules[key] = [self._rule(step, key) for step in self._steps]
+        rules = self.rules_of(agents)
         for step in steps:
             rule = rules[step]
             if rule is None:
-                if self.doer(state, step, key) is not None:
+                if self.doer(state, step, agents) is not None:
                     yield step
                 continue
             mask, value, writes, adds = rule
             if state & mask == value and state & writes != adds:
                 yield step
+
+    def rules_of(self, agents: Set[str]) -> Sequence[Rule | None]:
+        """Return for each step the rule by which agents can do it.
+
+        It is None if one rule does not say it all, and one that never holds if they cannot.
+        """
+        key = frozenset(agents)
+        rules = self._rules.get(key)
+        if rules is None:
+            rules = self._rules[key] = [self._rule(step, key) for step in self._steps]
+        return rules
 
     def _rule(self, step: Step, agents: Set[str]) -> Rule | None:
         """Return the rule by which agents can do a step; None if one rule does not say it all."""

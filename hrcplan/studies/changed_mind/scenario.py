@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import random
 from collections.abc import Callable, Mapping
 from fractions import Fraction
@@ -21,9 +20,9 @@ from hrcplan.bank.bank import OPTIMAL
 from hrcplan.bank.cache import cached_bank
 from hrcplan.core.numbers import Number
 from hrcplan.core.text import nearest
+from hrcplan.episodes.courses import Habits, draw_course, draw_own_courses, own_goal_lengths
 from hrcplan.episodes.episode import TurnWorld
 from hrcplan.episodes.humans import HUMANS, Course, EpisodeHuman
-from hrcplan.episodes.own_goals import own_lengths
 from hrcplan.episodes.worlds import WORLDS
 from hrcplan.errors import UsageError
 from hrcplan.inference.belief import Belief
@@ -39,7 +38,6 @@ from hrcplan.studies.study import Cell, Say, Seed, StudyOptions
 
 HERE = Path(__file__).parent
 MAIN = "rows"
-SPREAD = 4  # further changes come within the time that a fraction of the goal's steps takes
 
 ROW_FORMAT = 2
 """It changes when episodes get other columns or values: rows of two formats are not mixed."""
@@ -287,7 +285,7 @@ def inputs(options: StudyOptions) -> str:
     ]
     for bank in (bank_of(*task) for task in tasks if options["goals_per"] == HUMAN):
         for who in bank.humans if has_own_goals(options, bank) else ():
-            _own_lengths(bank, who)
+            own_goal_lengths(bank, who)
     texts = [text for one in goals for text in (*one.names, *map(str, one.formulas))]
     texts.append(f"rows of format {ROW_FORMAT}")
     keys = ("study", "humans", "methods", "tables")
@@ -304,69 +302,23 @@ def runs(options: StudyOptions) -> int:
 
 
 def course(name: str, bank: Bank, seed: Seed) -> Course:
-    """Return what a human wants and when, which depends on the run alone.
-
-    The first change comes before a turn of the human that is uniform among those before the first
-    goal could be finished; each further one after up to a quarter of the turns that its goal takes.
-    """
-    table, chance = human_data(name), random.Random(f"{seed}/course")
+    """Return what a human wants and when, which depends on the run alone; see ``draw_course``."""
     n = len(bank.names)
     pairs = _pairs(seed.study, seed.run // (n * (n - 1)), n)
-    first, second = pairs[seed.run % len(pairs)]
-    goals, turns = [first], []
-    for number in range(table["changes"]):
-        length = bank.graphs[goals[-1]].n_steps
-        if number == 0:
-            goals.append(second)
-            turns.append(chance.randint(1, max(1, (length - 1) // 2)))
-        else:
-            goals.append(chance.choice([g for g in range(n) if g != goals[-1]]))
-            turns.append(turns[-1] + chance.randint(1, max(1, length // SPREAD)))
-    rates = table.get("mistake_rate", 0.0), table.get("wait_rate", 0.0)
-    return Course(tuple(goals), tuple(turns), *rates, seed=str(seed))
+    return draw_course(bank, str(seed), _habits(name), pairs[seed.run % len(pairs)])
 
 
 def courses(name: str, bank: Bank, seed: Seed, options: StudyOptions) -> dict[str, Course]:
     """Return the course of each human who has goals of its own, or that of all humans."""
     if has_own_goals(options, bank):
-        return own_courses(name, bank, seed)
+        return draw_own_courses(bank, str(seed), _habits(name))
     return {"": course(name, bank, seed)}
 
 
-def own_courses(name: str, bank: Bank, seed: Seed) -> dict[str, Course]:
-    """Return what each human wants and when, drawn from the goals that it can reach itself.
-
-    The robots help it, the other humans do not. Changes come as in ``course``.
-    """
-    table, courses = human_data(name), dict[str, Course]()
-    for who in bank.humans:
-        chance, lengths = random.Random(f"{seed}/{who}/course"), _own_lengths(bank, who)
-        can = list(lengths)
-        goals, turns = [chance.choice(can)], list[int]()
-        for number in range(table["changes"]):
-            rounds = int(lengths[goals[-1]]) // (len(bank.team) or 2)
-            most = (rounds - 1) // 2 if number == 0 else rounds // SPREAD
-            goals.append(chance.choice([goal for goal in can if goal != goals[-1]]))
-            turns.append((turns[-1] if turns else 0) + chance.randint(1, max(1, most)))
-        rates = table.get("mistake_rate", 0.0), table.get("wait_rate", 0.0)
-        courses[who] = Course(tuple(goals), tuple(turns), *rates, seed=f"{seed}/{who}")
-    return courses
-
-
-@lru_cache(maxsize=16)
-def _own_lengths(bank: Bank, human: str) -> dict[int, float]:
-    """Return the timesteps to each goal that a human can reach without the other humans.
-
-    Raises:
-        UsageError: if there are fewer than two.
-    """
-    lengths = enumerate(own_lengths(bank.for_human(human)))
-    can = {goal: length for goal, length in lengths if 0 < length < math.inf}
-    if len(can) < 2:
-        message = f"{human} can reach fewer than two goals without the other humans"
-        hint = "let the humans share their goals: --goals-per team"
-        raise UsageError(message, code="too-few-goals", hint=hint)
-    return can
+def _habits(name: str) -> Habits:
+    table = human_data(name)
+    rates = table.get("mistake_rate", 0.0), table.get("wait_rate", 0.0)
+    return Habits(table["changes"], *rates)
 
 
 @lru_cache(maxsize=8)
