@@ -16,7 +16,7 @@ from hrcplan.assistance.assistant import Assistant
 from hrcplan.bank import Bank
 from hrcplan.core.arrays import Floats
 from hrcplan.episodes.humans import Course, EpisodeHuman
-from hrcplan.episodes.observers import Observer
+from hrcplan.episodes.observers import TurnObserver
 from hrcplan.episodes.turns import PATIENCE as PATIENCE
 from hrcplan.episodes.turns import REACHED as REACHED
 from hrcplan.episodes.turns import ROUNDS as ROUNDS
@@ -119,7 +119,7 @@ def play(
     turns = turns_of(bank, world)
     turns.begin(course)
     humans = {mover.name: human for mover in turns.order if mover.is_human}
-    return Play(turns, humans, robot, Observer(robot, turns), watch).run()
+    return Play(turns, humans, robot, TurnObserver(robot, turns), watch).run()
 
 
 class Robot(Protocol[S]):
@@ -148,7 +148,7 @@ class Play(Generic[S]):
 
     def __init__(
         self, turns: EpisodeTurns, humans: Mapping[str, EpisodeHuman], robot: Robot[S],
-        observer: Observer[S], watch: EpisodeWatch[S] | None, *, names_agents: bool = False,
+        observer: TurnObserver[S], watch: EpisodeWatch[S] | None, *, names_agents: bool = False,
     ) -> None:  # fmt: skip
         self.bank, self.now, self.humans = turns.bank, turns, humans
         self.robot, self.observer, self.watch = robot, observer, watch

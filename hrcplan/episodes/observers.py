@@ -11,7 +11,7 @@ from hrcplan.episodes.turns import EpisodeTurns, Mover, TeamTurns
 from hrcplan.inference.belief import Belief, S, after_wait, n_declared
 
 
-class Observer(Generic[S]):
+class TurnObserver(Generic[S]):
     """A belief or an assistant that observes turns; it does not matter which human acts.
 
     Args:
@@ -41,7 +41,7 @@ class Observer(Generic[S]):
         return n_declared(state)
 
 
-class PerHumanObserver(Observer[PerHumanState[S]], Generic[S]):
+class PerHumanObserver(TurnObserver[PerHumanState[S]], Generic[S]):
     """A robot that observes several humans who each have a goal of their own."""
 
     robot: PerHuman[S]
