@@ -7,6 +7,7 @@ from collections.abc import Iterator, Set
 
 from hrcplan.core.text import nearest, nearest_name, quote
 from hrcplan.pddl.effects import read_effects
+from hrcplan.pddl.foreign import FOREIGN
 from hrcplan.pddl.formulas import read_conditions, read_expression
 from hrcplan.pddl.model import CONTINUOUS, DURATION, Action, Constant, Expr, Preference
 from hrcplan.pddl.parentheses import ACTIONS, PARTS
@@ -28,6 +29,11 @@ _OTHER_PARTS = {
     ":observe": ("contingent planning", None),
     ":agent": ("MA-PDDL", "make the agent the first of the :parameters"),
 }
+_INSTEAD = {
+    (":condition", ":durative-action"): "write :precondition, or (:durative-action …)",
+    (":precondition", ":action"): "write :condition with (at start …), or (:action …)",
+}
+"""Cures for a part of the other kind of action."""
 _TYPED_PARTS = (":agent", ":vars")  # not supported, but what they bind is no further fault
 
 
@@ -115,7 +121,10 @@ def _parts(node: GroupNode, source: SourceText, durative: bool) -> dict[str, Par
         if isinstance(key, GroupNode) or not (
             key[0] == ":" or nearest_name(key, part_names, _CLOSE)
         ):
-            source.error(key.at, "stray-word", "a keyword such as :effect is expected here")
+            hint = None if isinstance(key, GroupNode) else FOREIGN.get(key)
+            if isinstance(key, WordNode) and key in ("and", "or"):
+                hint = f"the word stands first: ({key} …)"
+            source.error(key.at, "stray-word", "a keyword such as :effect is expected here", hint)
             continue
         name = _part_name(key, part_names, source)
         if key in _TYPED_PARTS:
@@ -163,7 +172,8 @@ def _part_name(key: WordNode, part_names: tuple[str, ...], source: SourceText) -
     message = f"an action has no part {quote(key)}"
     if key in PARTS:
         right = ":action" if part_names is _DURATIVE else ":durative-action"
-        source.error(key.at, "unknown-section", message, f"that belongs into a {right}")
+        cure = _INSTEAD.get((str(key), right), f"that belongs into a {right}")
+        source.error(key.at, "unknown-section", message, cure)
         return None
     if key in _OTHER_PARTS:
         name, hint = _OTHER_PARTS[key]

@@ -20,7 +20,7 @@ _FRAMES = 12  # that one level of a formula may take
 _SECTION_DEPTH = 3  # groups around the head of a section: everything, define, the section
 # A group of words without a keyword is one token of a text whose parentheses match.
 _FLAT = r"\(\s*+[^\s();:?][^\s();?]*+(?:\s++\??[^\s();?:][^\s();?]*+)*+\s*+\)"
-_GROUP_OR_TOKEN = re.compile(_FLAT + r"|[()]|\?*[^\s();?]+|\?+|;[^\r\n]*")
+_GROUP_OR_TOKEN = re.compile(_FLAT + r"|[()]|\?*:*[^\s();?:]+|[?:]+|;[^\r\n]*")
 _TOKEN = re.compile(r"[()]|\?*[^\s();?]+|\?+|;[^\r\n]*")
 _DEFINE = re.compile(r"\((?:\s|;[^\r\n]*+)*+define\b", re.IGNORECASE)
 _COMMENT_OR_COMMA = re.compile(r";[^\r\n]*|(?<![0-9]),|,(?![0-9])")  # 1,5 is meant as a number
@@ -128,7 +128,11 @@ def _outside(text: str, has_define: bool) -> tuple[str, str | None]:
         return "the file holds Markdown around its PDDL", "remove the lines that begin with ```"
     if start.startswith(("<!doctype", "<html", "<?xml")):
         return "this is a web page, not PDDL", "download the raw file"
-    hint = None if has_define else "a file begins with (define (domain NAME) or (define (problem …)"
+    hint = "a file begins with (define (domain NAME) or (define (problem …)"
+    if has_define:
+        hint = (
+            "remove the rest, or write ; before its lines; a second (define …) needs its own file"
+        )
     return "a file holds one (define …) and nothing outside it", hint
 
 
@@ -219,6 +223,11 @@ def _read_even(text: str, source: SourceText) -> list[ParseNode]:
                 if word.at and text[word.at - 1] not in _BEFORE_A_WORD:
                     _report_gap(word, source)
             elif kind == ":":
+                if word.at and text[word.at - 1] not in _BEFORE_A_WORD:
+                    if word not in PARTS:  # a name with a colon in it
+                        group[-1] = _joined(group[-1], word)
+                        continue
+                    _report_gap(word, source)
                 if not _is_in_place(word, group, len(stack)):
                     raise _UnevenError(word.at)
                 if token == ":init" and not group:
@@ -228,6 +237,14 @@ def _read_even(text: str, source: SourceText) -> list[ParseNode]:
         raise _UnevenError(group.at)
     _allow_depth(deepest)
     return list(group)
+
+
+def _joined(start: ParseNode, rest: WordNode) -> WordNode:
+    """Return two parts of one word."""
+    assert isinstance(start, WordNode)
+    word = WordNode(start + rest)
+    word.at = start.at
+    return word
 
 
 def _flat_group(start: int, token: str) -> GroupNode:
@@ -251,7 +268,7 @@ def _is_in_place(word: WordNode, group: GroupNode, depth: int) -> bool:
 
 
 def _report_gap(word: WordNode, source: SourceText) -> None:
-    """Warn about ``pier?p``: two words for most readers, although nothing stands between."""
+    """Warn about ``pier?p`` and ``go:effect``: two words for most readers, without a space."""
     source.warn(word.at, "missing-space", f"a space is missing before {word}")
 
 

@@ -133,7 +133,14 @@ def report_types(source: SourceText, types: Collection[str], has_section: bool =
     if has_section:
         for name, at in source.unknown_types.items():
             message = f"type {quote(name)} is not declared"
-            source.unknown(at, "unknown-type", message, name, [*types, OBJECT])
+            joined = next(
+                (t for above in (OBJECT, *types) if (t := f"{name}-{above}") in types), ""
+            )
+            if joined:
+                hint = f"the name {quote(joined)} has no spaces around its '-'"
+                source.error(at, "unknown-type", message, hint)
+            else:
+                source.unknown(at, "unknown-type", message, name, [*types, OBJECT])
     elif source.unknown_types:
         names = " ".join(source.unknown_types)
         message = "types are named, but the domain has no (:types …)"

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 from itertools import count
 
 from hrcplan.pddl.guards import guarded
+from hrcplan.pddl.memory_facts import with_memory_facts
 from hrcplan.pddl.model import Problem
 from hrcplan.pddl.renaming import renamed
 from hrcplan.pddl.single_types import with_single_types
@@ -37,10 +38,13 @@ class Handover:
     names: Mapping[str, str] = field(default_factory=dict)
 
     @classmethod
-    def of(cls, problem: Problem, *, single_types: bool = False) -> Handover:
+    def of(
+        cls, problem: Problem, *, single_types: bool = False, memory_facts: bool = False
+    ) -> Handover:
         """Return the form of a problem for planners; most problems stay as they are.
 
-        ``single_types`` is for planners that read no ``(either …)``.
+        ``single_types`` is for planners that read no ``(either …)``, ``memory_facts`` for those
+        whose effects at the end read no condition at the start.
 
         >>> from hrcplan.pddl.inputs import read
         >>> problem = read("transport", "two-boxes")
@@ -48,6 +52,7 @@ class Handover:
         True
         """
         problem = guarded(problem)
+        problem = with_memory_facts(problem) if memory_facts else problem
         problem = with_single_types(problem) if single_types else problem
         words = set(_names(problem))
         unsafe = sorted(words & KEYWORDS)

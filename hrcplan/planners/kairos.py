@@ -101,7 +101,7 @@ class _Portfolio:
     def __init__(self, request: Request) -> None:
         self.request = request
         self.lowering = _lowering(request)
-        self.handover = Handover.of(request.problem)
+        self.handover = Handover.of(request.problem, memory_facts=True)
         self.best: tuple[Number, Plan, Number | None] | None = None
         self.invalid: Report | None = None
         self.is_proven = False

@@ -40,6 +40,7 @@ def codes(tmp_path: Path, domain: str, problem: str) -> list[tuple[str, str]]:
 SLOPPY = {
     "missing-space": [
         ("(free ?c)\n", "(free?c)\n"),
+        ("swing :parameters", "swing:parameters"),
         ("?c - crane ?s - spot)\n", "?c -crane ?s - spot)\n"),
         ("  (:action", "  (:functions (weight ?c - crane) -number (reach))\n  (:action"),
     ],
@@ -110,6 +111,9 @@ REFUSALS = [
     ("(:types crane spot - object)\n", "", "unknown-type", "add (:types crane spot)"),
     ("?c - crane ?s - spot)\n", "?c- crane ?s - spot)\n", "missing-space", "write '?c - crane'"),
     ("?c - crane ?s - spot)\n", "?c-crane ?s - spot)\n", "unbound", "'?c-crane'"),
+    ("crane spot - object", "crane spot-object", "unknown-type", "no spaces around"),
+    (":precondition (free ?c)", ":condition (free ?c)", "unknown-section", "write :precondition"),
+    (DOMAIN, f"Here is the domain:\n{DOMAIN}", "outside-define", "remove the rest"),
     ("(free ?c - crane)", "(free ?c - crane) (:private (mine ?c - crane))", "unsupported",
      "private"),
     (":parameters (?c - crane ?s - spot)", ":parameters (?c - crane) :vars (?s - spot)",
