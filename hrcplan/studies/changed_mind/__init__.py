@@ -29,6 +29,7 @@ STUDY = Study(
     inputs=scenario.inputs,
     runs=scenario.runs,
     prepare=scenario.prepare,
+    files=scenario.files,
     is_ready=lambda cell: not scenario.needs_forest(str(cell[1])),
     unit=episodes.UNIT,
     renamed=dict.fromkeys(("method", "methods"), scenario.RENAMED),

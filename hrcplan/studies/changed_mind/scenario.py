@@ -17,7 +17,7 @@ from hrcplan.assistance.per_human import PerHuman
 from hrcplan.assistance.waiting import may_wait
 from hrcplan.bank import Bank, BuildOptions, Goals, build, read_goals
 from hrcplan.bank.bank import OPTIMAL
-from hrcplan.bank.cache import cached_bank
+from hrcplan.bank.cache import cache_path, cached_bank
 from hrcplan.core.numbers import Number
 from hrcplan.core.text import nearest
 from hrcplan.episodes.courses import Habits, draw_course, draw_own_courses, own_goal_lengths
@@ -26,7 +26,7 @@ from hrcplan.episodes.humans import HUMANS, Course, EpisodeHuman
 from hrcplan.episodes.worlds import WORLDS
 from hrcplan.errors import UsageError
 from hrcplan.inference.belief import Belief
-from hrcplan.inference.classifier.forest import ForestBelief
+from hrcplan.inference.classifier.forest import ForestBelief, forest_path
 from hrcplan.inference.classifier.training import training_time
 from hrcplan.inference.recursive import LIKELIHOODS
 from hrcplan.inference.registry import METHODS
@@ -239,17 +239,31 @@ def _belief(bank: Bank, kind: str, **options: Any) -> Belief[Any]:
 
 def prepare(options: StudyOptions, jobs: int, say: Say) -> None:
     """Train the forests that methods need, so that no worker has to; they are kept in the cache."""
-    tasks = dict.fromkeys(
-        task_of(options, str(human))
-        for table in data()["tables"]
-        for human, method in cells(table, options)
-        if needs_forest(str(method))
-    )
-    for task in tasks:
+    for task in _tasks(options, needs_forest):
         bank = bank_of(*task)
         how_long = training_time(bank, jobs)
         say(f"a forest for {len(bank.names)} goals: trained once, {how_long}, then kept")
         ForestBelief(bank, n_jobs=jobs)
+
+
+def files(options: StudyOptions) -> list[Path]:
+    """Return the files of the cache folder that episodes read: banks, and forests."""
+    banks = [cache_path(goals_of(*task[:2])) for task in _tasks(options)]
+    forests = [forest_path(bank_of(*task)) for task in _tasks(options, needs_forest)]
+    return [path for path in (*banks, *forests) if path is not None]
+
+
+def _tasks(
+    options: StudyOptions, has: Callable[[str], bool] = lambda method: True
+) -> list[tuple[str, str, str, str]]:
+    """Return the tasks of all cells, or of those whose method has a property."""
+    tasks = dict.fromkeys(
+        task_of(options, str(human))
+        for table in data()["tables"]
+        for human, method in cells(table, options)
+        if has(str(method))
+    )
+    return list(tasks)
 
 
 def needs_forest(method: str) -> bool:

@@ -28,5 +28,6 @@ STUDY = Study(
     findings=findings,
     inputs=scenario.inputs,
     runs=scenario.runs,
+    files=scenario.files,
     unit=episodes.UNIT,
 )  # fmt: skip

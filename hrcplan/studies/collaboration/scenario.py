@@ -13,7 +13,7 @@ from typing import Any
 from hrcplan.agents import Profile
 from hrcplan.assistance.assistant import Assistant
 from hrcplan.bank import Bank, Goals, read_goals
-from hrcplan.bank.cache import cached_bank
+from hrcplan.bank.cache import cache_path, cached_bank
 from hrcplan.bank.turn_moves import team_moves
 from hrcplan.collaboration.collaborate import assistant_of, make_setup
 from hrcplan.collaboration.robots import check_robot
@@ -168,6 +168,12 @@ def inputs(options: StudyOptions) -> str:
     texts.append(f"rows of format {ROW_FORMAT}")
     keys = ("study", "profile", "humans", "tables")
     return SCENARIO.inputs(keys, [one.problem for one in goals], texts)
+
+
+def files(options: StudyOptions) -> list[Path]:
+    """Return the files of the cache folder that episodes read: the banks of all tasks."""
+    banks = (cache_path(goals_of(*files_of(options, task))) for task in tasks_of(options))
+    return [path for path in banks if path is not None]
 
 
 # What is drawn; it depends on the run alone.
