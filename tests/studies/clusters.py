@@ -1,5 +1,6 @@
 """A real scheduler and real workers on this machine, which never outlive a test."""
 
+import contextlib
 import json
 import os
 import signal
@@ -94,10 +95,8 @@ class Cluster:
 
 def kill_group(process: "subprocess.Popen[bytes]") -> None:
     """Kill a process with all that it has started, and wait for its end."""
-    try:
+    with contextlib.suppress(ProcessLookupError):
         os.killpg(process.pid, signal.SIGKILL)
-    except ProcessLookupError:
-        pass
     process.wait()
 
 

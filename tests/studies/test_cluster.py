@@ -18,10 +18,16 @@ from hrcplan.studies.cluster import tasks
 from hrcplan.studies.cluster.backlog import RETRIES, Backlog, EpisodeBatch
 from hrcplan.studies.cluster.connection import find_scheduler
 from hrcplan.studies.quarantine import end_with_quarantine
-from hrcplan.studies.study import Episode
+from hrcplan.studies.study import Episode, find
 from tests.studies.clusters import Cluster, kill_group, toy_study, wait_until
 
 STUDY = "toy:STUDY"
+ROOT = Path(__file__).parents[2]
+
+pytestmark = pytest.mark.xdist_group("cluster")
+slow = pytest.mark.skipif(
+    "HRCPLAN_NO_SKIPS" not in os.environ, reason="only with tools/test --all: it takes long"
+)
 
 
 @pytest.fixture(scope="module")
@@ -53,7 +59,7 @@ def command(address: str, folder: Path, *words: str) -> "subprocess.Popen[str]":
             "-o", "out", *words]  # fmt: skip
     return subprocess.Popen(
         argv, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-        env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])},
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
     )  # fmt: skip
 
 
@@ -98,7 +104,7 @@ def test_nothing_to_do_is_done_at_once() -> None:
 
 def test_quarantine_names_episodes_and_goes_with_the_last_one(tmp_path: Path) -> None:
     failures = {Episode("rows", ("one", 2), run): f"why {run}" for run in range(5)}
-    with pytest.raises(LimitError, match="5 episodes in quarantine.*run 0: why 0.*and 2 more"):
+    with pytest.raises(LimitError, match=r"5 episodes in quarantine.*run 0: why 0.*and 2 more"):
         end_with_quarantine(tmp_path, failures)
     document = json.loads((tmp_path / "quarantine.json").read_text())
     first = {"table": "rows", "cell": ["one", 2], "run": 0, "why": "why 0"}
@@ -123,7 +129,7 @@ def test_address_at_which_no_scheduler_answers(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("hrcplan.studies.cluster.connection.ANSWER_S", 0.2)
-    with pytest.raises(PlannerError, match="no scheduler answers at 127.0.0.1:9"):
+    with pytest.raises(PlannerError, match=r"no scheduler answers at 127\.0\.0\.1:9"):
         run_study(STUDY, tmp_path / "out", cluster="127.0.0.1:9")
     assert not (tmp_path / "out").exists()
 
@@ -184,6 +190,7 @@ def test_poisonous_episodes_are_in_quarantine_until_they_run(cluster: Cluster, t
     assert not (toy / "out" / "quarantine.json").exists()
 
 
+@slow
 def test_worker_killed_in_the_middle(cluster: Cluster, toy: Path) -> None:
     """Nothing is lost and nothing is there twice; what a worker leaves is run by another."""
     (toy / "run-5").write_text("2")
@@ -200,6 +207,7 @@ def test_worker_killed_in_the_middle(cluster: Cluster, toy: Path) -> None:
     assert rows(toy / "out") == rows(toy / "near")
 
 
+@slow
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_interrupted_run_goes_on(
     cluster: Cluster, toy: Path, number: signal.Signals, code: int
@@ -221,6 +229,7 @@ def test_interrupted_run_goes_on(
     assert rows(toy / "out") == rows(toy / "near")
 
 
+@slow
 def test_scheduler_killed_in_the_middle(cluster: Cluster, toy: Path, tmp_path: Path) -> None:
     (toy / "run-20").write_text("600")
     with Cluster(tmp_path) as mortal:
@@ -240,17 +249,66 @@ def test_scheduler_killed_in_the_middle(cluster: Cluster, toy: Path, tmp_path: P
     assert rows(toy / "out") == rows(toy / "near")
 
 
+# The studies of hrcplan.
+
+FETCH = Path(__file__).parent / "fetch"
+WORKSHOP = Path(__file__).parent / "workshop"
+GOALS = {"domain": WORKSHOP / "domain.pddl", "goals": WORKSHOP}
+STUDIES = {
+    "failure-anticipation": {"domain": FETCH / "domain.pddl", "problem": FETCH / "four-items.pddl"},
+    "changed-mind": {**GOALS, "methods": "hrcplan,oracle"},
+    "collaboration": {**GOALS, "methods": "joint,goal-only"},
+}
+
+
+@slow
+@pytest.mark.parametrize("name", STUDIES)
+def test_study_has_the_bytes_of_one_process(cluster: Cluster, tmp_path: Path, name: str) -> None:
+    options = {key: str(value) for key, value in STUDIES[name].items()}
+    run_study(name, tmp_path / "far", options=options, limit=40, cluster=cluster.address)
+    run_study(name, tmp_path / "near", options=options, limit=40)
+    assert rows(tmp_path / "far") == rows(tmp_path / "near")
+
+
+@slow
+def test_worker_gets_the_banks_that_its_cache_lacks(tmp_path: Path) -> None:
+    """The duration of the making stands in a bank, so equal bytes were made once."""
+    cache = tmp_path / "cache"
+    options = {"methods": "oracle", **{key: str(path) for key, path in GOALS.items()}}
+    with Cluster(tmp_path, n_workers=0) as cluster:
+        cluster.add_worker(HRCPLAN_CACHE=str(cache))
+        run_study("changed-mind", tmp_path / "out", options=options, limit=2,
+                  cluster=cluster.address)  # fmt: skip
+    banks = {path.name: path.read_bytes() for path in (cache / "banks").iterdir()}
+    own = Path(os.environ["HRCPLAN_CACHE"]) / "banks"
+    assert banks
+    assert all((own / name).read_bytes() == data for name, data in banks.items())
+
+
+def test_forests_and_banks_are_what_episodes_read() -> None:
+    study, task = find("changed-mind"), {key: str(path) for key, path in GOALS.items()}
+    with_forest = study.files(study.with_defaults(task))
+    without = study.files(study.with_defaults({**task, "methods": "oracle"}))
+    assert [path.suffix for path in with_forest] == [".bank", ".forest"]
+    assert list(without) == list(with_forest[:1])
+    assert without[0].is_file()
+
+
 # Workers that differ.
+
+
+def add_other_worker(cluster: Cluster) -> None:
+    """Start a worker with another version of hrcplan."""
+    folder = cluster.folder / "other"
+    folder.mkdir()
+    (folder / "sitecustomize.py").write_text("import hrcplan\nhrcplan.__version__ = '0.0.9'\n")
+    cluster.add_worker(PYTHONPATH=os.pathsep.join([str(folder), str(ROOT)]))
 
 
 def test_worker_of_another_version_is_refused(toy: Path, tmp_path: Path) -> None:
     """Before anything runs; one that joins later takes no part."""
-    other = tmp_path / "other"
-    other.mkdir()
-    (other / "sitecustomize.py").write_text("import hrcplan\nhrcplan.__version__ = '0.0.9'\n")
-    path = os.pathsep.join([str(other), str(Path(__file__).parents[2])])
     with Cluster(tmp_path, n_workers=0) as mixed:
-        mixed.add_worker(PYTHONPATH=path)
+        add_other_worker(mixed)
         with pytest.raises(UsageError, match=r"has hrcplan 0\.0\.9, not") as caught:
             run_study(STUDY, toy / "out", cluster=mixed.address)
         assert caught.value.code == "worker-differs"
@@ -258,17 +316,14 @@ def test_worker_of_another_version_is_refused(toy: Path, tmp_path: Path) -> None
         assert not (toy / "log").exists()
 
 
+@slow
 def test_worker_that_joins_later_is_compared_too(toy: Path, tmp_path: Path) -> None:
     (toy / "run-0").write_text("6")
     texts: list[str] = []
     with Cluster(tmp_path, n_workers=1) as mixed:
         process = command(mixed.address, toy, "--runs", "40")
-        other = tmp_path / "other"
-        other.mkdir()
-        (other / "sitecustomize.py").write_text("import hrcplan\nhrcplan.__version__ = '0.0.9'\n")
-        path = os.pathsep.join([str(other), str(Path(__file__).parents[2])])
         wait_until((toy / "out").exists)
-        mixed.add_worker(PYTHONPATH=path)
+        add_other_worker(mixed)
         texts += process.communicate(timeout=60)
     assert process.returncode == 0, texts
     assert "takes no part: it has hrcplan 0.0.9" in texts[1]

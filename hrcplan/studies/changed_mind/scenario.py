@@ -247,8 +247,8 @@ def prepare(options: StudyOptions, jobs: int, say: Say) -> None:
 
 
 def files(options: StudyOptions) -> list[Path]:
-    """Return the files of the cache folder that episodes read: banks, and forests."""
-    banks = [cache_path(goals_of(*task[:2])) for task in _tasks(options)]
+    """Return the files of the cache folder that episodes read: banks, made here, and forests."""
+    banks = [cache_path(bank_of(*task).goals) for task in _tasks(options)]
     forests = [forest_path(bank_of(*task)) for task in _tasks(options, needs_forest)]
     return [path for path in (*banks, *forests) if path is not None]
 

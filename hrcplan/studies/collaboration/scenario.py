@@ -171,9 +171,9 @@ def inputs(options: StudyOptions) -> str:
 
 
 def files(options: StudyOptions) -> list[Path]:
-    """Return the files of the cache folder that episodes read: the banks of all tasks."""
-    banks = (cache_path(goals_of(*files_of(options, task))) for task in tasks_of(options))
-    return [path for path in banks if path is not None]
+    """Return the files of the cache folder that episodes read: the banks of tasks, made here."""
+    goals = [goals_of(*files_of(options, task)) for task in tasks_of(options)]
+    return [path for one in goals if (path := cache_path(cached_bank(one).goals)) is not None]
 
 
 # What is drawn; it depends on the run alone.
