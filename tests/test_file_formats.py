@@ -27,13 +27,15 @@ from hrcplan.bank.store import save
 from hrcplan.collaboration import events as shared
 from hrcplan.collaboration.collaborate import collaborate
 from hrcplan.collaboration.events import KINDS as COLLABORATION_KINDS
+from hrcplan.errors import LimitError
 from hrcplan.execution import FactChange, Nature, StateChange
 from hrcplan.execution import events as ev
 from hrcplan.execution.codec import KINDS, to_json
 from hrcplan.inference.traces import ActionTrace, TraceAction, TraceAnswer, TracedEpisode
 from hrcplan.pddl.model import Problem
 from hrcplan.studies.changed_mind import script
-from hrcplan.studies.study import find
+from hrcplan.studies.quarantine import end_with_quarantine
+from hrcplan.studies.study import Episode, find
 from tests import schema
 
 PAGE = "files.md"
@@ -104,6 +106,14 @@ def journals(tmp_path_factory: pytest.TempPathFactory) -> list[list[dict[str, An
         [json.loads(line) for line in path.read_text("utf-8").splitlines()]
         for path in sorted(folder.iterdir())
     ]
+
+
+def test_quarantine(tmp_path: Path) -> None:
+    failures = {Episode("rows", ("optimal", 2), 7): "ZeroDivisionError"}
+    with pytest.raises(LimitError):
+        end_with_quarantine(tmp_path, failures)
+    document = json.loads((tmp_path / "quarantine.json").read_text("utf-8"))
+    schema.check([document], SECTIONS["Quarantine"])
 
 
 def test_the_first_line_of_a_journal(journals: list[list[dict[str, Any]]]) -> None:

@@ -30,6 +30,7 @@ from hrcplan.studies.trace_files import EpisodeResult
 
 P = ParamSpec("P")
 T = TypeVar("T")
+TakeResults = Callable[[list[EpisodeResult]], None]
 
 LOOK_S = 0.5
 """Time between two looks at which workers there are."""
@@ -89,7 +90,7 @@ class ClusterRunner:
         self._close()
 
     def run(self, episodes: Sequence[Episode]) -> Iterator[list[EpisodeResult]]:
-        """Yield rows as they come.
+        """Yield results as they come.
 
         Raises:
             PlannerError: if the scheduler is gone.
@@ -99,8 +100,8 @@ class ClusterRunner:
         running = asyncio.run_coroutine_threadsafe(self._run(episodes, inbox.put), self._loop)
         running.add_done_callback(lambda _: inbox.put(None))
         try:
-            while (rows := inbox.get()) is not None:
-                yield rows
+            while (results := inbox.get()) is not None:
+                yield results
             running.result()
         finally:
             running.cancel()
@@ -119,9 +120,7 @@ class ClusterRunner:
             text = "; ".join(faults[:MAX_FAULTS]) + (f"; and {more} more" if more > 0 else "")
             raise UsageError(text, code="worker-differs", hint=SAME)
 
-    async def _run(
-        self, episodes: Sequence[Episode], put: Callable[[list[EpisodeResult]], None]
-    ) -> None:
+    async def _run(self, episodes: Sequence[Episode], put: TakeResults) -> None:
         """Run episodes on all workers that are there or come."""
         self._list_file_names()
         backlog, serving = Backlog(in_batches(episodes)), dict[str, asyncio.Task[None]]()
@@ -184,7 +183,7 @@ class ClusterRunner:
         worker: str,
         n_threads: int,
         backlog: Backlog,
-        put: Callable[[list[EpisodeResult]], None],
+        put: TakeResults,
     ) -> None:
         """Give a worker batches, after it was compared with this process."""
         if await self._admit(worker):
@@ -218,14 +217,12 @@ class ClusterRunner:
                     sent = await self._client.scatter(data, workers=[worker], hash=False)
                     await self._ask(worker, tasks.store_file, name, sent)
 
-    async def _feed(
-        self, worker: str, backlog: Backlog, put: Callable[[list[EpisodeResult]], None]
-    ) -> None:
+    async def _feed(self, worker: str, backlog: Backlog, put: TakeResults) -> None:
         """Give one thread of a worker one batch after the other."""
         while True:
             batch = await backlog.take()
             try:
-                rows = await self._ask(worker, tasks.run_batch, batch.episodes)
+                results = await self._ask(worker, tasks.run_batch, batch.episodes)
             except asyncio.CancelledError:
                 backlog.fail(batch, f"worker {worker} ended")
                 raise
@@ -237,7 +234,7 @@ class ClusterRunner:
                 backlog.put_back(batch)
                 return
             else:
-                put(rows)
+                put(results)
                 backlog.close(batch)
 
     async def _ask(
