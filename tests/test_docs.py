@@ -28,7 +28,7 @@ FLAGS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 BLOCK = re.compile(r"^```(\w+)(?: title=\"([^\"]+)\")?\n(.*?)^```$", re.DOTALL | re.MULTILINE)
 
 
-PROGRESS = re.compile(r"^(after \d+ s: .*|[\d,]+ .* …)\n", re.MULTILINE)
+PROGRESS = re.compile(r"^(after \d+ s: .*|[\d,]+ .* …|[\d,]+ of [\d,]+ episodes.*)\n", re.MULTILINE)
 """What a command says while it works: only a slow machine sees it."""
 
 

@@ -335,7 +335,7 @@ def test_other_inputs_and_missing_modules_are_refused(
     job = tasks.ClusterJob(
         tasks.StudyWork(STUDY, (), 0), str(toy), tasks.software_versions(), "0" * 64
     )
-    with pytest.raises(tasks.RefusalError, match="other inputs"):
+    with pytest.raises(tasks.DifferenceError, match="other inputs"):
         tasks.check_inputs(job)
     __import__("toy")
     (toy / "elsewhere").mkdir()

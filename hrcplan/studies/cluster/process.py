@@ -20,7 +20,7 @@ from typing import BinaryIO, Concatenate, ParamSpec, TypeVar
 
 from hrcplan.studies.cluster.tasks import (
     ClusterJob,
-    RefusalError,
+    DifferenceError,
     WorkerError,
     check_software,
 )
@@ -46,7 +46,7 @@ def call(function: Callable[Concatenate[ClusterJob, P], T], job: ClusterJob,
     """Return the value of a function of ``tasks``, called in the process of this thread.
 
     Raises:
-        RefusalError: if this worker differs from the parent.
+        DifferenceError: if this worker differs from the parent.
         WorkerError: if the function raises, or the process ends.
     """
     check_software(job)
@@ -91,7 +91,7 @@ class TaskProcess:
         """Return the value of a function.
 
         Raises:
-            RefusalError: if this worker differs from the parent.
+            DifferenceError: if this worker differs from the parent.
             WorkerError: if the function raises, or the process ends.
         """
         assert self._process.stdin is not None
@@ -144,7 +144,7 @@ def _answer(task: Callable[[], T]) -> tuple[T | None, Exception | None]:
     """Return the value of a task, or why there is none."""
     try:
         return _with_plain_errors(task), None
-    except (RefusalError, WorkerError) as error:
+    except (DifferenceError, WorkerError) as error:
         return None, error
 
 
@@ -152,7 +152,7 @@ def _with_plain_errors(task: Callable[[], T]) -> T:
     """Return the value of a task; what it raises may be of a class that the parent cannot read."""
     try:
         return task()
-    except (RefusalError, WorkerError):
+    except (DifferenceError, WorkerError):
         raise
     except (Exception, SystemExit) as error:
         text = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__

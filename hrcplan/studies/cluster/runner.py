@@ -23,7 +23,7 @@ from hrcplan.studies.cluster import tasks
 from hrcplan.studies.cluster.backlog import Backlog
 from hrcplan.studies.cluster.connection import ANSWER_S, CLOSE_S, connect
 from hrcplan.studies.cluster.process import call, end_processes
-from hrcplan.studies.cluster.tasks import ClusterJob, RefusalError, WorkerError
+from hrcplan.studies.cluster.tasks import ClusterJob, DifferenceError, WorkerError
 from hrcplan.studies.runner import StudyWork, in_batches
 from hrcplan.studies.study import Episode, Say
 from hrcplan.studies.trace_files import EpisodeResult
@@ -198,7 +198,7 @@ class ClusterRunner:
             await self._bring_files(worker)
             if worker not in self._admitted:
                 await self._ask(worker, tasks.check_inputs)
-        except (RefusalError, WorkerError) as fault:
+        except (DifferenceError, WorkerError) as fault:
             self._refusals[worker] = str(fault)
             return False
         except ConnectionError:
@@ -228,8 +228,8 @@ class ClusterRunner:
                 raise
             except WorkerError as fault:
                 backlog.fail(batch, str(fault))
-            except (RefusalError, ConnectionError) as fault:
-                if isinstance(fault, RefusalError):
+            except (DifferenceError, ConnectionError) as fault:
+                if isinstance(fault, DifferenceError):
                     self._refusals[worker] = str(fault)
                 backlog.put_back(batch)
                 return
@@ -244,7 +244,7 @@ class ClusterRunner:
         """Return the value of a task that a worker has run.
 
         Raises:
-            RefusalError: if the worker differs from this process.
+            DifferenceError: if the worker differs from this process.
             WorkerError: if the task fails, or hrcplan cannot be imported there.
             ConnectionError: if the scheduler is gone.
         """
@@ -254,7 +254,7 @@ class ClusterRunner:
         if future.status == "finished":
             value: T = await future
             return value
-        if isinstance(error, (RefusalError, WorkerError)):
+        if isinstance(error, (DifferenceError, WorkerError)):
             raise error
         if error is None:
             raise ConnectionError(future.status)

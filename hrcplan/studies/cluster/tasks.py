@@ -29,7 +29,7 @@ class WorkerError(Exception):
     """Something has failed on a worker; the text says why."""
 
 
-class RefusalError(Exception):
+class DifferenceError(Exception):
     """A worker may not run episodes; the text says why."""
 
 
@@ -79,7 +79,7 @@ def check_software(job: ClusterJob) -> None:
     """Return if this process has the software of the parent.
 
     Raises:
-        RefusalError: if a version differs.
+        DifferenceError: if a version differs.
     """
     here = dict(software_versions())
     differences = [
@@ -88,7 +88,7 @@ def check_software(job: ClusterJob) -> None:
         if here.get(name) != version
     ]
     if differences:
-        raise RefusalError(f"has {'; '.join(differences)}")
+        raise DifferenceError(f"has {'; '.join(differences)}")
 
 
 def list_absent_files(job: ClusterJob, names: Sequence[str]) -> list[str]:
@@ -112,7 +112,7 @@ def check_inputs(job: ClusterJob) -> None:
     """Return if the same inputs are read here as in the parent.
 
     Raises:
-        RefusalError: if not, or if a file, a method or the study itself is missing here.
+        DifferenceError: if not, or if a file, a method or the study itself is missing here.
     """
     check_software(job)
     _check_inputs(job)
@@ -122,7 +122,7 @@ def run_batch(job: ClusterJob, episodes: Sequence[Episode]) -> list[EpisodeResul
     """Return the results of episodes.
 
     Raises:
-        RefusalError: if this process differs from the parent.
+        DifferenceError: if this process differs from the parent.
     """
     check_inputs(job)
     return results_of(job.work, episodes)
@@ -133,6 +133,6 @@ def _check_inputs(job: ClusterJob) -> None:
     try:
         inputs = find(job.work.study).inputs(dict(job.work.options))
     except HrcplanError as error:
-        raise RefusalError(f"lacks something: {error.message}") from None
+        raise DifferenceError(f"lacks something: {error.message}") from None
     if hashlib.sha256(inputs.encode()).hexdigest() != job.inputs_sha256:
-        raise RefusalError("reads other inputs: the PDDL files or the goals differ")
+        raise DifferenceError("reads other inputs: the PDDL files or the goals differ")
