@@ -7,7 +7,7 @@ import os
 import sys
 
 INTERRUPTED = 130
-GC_THRESHOLD = 50_000
+GC_THRESHOLD = 100_000
 """How many new objects begin a search for garbage: imports alone make so many that they last."""
 
 

@@ -7,7 +7,6 @@ import importlib
 import signal
 import sys
 import threading
-import traceback
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -184,6 +183,8 @@ def _show_usage(error: ClickException) -> None:
 def _show_internal(error: BaseException) -> None:
     """Print an error that is a bug of hrcplan."""
     if output.DEBUG:
+        import traceback
+
         traceback.print_exception(error)
     what = f"{type(error).__name__}: {error}{_notes(error)}"
     output.fail("internal", f"internal error: {what}", hint="run again with --debug, and tell us")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import shutil
 import sys
 import textwrap
 from collections.abc import Callable, Container, Mapping, Sequence
@@ -118,7 +117,13 @@ def table(grid: RenderableType) -> None:
 
 def table_width() -> int:
     """Return how many characters a line of a table may have."""
-    return shutil.get_terminal_size().columns if sys.stdout.isatty() else FILE_WIDTH
+    return _terminal_width() if sys.stdout.isatty() else FILE_WIDTH
+
+
+def _terminal_width() -> int:
+    import shutil
+
+    return shutil.get_terminal_size().columns
 
 
 def fold(line: str, indent: int = 2) -> str:
@@ -128,7 +133,7 @@ def fold(line: str, indent: int = 2) -> str:
     number of spaces before the second line and all that follow.
     """
     if sys.stdout.isatty():
-        width = shutil.get_terminal_size().columns
+        width = _terminal_width()
         line = "\n".join(
             textwrap.wrap(line.replace(" %", f"{NO_BREAK}%"), width,
                           subsequent_indent=" " * indent, break_long_words=False,

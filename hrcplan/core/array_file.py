@@ -20,7 +20,6 @@ import math
 import mmap
 import struct
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +27,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hrcplan.core.files import UNPACK_HINT, archive_kind
+from hrcplan.core.records import record
 from hrcplan.errors import InputError
 
 _PREFIX = struct.Struct("<8sIIQQ")
@@ -92,7 +92,7 @@ def map_file(path: Path) -> memoryview:
         return memoryview(mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ))
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Format:
     """A file format; ``noun``, ``title`` and ``hint`` say in errors what it is and how to get one.
 

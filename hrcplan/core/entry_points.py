@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     from importlib.metadata import EntryPoint
 
 _SECTION = b"[hrcplan."
-_METADATA = {".dist-info": "", ".egg-info": "", ".egg": "EGG-INFO"}
+_METADATA = (".dist-info", ".egg-info", ".egg")
+_INSIDE = "EGG-INFO"
 
 
 def entry_points(group: str) -> Iterable[EntryPoint]:
@@ -42,15 +43,15 @@ def _holds_parts(folder: str) -> bool:
     except OSError:
         return os.path.isfile(folder)
     return any(
-        _names_part(os.path.join(folder, name, _METADATA[suffix], "entry_points.txt"))
+        _names_part(os.path.join(folder, name, _INSIDE if name.endswith(".egg") else ""))
         for name in names
-        if (suffix := os.path.splitext(name)[1]) in _METADATA
+        if name.endswith(_METADATA)
     )
 
 
-def _names_part(path: str) -> bool:
+def _names_part(folder: str) -> bool:
     try:
-        with open(path, "rb") as file:
+        with open(os.path.join(folder, "entry_points.txt"), "rb") as file:
             return _SECTION in file.read()
     except OSError:
         return False

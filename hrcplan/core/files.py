@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import errno
 import os
-import tempfile
 from pathlib import Path
 
 from hrcplan.core.text import harmless
@@ -76,6 +75,8 @@ def write_atomically(path: Path, data: str | bytes) -> None:
         if os.path.exists(path) and not os.path.isfile(path):
             path.write_bytes(raw)
             return
+        import tempfile  # it takes 2 ms, and most commands write nothing
+
         # The name of the new file is no longer than a file system takes.
         handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name[:40]}.")
         try:

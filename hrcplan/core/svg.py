@@ -6,9 +6,9 @@ Charts for files and papers are drawn with matplotlib; these need nothing and ap
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from html import escape
 
+from hrcplan.core.records import record
 from hrcplan.core.text import cut
 
 # Okabe and Ito's colors: color-blind readers can tell them apart.
@@ -19,7 +19,7 @@ _ROW, _AXIS = 40, 24
 _CHARACTER = 6.2  # width of a character of size 11, about
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LaneBar:
     """One bar: its lane, its text, from when to when, and whether it is marked as failed."""
 

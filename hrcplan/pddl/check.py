@@ -11,6 +11,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from types import MappingProxyType
 
+from hrcplan.core.records import record
 from hrcplan.core.text import nearest, quote
 from hrcplan.errors import Diagnostic, InputError, PddlError
 from hrcplan.pddl import library
@@ -36,7 +37,7 @@ class _File:
     problem: Problem | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class CheckReport:
     """The faults of some files, in order, and the notes in them."""
 

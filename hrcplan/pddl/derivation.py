@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence, Set
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import count, product
 
+from hrcplan.core.records import record
 from hrcplan.pddl.axioms import levels, uses
 from hrcplan.pddl.joins import FactIndex, Join, JoinBinding
 from hrcplan.pddl.model import (
@@ -32,7 +33,7 @@ from hrcplan.pddl.walks import conjuncts, with_parts
 MAX_RULES = 256  # that one axiom is split into; beyond that its disjunctions stay as they are
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Rule:
     """A part of an axiom: atoms to be joined, and what is tested of each of their bindings."""
 

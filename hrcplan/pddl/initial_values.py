@@ -10,11 +10,12 @@ types, the facts that no action changes, or an (in)equality rule out are not loo
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Set
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cached_property
 from itertools import islice, product
 from math import prod
 
+from hrcplan.core.records import record
 from hrcplan.core.text import quote
 from hrcplan.pddl.joins import FactIndex, Join, needed_atoms
 from hrcplan.pddl.model import (
@@ -101,7 +102,7 @@ def _check_goal_and_metric(problem: Problem, later: Set[str], at: int, source: S
             source.error(at, "unset-function", message, f"add (= {function} NUMBER)")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Need:
     """A function that an action reads, for all instances of ``params``, if ``given`` holds."""
 

@@ -7,9 +7,10 @@ derived once, in the initial state, recursive ones too.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence, Set
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import count
 
+from hrcplan.core.records import record
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.axioms import levels, uses
 from hrcplan.pddl.constructs import AXIOMS, constructs
@@ -87,7 +88,7 @@ def _constant(problem: Problem) -> Set[str]:
         changing |= more
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Inliner:
     """Axioms without derived predicates in their bodies, by name."""
 

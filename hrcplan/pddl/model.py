@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from hrcplan.core.numbers import Number, number_text
+from hrcplan.core.records import record
 from hrcplan.core.text import cut, plural
 
 Fact = tuple[str, ...]
@@ -32,7 +33,7 @@ def fact_text(fact: Fact) -> str:
     return f"({' '.join(fact)})"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Param:
     """A parameter (or variable) and the types it may have; several mean ``(either …)``."""
 
@@ -44,7 +45,7 @@ class Param:
         return f"{self.name} - {kind}"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Signature:
     """A declared predicate or function."""
 
@@ -55,7 +56,7 @@ class Signature:
         return _group(self.name, *self.params)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Atom:
     """A predicate applied to variables and objects."""
 
@@ -66,7 +67,7 @@ class Atom:
         return _group(self.name, *self.args)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Equal:
     """Two terms that denote the same object."""
 
@@ -77,7 +78,7 @@ class Equal:
         return f"(= {self.left} {self.right})"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Function:
     """A numeric function applied to terms; also ``total-time`` and ``?duration``."""
 
@@ -88,7 +89,7 @@ class Function:
         return self.name if self.name in (DURATION, CONTINUOUS) else _group(self.name, *self.args)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Constant:
     """A number."""
 
@@ -98,7 +99,7 @@ class Constant:
         return number_text(self.value)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Arithmetic:
     """``+ - * /`` over expressions."""
 
@@ -112,7 +113,7 @@ class Arithmetic:
 Expr = Function | Constant | Arithmetic
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Compare:
     """A numeric condition: ``< <= = >= >``."""
 
@@ -124,7 +125,7 @@ class Compare:
         return f"({self.op} {self.left} {self.right})"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Not:
     """Negation."""
 
@@ -134,7 +135,7 @@ class Not:
         return f"(not {self.body})"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class And:
     """Conjunction; empty means true."""
 
@@ -144,7 +145,7 @@ class And:
         return _group("and", *self.parts)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Or:
     """Disjunction; empty means false."""
 
@@ -154,7 +155,7 @@ class Or:
         return _group("or", *self.parts)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Quantified:
     """``forall`` or ``exists``."""
 
@@ -171,7 +172,7 @@ Formula = Atom | Equal | Compare | Not | And | Or | Quantified
 TRUE = And()
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Condition:
     """A formula and when it must hold: ``start``, ``all`` (over all) or ``end``."""
 
@@ -179,7 +180,7 @@ class Condition:
     formula: Formula
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Effect:
     """One change: ``add``/``delete`` an atom, or ``assign``/``increase``/… a function.
 
@@ -211,7 +212,7 @@ class Effect:
         return f"(forall {_group(*self.params)} {text})" if self.params else text
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Preference:
     """A condition that should hold: ``when`` is empty in a goal, else as in a `Condition`.
 
@@ -224,7 +225,7 @@ class Preference:
     when: str = ""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Trajectory:
     """One condition on the states that a plan goes through, such as ``(within 5 (p))`` (PDDL 3)."""
 
@@ -233,7 +234,7 @@ class Trajectory:
     parts: tuple[Formula, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Constraint:
     """Trajectory conditions, for all instances of ``params``; a named one is a preference."""
 
@@ -242,7 +243,7 @@ class Constraint:
     preference: str = ""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Axiom:
     """A derived predicate (PDDL 2.2): it holds of ``params`` wherever ``body`` does."""
 
@@ -251,7 +252,7 @@ class Axiom:
     body: Formula
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class TimedChange:
     """A timed initial literal: at ``time`` a fact comes or goes, or a function gets a value."""
 
@@ -269,7 +270,7 @@ class TimedChange:
         return f"(at {number_text(self.time)} {text})"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Action:
     """An action schema; an instantaneous one has all its conditions and effects at start."""
 
@@ -288,7 +289,7 @@ class Action:
         return values[0] if len(values) == 1 else None
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Note:
     """A ``;; hrcplan:`` comment of a domain or a problem: what PDDL cannot hold.
 

@@ -10,6 +10,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from enum import StrEnum
 
+from hrcplan.core.records import record
+
 _TOKEN = re.compile(r";[^\r\n]*|[()]|\?*[^\s();?]+|\?+")
 _TIME = re.compile(r"\s+(?:start|end|all|[\d.]+)\b", re.IGNORECASE)
 _NOTE = re.compile(r"hrcplan:\s*(\w+)\s+(\S+)", re.IGNORECASE)
@@ -35,7 +37,7 @@ class NameKind(StrEnum):
     CALLED = "object or type, in a note"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Name:
     """A name at one place of a text.
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from hrcplan.core.records import record
 from hrcplan.pddl.source import SourceText
 
 Token = tuple[str, int]
@@ -30,7 +31,7 @@ _TWO = {"=", "<", ">", "<=", ">=", "imply", "when", "forall", "exists", "over", 
 _TWO |= {"assign", "increase", "decrease", "scale-up", "scale-down"}
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Stretch:
     """Tokens from one landmark to the next, and the depths at which they begin and end."""
 

@@ -7,11 +7,11 @@ and the bit representation of ``task`` is tested against it.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence, Set
-from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
 
 from hrcplan.core.numbers import Number, exact
+from hrcplan.core.records import record
 from hrcplan.errors import LimitError
 from hrcplan.pddl.model import (
     Action,
@@ -46,7 +46,7 @@ class Undefined(ArithmeticError):  # noqa: N818  # a value that is missing, caug
     """A function without a value, or a division by zero."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LiftedState:
     """Facts that hold, and the values of functions."""
 
@@ -234,7 +234,7 @@ def bind(action: Action, args: Sequence[str], problem: Problem) -> Binding | str
     return {param.name: arg for param, arg in zip(action.params, args, strict=True)}
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class StateUpdate:
     """What effects do at one instant: facts deleted, then facts added, and new values."""
 

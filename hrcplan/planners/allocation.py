@@ -11,11 +11,12 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from fractions import Fraction
 from math import gcd, lcm
 
 from hrcplan.core.numbers import Number, exact, number_text
+from hrcplan.core.records import record
 from hrcplan.errors import HrcplanError, LimitError, PlannerError, UnsupportedError, UsageError
 from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, FluentKey, Problem, fact_text
 from hrcplan.pddl.semantics import evaluate
@@ -32,7 +33,7 @@ LEAST, MOST = 0, 10
 MAX_PIECES = 200
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Line:
     """What a plan costs without gaps: ``intercept`` plus ``slope`` times the value."""
 
@@ -45,7 +46,7 @@ class Line:
         return exact(Fraction(self.intercept + self.slope * value))
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Piece:
     """From ``least`` to ``most`` a plan like ``line.plan`` is best; ``n_actions`` of each agent."""
 
@@ -55,7 +56,7 @@ class Piece:
     n_actions: Mapping[str, int]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Diagram:
     """The best allocation for every value of one function in a range; ``value`` is that of now.
 

@@ -10,6 +10,7 @@ from functools import cached_property
 from typing import Protocol, runtime_checkable
 
 from hrcplan.core.numbers import Number
+from hrcplan.core.records import record
 from hrcplan.errors import LimitError, UnsupportedError
 from hrcplan.pddl.model import TOTAL_TIME, Problem
 from hrcplan.pddl.walks import functions_in
@@ -32,7 +33,7 @@ class Status(enum.Enum):
     UNSOLVED = "unsolved"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Capabilities:
     """What a planner can do; ``auto`` chooses by it and ``hrcplan planners`` prints it.
 
@@ -180,7 +181,7 @@ class Request:
         )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Answer:
     """What a planner said, unchecked: its claim, its plan, and the cost it reported, if any.
 

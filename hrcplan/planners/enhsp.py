@@ -12,7 +12,7 @@ import re
 import shutil
 import time
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from importlib.util import find_spec
 from pathlib import Path
@@ -20,6 +20,7 @@ from tempfile import TemporaryDirectory
 
 from hrcplan.core.extras import install_command
 from hrcplan.core.numbers import Number, to_number
+from hrcplan.core.records import record
 from hrcplan.errors import LimitError, MissingPlannerError, PlannerError, UnsupportedError
 from hrcplan.pddl.constructs import CONTINUOUS
 from hrcplan.pddl.dialect import with_binary_sums, with_effects, with_ground_sums
@@ -45,7 +46,7 @@ _FLOAT_BITS = 24
 _JVM_BYTES = 200 << 20  # what a Java runtime needs besides its heap
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Input:
     """What ENHSP is given. ``whole``: it understands all of it, so it can prove things."""
 

@@ -6,9 +6,10 @@ It finds invariants in the files that a ground task no longer shows, and searche
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from hrcplan.core.numbers import Number
+from hrcplan.core.records import record
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.dialect import with_effects, without_numbers
 from hrcplan.pddl.inlining import remaining
@@ -37,7 +38,7 @@ _MAX_INT = 2**31
 _MAX_PRICE = _MAX_INT // 10**6  # no heuristic value of a lifted task overflows then
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class DownwardInput:
     """Two texts, and what an answer about them means.
 

@@ -8,12 +8,12 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Iterator
-from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from hrcplan.core.extras import missing as missing_package
+from hrcplan.core.records import record
 from hrcplan.errors import LimitError, MissingPlannerError, PlannerError, UnsupportedError
 from hrcplan.planners.lowering import Lowering
 from hrcplan.planners.process import FinishedProcess, ProcessEnd, ProcessLimits, run
@@ -31,7 +31,7 @@ _SEARCH = (
 _UNSOLVABLE = 12  # its code for "searched everything and found no plan"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Listed:
     """Plans as ground actions, the cheapest first; ``complete`` if there are no others."""
 

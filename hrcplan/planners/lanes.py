@@ -9,9 +9,10 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from hrcplan.core.numbers import Number
+from hrcplan.core.records import record
 from hrcplan.errors import LimitError, UnsupportedError
 from hrcplan.pddl.interference import Access, access, clash
 from hrcplan.pddl.model import Action, Problem
@@ -23,7 +24,7 @@ _Option = tuple[PlannedAction, frozenset[str]]
 """A step done by one agent, and the agents that it keeps busy."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Job:
     """One step: how long it lasts, what must end before it, and who could do it (with whom)."""
 

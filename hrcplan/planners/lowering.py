@@ -15,6 +15,7 @@ from math import lcm
 
 from hrcplan.core.bits import positions
 from hrcplan.core.numbers import Number, exact
+from hrcplan.core.records import record
 from hrcplan.errors import PlanFormatError, UnsupportedError
 from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME
 from hrcplan.pddl.write import decimal_text
@@ -142,7 +143,7 @@ def lower(task: Task) -> Lowering:
     )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Prices:
     """The metric as a price for every action, with the sign that is minimized, and a constant."""
 

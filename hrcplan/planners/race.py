@@ -13,6 +13,7 @@ from dataclasses import dataclass, field, replace
 
 from hrcplan.core import progress
 from hrcplan.core.numbers import number_text
+from hrcplan.core.records import record
 from hrcplan.errors import HrcplanError, LimitError, PlannerError
 from hrcplan.planners.choice import Job
 from hrcplan.planners.contract import Answer, Request, Status
@@ -47,7 +48,7 @@ def cores() -> int:
     return len(os.sched_getaffinity(0))
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Improvement:
     """A plan of a planner that goes on."""
 

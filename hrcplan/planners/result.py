@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from fractions import Fraction
 from html import escape
 
 from hrcplan.core.numbers import Number, exact, number_text
+from hrcplan.core.records import record
 from hrcplan.core.text import cut
 from hrcplan.errors import CostGuardError, MissingPlannerError, PlannerError, UnsupportedError
 from hrcplan.pddl.constructs import PREFERENCES
@@ -36,7 +37,7 @@ _ROUNDING = 2e-3
 Replay = Callable[[Problem, Plan], Report]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Attempt:
     """One planner's turn: what came of it, in a few words."""
 
@@ -45,7 +46,7 @@ class Attempt:
     wall_s: float
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Result:
     """A checked answer: the plan was replayed, its cost is hrcplan's own.
 

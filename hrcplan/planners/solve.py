@@ -13,7 +13,6 @@ from hrcplan.planners.contract import MEMORY_BYTES, LazyTask, Planner, Request, 
 from hrcplan.planners.metric_costs import with_total_cost
 from hrcplan.planners.portfolio import AUTO, Portfolio
 from hrcplan.planners.race import OnBetter, can_race, race
-from hrcplan.planners.race_process import race_in_process
 from hrcplan.planners.result import Attempt, Result, ask, compare
 from hrcplan.task import Task
 from hrcplan.validation import validate
@@ -85,6 +84,8 @@ def _of(problem: Problem, result: Result) -> Result:
 def _run(request: Request, waiting: Sequence[Job], lanes: bool, on_better: OnBetter) -> Portfolio:
     if can_race():
         return race(request, waiting, lanes, on_better)
+    from hrcplan.planners.race_process import race_in_process
+
     return race_in_process(request, waiting, lanes, on_better)
 
 

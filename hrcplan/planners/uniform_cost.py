@@ -16,6 +16,7 @@ from heapq import heappop, heappush
 from typing import NamedTuple
 
 from hrcplan.core.numbers import Number, exact
+from hrcplan.core.records import record
 from hrcplan.errors import LimitError, UnsupportedError
 from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, Problem
 from hrcplan.pddl.semantics import Undefined
@@ -69,7 +70,7 @@ def _space(request: Request) -> StateSpace:
     return LiftedSpace(request.problem, request.deadline)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PathMetric:
     """A metric to be minimized: ``cost`` and ``step`` per action, and a value of the last state.
 

@@ -10,12 +10,13 @@ import json
 import os
 import sys
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 from hrcplan.core.extras import missing as missing_package
+from hrcplan.core.records import record
 from hrcplan.errors import (
     LimitError,
     MissingPlannerError,
@@ -113,7 +114,7 @@ class UnifiedPlanning:
         return Answer(Status.UNSOLVED, note=status.lower().replace("_", " "))
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Form:
     """One way to put the task. ``exact``: cheapest here means cheapest by the problem's metric."""
 

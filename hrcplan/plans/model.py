@@ -6,11 +6,10 @@ A plan with times is a *schedule*; every action belongs to the *lane* of its age
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from fractions import Fraction
 
 from hrcplan.core.numbers import Number, decimal_of
-from hrcplan.core.svg import LaneBar, gantt
+from hrcplan.core.records import record
 from hrcplan.core.text import cut, plural
 from hrcplan.pddl.model import Problem
 
@@ -18,7 +17,7 @@ EPSILON_S = Fraction(1, 1000)
 """Smallest gap, in seconds, between two happenings that interfere."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PlannedAction:
     """One ground action of a plan; ``start_s`` and ``duration_s`` are None in sequential plans."""
 
@@ -40,7 +39,7 @@ class PlannedAction:
         return f"<PlannedAction {cut(str(self), 150)}{when}>"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Plan:
     """Ground actions in an order that can be executed: by start time if they have times."""
 
@@ -91,6 +90,8 @@ class Plan:
 
         Without the problem, the agent of an action is taken to be its first argument.
         """
+        from hrcplan.core.svg import LaneBar, gantt
+
         bars = []
         for i, a in enumerate(self.actions):
             first = a.args[0] if a.args else ""

@@ -7,15 +7,15 @@ Negative conditions are so relaxed like positive ones.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 from hrcplan.core.bits import positions
+from hrcplan.core.records import record
 from hrcplan.task.conditions import Test, conjunction
 from hrcplan.task.steps import Operator
 from hrcplan.task.transitions import BitEffect
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class RelaxedRule:
     """One effect of an operator: the operator's index, literals before, and literals after."""
 

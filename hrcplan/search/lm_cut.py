@@ -7,9 +7,10 @@ step costs. So the sets that a sequence has not met yet bound from below what it
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from heapq import heapify, heappop, heappush
 
+from hrcplan.core.records import record
 from hrcplan.search.delete_relaxation import RelaxedRule, literals, relaxed_rules
 from hrcplan.task.conditions import Tests
 from hrcplan.task.steps import Operator
@@ -19,7 +20,7 @@ UNREACHABLE = 1 << 300
 """Above every cost: not reachable even if nothing true ever becomes false."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Landmark:
     """Ops of which every plan holds one, and its share of the cost."""
 

@@ -11,6 +11,7 @@ from itertools import product
 from hrcplan.core.bits import single_bits
 from hrcplan.core.numbers import Number
 from hrcplan.core.progress import counting
+from hrcplan.core.records import record
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.model import DURATION, TOTAL_COST, TRUE, Action, Constant, Expr, FluentKey
 from hrcplan.pddl.semantics import Undefined, Values, evaluate, ground_key, instances
@@ -36,7 +37,7 @@ MAX_COST_CONDITIONS = 4
 _UNIT_COST: tuple[Expr, ...] = (Constant(1),)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class GroundAction(Transition):
     """Who does what: conditions and effects as bits, for the sequential and temporal readings.
 

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
 
 from hrcplan.core.numbers import Number, number_text
+from hrcplan.core.records import record
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.model import DURATION, Action, Fact, FluentKey, Formula
 from hrcplan.pddl.semantics import (
@@ -36,7 +36,7 @@ def value_fact(key: FluentKey, value: Number) -> Fact:
     return ("=", *key, short if Fraction(short) == value else str(value))
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ValueMove:
     """A function takes a new value where one of ``tests`` holds."""
 

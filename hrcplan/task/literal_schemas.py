@@ -7,9 +7,9 @@ in the tests holds both ways together.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence, Set
-from dataclasses import dataclass
 from operator import itemgetter
 
+from hrcplan.core.records import record
 from hrcplan.pddl.model import (
     DURATION,
     TOTAL_COST,
@@ -70,13 +70,13 @@ class LiteralRows:
         return (*args, *self._names)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Literal:
     key: RowKey
     positive: bool
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Change:
     key: RowKey
     adds: bool

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence, Set
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
 from math import lcm
 
 from hrcplan.core.numbers import Number, exact
+from hrcplan.core.records import record
 from hrcplan.errors import UnsupportedError
 from hrcplan.task import GroundAction, Task
 from hrcplan.task.transitions import Rule, Transition
@@ -23,7 +24,7 @@ MAX_TIES = (1 << TIE_BITS) - 1
 _NEVER = Rule(mask=0, value=1, writes=0, adds=0)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Step:
     """One step: what it is called and which ground actions of the task do it.
 
@@ -40,7 +41,7 @@ class Step:
         return f"({' '.join(self.words)})"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Operator(Transition):
     """One way to do a step, and its bank cost (a positive integer)."""
 

@@ -6,14 +6,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import NamedTuple
 
 from hrcplan.core.bits import union
+from hrcplan.core.records import record
 from hrcplan.task.conditions import ALWAYS, Tests, meets
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class BitEffect:
     """Facts deleted and then added where one of ``tests`` holds in the state before."""
 
@@ -53,7 +53,7 @@ class Rule(NamedTuple):
         return state & ~self.writes | self.adds
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Transition:
     """A condition, and the effects of two instants, one after the other.
 

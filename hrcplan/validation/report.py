@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from hrcplan.core.numbers import Number, number_text
+from hrcplan.core.records import record
 from hrcplan.core.text import cut
 from hrcplan.pddl.model import Fact, Problem
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Report:
     """What a replay found.
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from math import lcm
 
 from hrcplan.core.numbers import Number, number_text
+from hrcplan.core.records import record
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, Arithmetic, Constant, Expr, Function, Problem
 from hrcplan.planners.exact.frame import HINT, StaticMasks
@@ -16,7 +16,7 @@ from hrcplan.task.numbers import linear
 _GRAIN = 64  # makes whole numbers fine enough to be shared out
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Metric:
     """``cost`` times total-cost plus ``time`` times total-time plus ``constant``."""
 
@@ -60,7 +60,7 @@ def _with_constants(expression: Expr, problem: Problem) -> Expr:
             return Arithmetic(op, tuple(_with_constants(part, problem) for part in parts))
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Weights:
     """The metric in whole numbers: ``cost`` of each action, ``tick`` of each tick that passes.
 
