@@ -11,9 +11,6 @@ from hrcplan.pddl.inlining import remaining
 from hrcplan.pddl.model import TOTAL_COST, Problem
 from hrcplan.planners import registry
 from hrcplan.planners.contract import Capabilities, Planner, Request
-from hrcplan.planners.kairos import LAST_PRESET, QUICK_PRESETS, Kairos
-from hrcplan.planners.relaxed_bound import RelaxedBound
-from hrcplan.planners.soft_goals import without_preferences
 
 _SEQUENCES = ("fast-downward", "enhsp")
 """Planners that read a temporal task as a sequence of actions, and that search in two ways: for a
@@ -56,12 +53,39 @@ class Job:
         return self.planner.card.name
 
 
-def jobs(request: Request) -> list[Job]:
-    """Return what to ask for a request, the most promising jobs first.
+def jobs(request: Request) -> Iterator[Job]:
+    """Yield what to ask for a request, the most promising jobs first.
+
+    The first planner often solves the task, so the others are imported after it was taken.
 
     Raises:
         UnsupportedError: if no planner here can hold the task.
     """
+    first = _first_jobs(request)
+    yield from first
+    yield from all_jobs(request)[len(first) :]
+
+
+def _first_jobs(request: Request) -> list[Job]:
+    """Return the jobs of the planner that stands first in the table, if it can hold a request."""
+    name, any_plan = (_ANY if request.any_plan else _BEST)[0]
+    jobs = [
+        Job(variant, any_plan, _merit(planner.card, request, any_plan))
+        for planner in _load(name)
+        if unable(planner.card, request) is None and planner.missing() is None
+        for variant in _variants(planner, request)
+    ]
+    return [job for job in jobs if _rank(job, request) == (False, 0)]
+
+
+def all_jobs(request: Request) -> list[Job]:
+    """Return all jobs for a request, the most promising first.
+
+    Raises:
+        UnsupportedError: if no planner here can hold the task.
+    """
+    from hrcplan.planners.relaxed_bound import RelaxedBound
+
     planners = [planner for name in registry.names() for planner in _load(name)]
     able = [p for p in planners if unable(p.card, request) is None and p.missing() is None]
     if not able:
@@ -93,7 +117,11 @@ def fixed_order(problem: Problem) -> tuple[str, ...]:
 
 def _variants(planner: Planner, request: Request) -> Sequence[Planner]:
     """Return a planner, or the forms of it that are good at different tasks."""
-    if isinstance(planner, Kairos) and request.any_plan and request.problem.domain.is_temporal:
+    if not (request.any_plan and request.problem.domain.is_temporal):
+        return (planner,)
+    from hrcplan.planners.kairos import LAST_PRESET, QUICK_PRESETS, Kairos
+
+    if isinstance(planner, Kairos):
         return Kairos((LAST_PRESET,)), Kairos(QUICK_PRESETS)
     return (planner,)
 
@@ -121,7 +149,11 @@ def unable(card: Capabilities, request: Request) -> str | None:
     if not domain.is_temporal and not card.classical:
         return "it plans with time only"
     beyond = sorted(remaining(request.problem) - card.constructs)
-    if beyond and not (beyond == [PREFERENCES] and without_preferences(request.problem)):
+    if beyond == [PREFERENCES]:
+        from hrcplan.planners.soft_goals import without_preferences
+
+        beyond = [] if without_preferences(request.problem) else beyond
+    if beyond:
         return f"it does not know {' and '.join(beyond)}"
     if not card.numeric and _is_numeric(request):
         return "it holds no numbers that actions change"

@@ -8,7 +8,7 @@ import selectors
 import signal
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sized
 from dataclasses import dataclass, field, replace
 
 from hrcplan.core import progress
@@ -18,6 +18,7 @@ from hrcplan.errors import HrcplanError, LimitError, PlannerError
 from hrcplan.planners.choice import Job
 from hrcplan.planners.contract import Answer, Request, Status
 from hrcplan.planners.portfolio import Portfolio
+from hrcplan.planners.registry import BUILT_IN
 from hrcplan.planners.result import Result, ask, check_answer
 from hrcplan.planners.workers import Watch, Work, Worker, end, largest_beyond
 from hrcplan.plans import Plan
@@ -68,7 +69,7 @@ class _Lane:
     start_s: float = field(default_factory=time.monotonic)
 
 
-def race(request: Request, waiting: Sequence[Job], lanes: bool, on_better: OnBetter) -> Portfolio:
+def race(request: Request, waiting: Iterable[Job], lanes: bool, on_better: OnBetter) -> Portfolio:
     """Return what jobs say that run side by side until the result is settled or time is up.
 
     As many as there are cores (two at least) run at the same time, those that stand first begin.
@@ -77,22 +78,46 @@ def race(request: Request, waiting: Sequence[Job], lanes: bool, on_better: OnBet
     return _Race(request, waiting, lanes, on_better).run()
 
 
+class _Queue:
+    """Jobs that wait; an iterator of them goes on when its next job is needed."""
+
+    def __init__(self, jobs: Iterable[Job]) -> None:
+        self._jobs = iter(jobs)
+        self._next: Job | None = None
+
+    def __bool__(self) -> bool:
+        self._next = self._next or next(self._jobs, None)
+        return self._next is not None
+
+    def pop(self) -> Job:
+        """Return the next job of a queue that is not empty."""
+        assert self
+        job, self._next = self._next, None
+        assert job is not None
+        return job
+
+    def clear(self) -> None:
+        """Forget all jobs."""
+        self._jobs, self._next = iter(()), None
+
+
 class _Race:
     """The jobs at work, the jobs that wait, and what they have said."""
 
     def __init__(
-        self, request: Request, waiting: Sequence[Job], lanes: bool, on_better: OnBetter
+        self, request: Request, waiting: Iterable[Job], lanes: bool, on_better: OnBetter
     ) -> None:
         self.request = request
         self.portfolio = Portfolio(request.problem, request.any_plan)
-        self._waiting = list(waiting)
+        self._waiting = _Queue(waiting)
         self._slots = max(2, cores())
         self._lanes: list[_Lane] = []
         self._ready = selectors.PollSelector()
         self._in_lanes = lanes
         self._on_better = on_better
         self._start_s = time.monotonic()
-        self._share = request.memory_bytes // min(max(1, len(waiting)), self._slots)
+        n = len(waiting) if isinstance(waiting, Sized) else len(BUILT_IN)
+        self._share = request.memory_bytes // min(max(1, n), self._slots)
         self._look_at_memory_s = self._start_s + STAGGER_S  # until then memory holds little
 
     def run(self) -> Portfolio:
@@ -125,8 +150,8 @@ class _Race:
     def _start(self) -> None:
         """Begin jobs as long as there is room and time for them."""
         room = self._room()
-        while self._waiting and len(self._lanes) < room and self.request.time_left_s > 0:
-            job = self._waiting.pop(0)
+        while len(self._lanes) < room and self.request.time_left_s > 0 and self._waiting:
+            job = self._waiting.pop()
             request = replace(
                 self.request,
                 memory_bytes=self._share,

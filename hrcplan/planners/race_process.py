@@ -11,7 +11,7 @@ import os
 import pickle
 import selectors
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryFile
@@ -38,7 +38,7 @@ _CHUNK = 1 << 16
 
 
 def race_in_process(
-    request: Request, waiting: Sequence[Job], lanes: bool, on_better: OnBetter
+    request: Request, waiting: Iterable[Job], lanes: bool, on_better: OnBetter
 ) -> Portfolio:
     """Return what jobs say that run side by side in another process; see `race.race`.
 

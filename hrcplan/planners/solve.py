@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Iterable
 from dataclasses import replace
 
 from hrcplan.pddl.model import Problem
@@ -81,7 +81,7 @@ def _of(problem: Problem, result: Result) -> Result:
     return replace(result, report=report, problem=problem)
 
 
-def _run(request: Request, waiting: Sequence[Job], lanes: bool, on_better: OnBetter) -> Portfolio:
+def _run(request: Request, waiting: Iterable[Job], lanes: bool, on_better: OnBetter) -> Portfolio:
     if can_race():
         return race(request, waiting, lanes, on_better)
     from hrcplan.planners.race_process import race_in_process

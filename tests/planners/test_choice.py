@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
+
 import pytest
 
 from hrcplan.pddl.inputs import read
-from hrcplan.planners.choice import jobs
+from hrcplan.pddl.model import Problem
+from hrcplan.planners.choice import all_jobs, jobs
 from hrcplan.planners.contract import LazyTask, Request
 from hrcplan.planners.fast_downward_input import downward_input
 from tests.planners.actors import walk
@@ -33,7 +37,7 @@ def test_nothing_is_grounded_for_any_plan(monkeypatch: pytest.MonkeyPatch) -> No
 
     monkeypatch.setattr(LazyTask, "begin", begin)
     request = Request(read("kitchen", "pasta-bean"), any_plan=True)
-    assert jobs(request)
+    assert list(jobs(request))
     assert downward_input(request).lowering is None
 
 
@@ -42,3 +46,33 @@ def test_grounding_is_tried_once_to_tell_what_is_numeric() -> None:
     assert request.ground_quickly() is False
     assert "enhsp" in names(request)
     assert "fast-downward" not in names(request)
+
+
+@pytest.mark.parametrize("any_plan", [True, False])
+@pytest.mark.parametrize(
+    "problem",
+    [
+        read("kitchen", "pasta-bean"),
+        read("transport", "two-boxes"),
+        walk("(:metric maximize (views))"),
+    ],
+    ids=["classical", "temporal", "numeric"],
+)
+def test_the_first_job_is_the_first_of_all(problem: Problem, any_plan: bool) -> None:
+    request = Request(problem, any_plan=any_plan)
+    in_turn = [(job.name, job.any_plan, job.why) for job in jobs(request)]
+    assert in_turn == [(job.name, job.any_plan, job.why) for job in all_jobs(request)]
+
+
+def test_other_planners_are_imported_after_the_first_was_taken() -> None:
+    code = """if True:
+        import sys
+        from hrcplan.pddl.inputs import read
+        from hrcplan.planners.choice import jobs
+        from hrcplan.planners.contract import Request
+        waiting = jobs(Request(read("transport", "two-boxes")))
+        assert next(waiting).name == "exact"
+        assert "hrcplan.planners.kairos" not in sys.modules
+        assert "kairos" in [job.name for job in waiting]
+    """
+    subprocess.run([sys.executable, "-c", code], check=True, timeout=60)
