@@ -19,12 +19,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import ClassVar
 
-from hrcplan.core.records import record
 
-
-@record
+@dataclass(frozen=True, slots=True)
 class Diagnostic:
     """One fault in a file: where it is (1-based, in characters), what it is, what to do."""
 
