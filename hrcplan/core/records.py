@@ -7,9 +7,9 @@ the slots directly, so that an instance is made in half the time, too.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import MISSING, FrozenInstanceError, dataclass, field, fields
-from typing import Any, NoReturn, TypeVar, dataclass_transform
+from collections.abc import Callable, Hashable, Sequence
+from dataclasses import MISSING, Field, FrozenInstanceError, dataclass, field, fields
+from typing import Any, ClassVar, NoReturn, TypeVar, dataclass_transform
 
 T = TypeVar("T")
 Methods = dict[str, Callable[..., object]]
@@ -30,11 +30,11 @@ def record(cls: type[T]) -> type[T]:
     (Place(name='hall', size=1), False)
     """
     own = set(vars(cls))
-    made = dataclass(init=False, repr=False, eq=False, slots=True)(cls)
-    for name, method in {**_compiled(made), **_MOST}.items():
+    plain = dataclass(init=False, repr=False, eq=False, slots=True)(cls)
+    for name, method in {**_compiled(plain), **_SHARED}.items():
         if name not in own:
-            setattr(made, name, method)
-    return made
+            setattr(plain, name, method)
+    return plain
 
 
 def _compiled(cls: type) -> Methods:
@@ -68,32 +68,30 @@ def __hash__(self): return hash(({mine}))
     return {name: words[name] for name in ("__init__", "__eq__", "__hash__")}
 
 
-def _repr(self: Any) -> str:
-    pairs = [f"{part.name}={getattr(self, part.name)!r}" for part in fields(self) if part.repr]
-    return f"{type(self).__qualname__}({', '.join(pairs)})"
+class _Record:
+    """The methods that all records share."""
+
+    __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
+
+    def __repr__(self) -> str:
+        pairs = [f"{part.name}={getattr(self, part.name)!r}" for part in fields(self) if part.repr]
+        return f"{type(self).__qualname__}({', '.join(pairs)})"
+
+    def __setattr__(self, name: str, value: Hashable) -> NoReturn:
+        raise FrozenInstanceError(f"cannot assign to field {name!r}")
+
+    def __delattr__(self, name: str) -> NoReturn:
+        raise FrozenInstanceError(f"cannot delete field {name!r}")
+
+    def __getstate__(self) -> list[Any]:
+        return [getattr(self, part.name) for part in fields(self)]
+
+    def __setstate__(self, state: Sequence[Any]) -> None:
+        for part, value in zip(fields(self), state, strict=True):
+            object.__setattr__(self, part.name, value)
 
 
-def _refuse_to_set(self: object, name: str, value: object) -> NoReturn:
-    raise FrozenInstanceError(f"cannot assign to field {name!r}")
-
-
-def _refuse_to_delete(self: object, name: str) -> NoReturn:
-    raise FrozenInstanceError(f"cannot delete field {name!r}")
-
-
-def _state(self: Any) -> list[object]:
-    return [getattr(self, part.name) for part in fields(self)]
-
-
-def _set_state(self: Any, state: Sequence[object]) -> None:
-    for part, value in zip(fields(self), state, strict=True):
-        object.__setattr__(self, part.name, value)
-
-
-_MOST: Methods = {
-    "__repr__": _repr,
-    "__setattr__": _refuse_to_set,
-    "__delattr__": _refuse_to_delete,
-    "__getstate__": _state,
-    "__setstate__": _set_state,
+_SHARED: Methods = {
+    name: vars(_Record)[name]
+    for name in ("__repr__", "__setattr__", "__delattr__", "__getstate__", "__setstate__")
 }

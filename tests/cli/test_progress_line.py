@@ -11,13 +11,12 @@ from hrcplan.cli.progress_line import COLUMNS, DELAY_S, ProgressLine, ProgressLo
 from hrcplan.core.progress import counting, listen
 from hrcplan.errors import LimitError
 from hrcplan.pddl.inputs import read
-from hrcplan.planners import registry
 from hrcplan.planners.contract import Answer, Request, Status
 from hrcplan.planners.solve import solve
 from hrcplan.plans import parse_plan
 from hrcplan.task import Task
 from hrcplan.task.reachable import reachable
-from tests.planners.actors import Actor, walk
+from tests.planners.actors import Actor, only, walk
 
 
 class Clock:
@@ -124,8 +123,7 @@ def test_planners_at_work_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
         return Answer(Status.UNSOLVED)
 
     heard: list[str] = []
-    monkeypatch.setattr(registry, "names", lambda: ("thinker",))
-    monkeypatch.setattr(registry, "make", lambda name: Actor(name, thinks))
+    only(monkeypatch, {"thinker": Actor("thinker", thinks)})
     get_reusable_executor().shutdown(wait=True)  # its threads would move the race elsewhere
     listen(lambda what, count: heard.append(what))
     try:

@@ -6,13 +6,16 @@ import os
 import signal
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import pytest
+
+from hrcplan.errors import UsageError
 from hrcplan.pddl.model import Problem
 from hrcplan.planners import registry
-from hrcplan.planners.contract import Answer, Capabilities, Request, Status
+from hrcplan.planners.contract import Answer, Capabilities, Planner, Request, Status
 from hrcplan.planners.process import ProcessLimits, run
 from hrcplan.plans import parse_plan
 from tests.worlds import problem_from
@@ -42,6 +45,18 @@ class Actor:
 
     def solve(self, request: Request) -> Answer:
         return self.act(request)
+
+
+def only(monkeypatch: pytest.MonkeyPatch, planners: Mapping[str, Planner]) -> None:
+    """Let there be no planners but these."""
+
+    def make(name: str) -> Planner:
+        if name not in planners:
+            raise UsageError(f"there is no planner '{name}'")
+        return planners[name]
+
+    monkeypatch.setattr(registry, "names", lambda: tuple(planners))
+    monkeypatch.setattr(registry, "make", make)
 
 
 def walk(metric: str = "") -> Problem:
@@ -78,20 +93,14 @@ def runs_a_program(request: Request) -> Answer:
     raise AssertionError
 
 
-def put(**acts: Callable[[Request], Answer]) -> None:
-    """Let ``auto`` ask these planners and no others, in this process."""
-    actors = {name: Actor(name, act) for name, act in acts.items()}
-    registry.names = lambda: tuple(actors)
-    registry.make = actors.__getitem__
-
-
 def main() -> None:
     """Solve in the main thread or in another one, with planners that do not end."""
     from concurrent.futures import ThreadPoolExecutor
 
     from hrcplan.planners.solve import solve
 
-    put(one=refuses_to_end, two=runs_a_program)
+    acts = {"one": refuses_to_end, "two": runs_a_program}
+    only(pytest.MonkeyPatch(), {name: Actor(name, act) for name, act in acts.items()})
     if sys.argv[1] == "main":
         solve(walk(), timeout_s=60)
     with ThreadPoolExecutor() as threads:

@@ -15,11 +15,10 @@ import pytest
 
 from hrcplan.errors import PlannerError, UnsupportedError
 from hrcplan.pddl.inputs import read
-from hrcplan.planners import registry
 from hrcplan.planners.contract import Answer, Request, Status
 from hrcplan.planners.race import can_race
 from hrcplan.planners.solve import Result, solve
-from tests.planners.actors import Actor, dies, improves, refuses_to_end, walk
+from tests.planners.actors import Actor, dies, improves, only, refuses_to_end, walk
 from tests.planners.test_process import await_that, children, is_running
 
 ROOT = Path(__file__).parents[2]
@@ -29,9 +28,7 @@ CODE = "from tests.planners.actors import main; main()"
 @pytest.fixture
 def cast(monkeypatch: pytest.MonkeyPatch) -> Callable[..., None]:
     def put(**acts: Callable[[Request], Answer]) -> None:
-        actors = {name: Actor(name, act) for name, act in acts.items()}
-        monkeypatch.setattr(registry, "names", lambda: tuple(actors))
-        monkeypatch.setattr(registry, "make", actors.__getitem__)
+        only(monkeypatch, {name: Actor(name, act) for name, act in acts.items()})
 
     return put
 

@@ -20,6 +20,7 @@ from hrcplan.planners import registry
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
 from hrcplan.planners.solve import compare, solve
 from hrcplan.plans import parse_plan
+from tests.planners.actors import only
 from tests.worlds import problem_from
 
 GOOD = """\
@@ -145,9 +146,7 @@ def test_auto_goes_on_with_the_next_planner(
     first = Scripted(trouble or Answer(Status.UNSOLVED), card=Capabilities(
         "first", "fails", temporal=True, metric="cost+time", proves=True))  # fmt: skip
     second = Scripted(solved(GOOD))
-    made = {"first": first, "second": second}
-    monkeypatch.setattr(registry, "names", lambda: ("second", "first"))
-    monkeypatch.setattr(registry, "make", made.__getitem__)
+    only(monkeypatch, {"second": second, "first": first})
     found = solve(two_boxes)
     assert found.planner == "scripted"
     assert [a.planner for a in found.attempts] == ["first", "scripted"]
