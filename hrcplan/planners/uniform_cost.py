@@ -11,7 +11,6 @@ import itertools
 import time
 from collections.abc import Hashable, Iterator
 from contextlib import suppress
-from dataclasses import dataclass
 from heapq import heappop, heappush
 from typing import NamedTuple
 
