@@ -12,7 +12,6 @@ import shlex
 import shutil
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from stat import S_ISREG
 from tempfile import NamedTemporaryFile, TemporaryDirectory
 
 from hrcplan.core.numbers import Number
@@ -21,7 +20,7 @@ from hrcplan.pddl.constructs import ALL
 from hrcplan.pddl.model import Problem
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
 from hrcplan.planners.handover import Handover
-from hrcplan.planners.process import FinishedProcess, ProcessEnd, ProcessLimits, run
+from hrcplan.planners.process import FinishedProcess, ProcessEnd, ProcessLimits, run, text_of
 from hrcplan.plans import Plan, find_plans
 from hrcplan.validation import objective, validate
 
@@ -122,16 +121,14 @@ def _is_crash(code: int) -> bool:
 
 
 def _plan_files(folder: Path, most_bytes: int) -> list[str]:
-    """Return the plan files of a planner, oldest first; together no more than ``most_bytes``.
-
-    Folders, FIFOs, links and the like are left out; so is a file that does not fit any more.
-    """
+    """Return the plan files of a planner, oldest first; together no more than ``most_bytes``."""
     texts: list[tuple[int, str]] = []
     for path in folder.glob("plan*"):
-        stat = path.lstat()
-        if S_ISREG(stat.st_mode) and stat.st_size <= most_bytes:
+        text = text_of(path, most_bytes)
+        if text is not None:
+            stat = path.lstat()
             most_bytes -= stat.st_size
-            texts.append((stat.st_mtime_ns, path.read_text(errors="replace")))
+            texts.append((stat.st_mtime_ns, text))
     return [text for _, text in sorted(texts, key=lambda item: item[0])]
 
 

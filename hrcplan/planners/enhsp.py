@@ -32,7 +32,7 @@ from hrcplan.planners.contract import Answer, Capabilities, Request, Status
 from hrcplan.planners.handover import Handover
 from hrcplan.planners.lowering import NO_SEQUENCE, Lowering, lower
 from hrcplan.planners.number_range import decides_exactly, never_lowers_cost, prices_exactly
-from hrcplan.planners.process import FinishedProcess, ProcessEnd, ProcessLimits, run
+from hrcplan.planners.process import FinishedProcess, ProcessEnd, ProcessLimits, run, text_of
 from hrcplan.task.reachable import SchemaInstance, reachable
 from hrcplan.validation import objective, validate
 
@@ -229,8 +229,7 @@ def _attempt(request: Request, texts: _Input, search: tuple[str, ...], time_s: f
         argv = [str(java), "-XX:+UseSerialGC", f"-Xmx{heap >> 20}m", "-jar", str(jar)]
         argv += ["-o", "domain.pddl", "-f", "problem.pddl", "-sp", "plan", "-npm", *search]
         process = run(argv, cwd=cwd, limits=ProcessLimits(time_s, request.memory_bytes))
-        plan = cwd / "plan"
-        text = plan.read_text() if plan.exists() else None
+        text = text_of(cwd / "plan")
     return _answer(request, texts, search, process, text)
 
 

@@ -18,7 +18,7 @@ from hrcplan.pddl.constructs import AXIOMS
 from hrcplan.planners.contract import Answer, Capabilities, Request, Status
 from hrcplan.planners.fast_downward_input import DownwardInput, downward_input
 from hrcplan.planners.lowering import NO_SEQUENCE
-from hrcplan.planners.process import FinishedProcess, ProcessEnd, ProcessLimits, run
+from hrcplan.planners.process import FinishedProcess, ProcessEnd, ProcessLimits, run, text_of
 
 # One supervised program instead of two: translate, then search.
 _SCRIPT = """
@@ -119,18 +119,19 @@ class _DownwardSearch:
             argv = ["/bin/sh", "-c", _SCRIPT, sys.executable, str(binary), search]
             process = run(argv, cwd=self._folder, limits=limits, on_tick=self._look)
             plans = self._plans()
-            text = plans[-1].read_text() if plans else None
+            text = plans[-1] if plans else None
         return _answer(request, texts, process, text)
 
-    def _plans(self) -> list[Path]:
-        """Return the files of complete plans, the best one last: a plan ends with its cost."""
-        files = [self._folder / "plan", *(self._folder / f"plan.{i}" for i in range(1, _MOST))]
-        return [file for file in files if file.exists() and "; cost" in file.read_text()]
+    def _plans(self) -> list[str]:
+        """Return the texts of complete plans, the best one last: a plan ends with its cost."""
+        names = ["plan", *(f"plan.{i}" for i in range(1, _MOST))]
+        texts = (text_of(self._folder / name) for name in names)
+        return [text for text in texts if text is not None and "; cost" in text]
 
     def _look(self) -> None:
         plans = self._plans()
-        for file in plans[self._n_plans :]:
-            self.request.on_plan(self.texts.plan(file.read_text()))
+        for text in plans[self._n_plans :]:
+            self.request.on_plan(self.texts.plan(text))
         self._n_plans = len(plans)
 
 

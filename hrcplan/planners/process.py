@@ -19,6 +19,7 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from stat import S_ISREG
 from typing import IO
 
 from hrcplan.planners import orphans
@@ -53,6 +54,20 @@ class ProcessLimits:
         """Refuse what is not a limit."""
         if math.isnan(self.time_s) or self.output_bytes < 0 or (self.memory_bytes or 0) < 0:
             raise ValueError(f"not a limit: {self!r}")
+
+
+def text_of(path: Path, most_bytes: int = ProcessLimits.output_bytes) -> str | None:
+    """Return the text of a file that a program wrote; None if there is none, or if it is larger.
+
+    Folders, FIFOs, links and the like are no such files.
+    """
+    try:
+        stat = path.lstat()
+    except FileNotFoundError:
+        return None
+    if not S_ISREG(stat.st_mode) or stat.st_size > most_bytes:
+        return None
+    return path.read_text(errors="replace")
 
 
 class ProcessEnd(enum.Enum):

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import field, replace
 from fractions import Fraction
 from html import escape
@@ -11,7 +12,13 @@ from html import escape
 from hrcplan.core.numbers import Number, exact, number_text
 from hrcplan.core.records import record
 from hrcplan.core.text import cut
-from hrcplan.errors import CostGuardError, MissingPlannerError, PlannerError, UnsupportedError
+from hrcplan.errors import (
+    CostGuardError,
+    MissingPlannerError,
+    PlanFormatError,
+    PlannerError,
+    UnsupportedError,
+)
 from hrcplan.pddl.constructs import PREFERENCES
 from hrcplan.pddl.inlining import remaining
 from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, Problem
@@ -136,12 +143,31 @@ def ask(planner: Planner, request: Request, lanes: bool, why: str) -> Result:
         message = f"planner '{planner.card.name}' does not know {' and '.join(beyond)}"
         raise UnsupportedError(message, hint="kairos knows them" if planner.card.own else None)
     start_s = time.monotonic()
-    answer = _answer(planner, request, hard_goals)
+    with _files_of(planner.card):
+        answer = _answer(planner, request, hard_goals)
     result = check_answer(planner.card, request.problem, answer, lanes, why, request.replays)
     wall_s = time.monotonic() - start_s
     notes = [note for note in (answer.note, result.mismatch) if note]
     attempts = tuple(Attempt(planner.card.name, note, wall_s) for note in notes)
     return replace(result, wall_s=wall_s, attempts=attempts)
+
+
+@contextlib.contextmanager
+def _files_of(card: Capabilities) -> Iterator[None]:
+    """Say by whom a file is that is no plan, or that cannot be written.
+
+    Raises:
+        PlannerError: instead of the error of a plan's text or of the operating system.
+    """
+    try:
+        yield
+    except PlanFormatError as error:
+        message = f"planner '{card.name}' wrote what is no plan: {error.message}"
+        raise PlannerError(message, code="plan-not-read") from None
+    except OSError as error:
+        message = f"planner '{card.name}' cannot use its files: {error.strerror or error}"
+        hint = "TMPDIR names the folder for them; is its disk full?"
+        raise PlannerError(message, hint=hint) from None
 
 
 def _answer(planner: Planner, request: Request, hard_goals: HardGoals | None) -> Answer:
