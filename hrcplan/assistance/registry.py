@@ -20,4 +20,6 @@ ASSISTANTS: Registry[..., Assistant[Any]] = Registry(
     "hrcplan.assistants",
     Assistant,
     aliases={"paper": "rhp"},
+    prefixes={"cmd": "hrcplan.assistance.command:CommandAssistant"},
+    program_prefixes=frozenset({"cmd"}),
 )

@@ -23,7 +23,7 @@ MAX_TRIES = 200  # failed attempts in a row before there seem to be no more
 
 
 @dataclass(frozen=True, slots=True)
-class _Shape:
+class GoalShape:
     """How many steps a goal needs at least, and which may be among them, as bits."""
 
     n_steps: int
@@ -49,15 +49,15 @@ def vary(goals: Goals, n: int, seed: int, *, n_objects: int = 0) -> Goals:
     rng = random.Random(seed)
     world = _with_copies(goals, rng, n_objects)
     table = StepTable(replace(goals, problem=world).task)
-    old = [shape for goal in goals.formulas if (shape := _shape(table, goal)) is not None]
+    old = [shape for goal in goals.formulas if (shape := shape_of(table, goal)) is not None]
     if not old:
         raise UsageError("none of the goals can be reached", code="no-variants")
     low, high = min(s.n_steps for s in old), max(s.n_steps for s in old)
     step_sets, variants = [shape.steps for shape in old], list[Formula]()
     tries = 0
     for goal in _candidates(goals, world, rng):
-        shape = _shape(table, goal)
-        if shape and low <= shape.n_steps <= high and _is_new(shape.steps, step_sets):
+        shape = shape_of(table, goal)
+        if shape and low <= shape.n_steps <= high and is_new(shape.steps, step_sets):
             step_sets.append(shape.steps)
             variants.append(goal)
             tries = 0
@@ -103,7 +103,7 @@ def _candidates(goals: Goals, world: Problem, rng: random.Random) -> Iterator[Fo
         yield rename(goal, swaps)
 
 
-def _shape(table: StepTable, goal: Formula) -> _Shape | None:
+def shape_of(table: StepTable, goal: Formula) -> GoalShape | None:
     """Return the shape of a goal, or None if it cannot be reached or is reached from the start."""
     task = table.task.with_goal(goal)
     ops, _ = relevant(table.ops, task.goal)
@@ -114,8 +114,9 @@ def _shape(table: StepTable, goal: Formula) -> _Shape | None:
     for mark in marks:
         for op in mark.ops:
             steps |= 1 << ops[op].step
-    return _Shape(sum(mark.cost for mark in marks), steps)
+    return GoalShape(sum(mark.cost for mark in marks), steps)
 
 
-def _is_new(steps: int, step_sets: list[int]) -> bool:
+def is_new(steps: int, step_sets: list[int]) -> bool:
+    """Return whether a set of steps neither holds nor is held by any of others."""
     return all(steps & other not in (steps, other) for other in step_sets)

@@ -42,6 +42,7 @@ COMMANDS = {
     "bank": "Policy banks: every valid plan of every goal, counted exactly.",
     "infer": "Infer the human's goal, and where it changed, from the observed ACTIONS.",
     "study": "Run a study, and report on its rows.",
+    "score": "Check the traces of a method, play each of them again, and print what it reaches.",
     "planners": "List the planners: the problems each can solve, and whether it can run here.",
     "doctor": "Show versions, Java and planners, and what to install.",
 }

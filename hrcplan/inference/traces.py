@@ -81,6 +81,7 @@ class TracedEpisode:
             time. A timestep without an action is a wait.
         answers: What each human wanted; a method that infers the goal must not read it.
         study: The name of the study.
+        version: The version of the benchmark, if the study is one.
         table: The name of its table.
         cell: The cell.
         run: The number of the run.
@@ -97,13 +98,14 @@ class TracedEpisode:
     run: int = 0
     seed: int = 0
     options: Mapping[str, str] = field(default_factory=dict)
+    version: str = ""
 
     def as_json(self) -> dict[str, Any]:
         """Return the episode as the first line of a trace has it."""
         return {
-            "study": self.study, "table": self.table, "cell": list(self.cell), "run": self.run,
-            "seed": self.seed, "options": dict(self.options), "goals": list(self.goals),
-            "timesteps": self.timesteps,
+            "study": self.study, "version": self.version, "table": self.table,
+            "cell": list(self.cell), "run": self.run, "seed": self.seed,
+            "options": dict(self.options), "goals": list(self.goals), "timesteps": self.timesteps,
             "answers": {
                 who: {"goals": list(one.goals), "turns": list(one.turns)}
                 for who, one in self.answers.items()
@@ -198,7 +200,7 @@ def _episode(table: Mapping[str, Any]) -> TracedEpisode:
     return TracedEpisode(
         tuple(map(str, table["goals"])), table["timesteps"], answers, str(table["study"]),
         str(table["table"]), tuple(map(str, table["cell"])), table["run"], table["seed"],
-        {str(key): str(value) for key, value in table["options"].items()},
+        {str(key): str(value) for key, value in table["options"].items()}, str(table["version"]),
     )  # fmt: skip
 
 

@@ -117,7 +117,7 @@ class Study:
     combination counts once in a standard error: means over its rows are taken first, and those that
     share a value of a column are not taken as independent; without it every row counts. ``renamed``
     holds, by key column or option, the names of earlier versions with the present ones: they still
-    work in options, and in rows that were written before.
+    work in options, and in rows that were written before. ``version`` is that of a benchmark.
     """
 
     name: str
@@ -134,6 +134,7 @@ class Study:
     is_ready: Callable[[Cell], bool] = lambda cell: True
     unit: tuple[str, ...] = ()
     renamed: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
+    version: str = ""
 
     def present_name(self, key: str, value: str) -> str:
         """Return a value of a key column or an option by the names of this version."""
@@ -202,6 +203,7 @@ STUDIES: ObjectRegistry[Study] = ObjectRegistry(
         "changed-mind": "hrcplan.studies.changed_mind:STUDY",
         "participants": "hrcplan.studies.participants:STUDY",
         "collaboration": "hrcplan.studies.collaboration:STUDY",
+        "switch": "hrcplan.studies.switch:STUDY",
     },
     "hrcplan.studies",
     Study,

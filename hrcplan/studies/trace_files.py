@@ -84,7 +84,7 @@ class TraceFiles:
             if value != self.study.options.get(key) and key not in SELECTIONS
         }  # fmt: skip
         named = replace(
-            trace.episode, study=self.study.name, table=episode.table,
+            trace.episode, study=self.study.name, version=self.study.version, table=episode.table,
             cell=tuple(map(str, episode.cell)), run=episode.run, seed=seed, options=own,
         )  # fmt: skip
         return replace(trace, episode=named).text()

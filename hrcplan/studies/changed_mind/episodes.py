@@ -8,12 +8,14 @@ from functools import lru_cache
 from statistics import fmean
 from typing import Any
 
+from hrcplan.assistance import Assistant
 from hrcplan.bank import Bank
-from hrcplan.episodes.episode import REACHED, STUCK, UNFINISHED, EpisodeRecord, play
+from hrcplan.episodes.episode import REACHED, STUCK, UNFINISHED, EpisodeRecord, EpisodeTurn, play
 from hrcplan.episodes.humans import Course
 from hrcplan.episodes.measures import changes, guesses, mistakes, n_wasted, waits
 from hrcplan.episodes.own_goals import play_own_goals
 from hrcplan.episodes.traces import BeliefLog, Beliefs, trace_of_episode
+from hrcplan.inference.belief import BeliefState
 from hrcplan.inference.traces import ActionTrace
 from hrcplan.studies.changed_mind import scenario
 from hrcplan.studies.study import Cell, CellValue, Seed, StudyOptions, StudyRow
@@ -138,9 +140,34 @@ def _play(
         )
         return play_own_goals(bank, humans, helper, courses, world, own_log.watch)
     (course,) = courses.values()
-    human, robot = scenario.human(name, bank, course, options), scenario.robot(method, *task)
+    return play_shared(options, name, scenario.robot(method, *task), course, beliefs)
+
+
+def play_shared(
+    options: StudyOptions, name: str, robot: Assistant[Any], course: Course,
+    beliefs: Beliefs | None = None, see: Callable[[EpisodeTurn], None] | None = None,
+) -> EpisodeRecord:  # fmt: skip
+    """Return the record of an episode of humans who share their goal, with any robot.
+
+    Args:
+        options: The options of the study.
+        name: The human.
+        robot: The robot.
+        course: What is wanted and when.
+        beliefs: What the robot believes is added to it; None to note nothing.
+        see: Is called with every turn.
+    """
+    task = scenario.task_of(options, name)
+    bank, world = scenario.bank_of(*task), scenario.world(options["world"], *task)
+    human = scenario.human(name, bank, course, options)
     log: BeliefLog[Any] = BeliefLog(lambda state, turn: robot.posterior(state), beliefs)
-    return play(bank, human, robot, course, world, log.watch)
+
+    def watch(turn: EpisodeTurn, state: BeliefState) -> None:
+        log.watch(turn, state)
+        if see is not None:
+            see(turn)
+
+    return play(bank, human, robot, course, world, watch)
 
 
 @lru_cache(maxsize=64)

@@ -39,6 +39,8 @@ from hrcplan.studies.study import Cell, Say, Seed, StudyOptions
 HERE = Path(__file__).parent
 MAIN = "rows"
 
+MANY_TASKS, MANY_ROBOTS = 8, 128
+"""How many tasks and robots are remembered: a process plays episodes of all of them in turn."""
 ROW_FORMAT = 2
 """It changes when episodes get other columns or values: rows of two formats are not mixed."""
 
@@ -120,13 +122,13 @@ def check(options: StudyOptions) -> None:
 # Parts.
 
 
-@lru_cache(maxsize=4)
+@lru_cache(maxsize=MANY_TASKS)
 def goals_of(domain: str, goals: str) -> Goals:
     """Return the goals of a domain, from a folder or as shipped."""
     return read_goals(domain, goals or None)
 
 
-@lru_cache(maxsize=4)
+@lru_cache(maxsize=MANY_TASKS)
 def bank_of(domain: str, goals: str, quality: str = "", alternatives: str = "") -> Bank:
     """Return the bank of all optimal plans, or of those up to a multiple of the optimum.
 
@@ -182,7 +184,7 @@ def human(name: str, bank: Bank, course: Course, options: StudyOptions) -> Episo
     return follower
 
 
-@lru_cache(maxsize=32)
+@lru_cache(maxsize=MANY_ROBOTS)
 def robot(name: str, domain: str, goals: str, *multiples: str) -> Assistant[Any]:
     """Return an assistant: one of the study's methods, or a part of that name."""
     bank = bank_of(domain, goals, *multiples)
@@ -275,7 +277,7 @@ def needs_forest(method: str) -> bool:
     return needs_training(ASSISTANTS.find(changes.get("part", method)))
 
 
-@lru_cache(maxsize=4)
+@lru_cache(maxsize=MANY_TASKS)
 def world(name: str, domain: str, goals: str, *multiples: str) -> TurnWorld:
     """Return the world of the episodes; each episode resets it."""
     made_world: TurnWorld = WORLDS.find(name)(bank_of(domain, goals, *multiples))
