@@ -34,7 +34,7 @@ SETTING = (
 PROFILE = "PROFILE: hrcplan, replan-always, or another one that `execute` knows."
 ROBOTS = (
     "METHOD: rhp (of the changed-mind paper), recursive, recursive-best, cdp, infogain, hrcplan, "
-    "oracle, or module:Class of your own robot."
+    "oracle, or your own robot: module:Class, or 'cmd:PROGRAM' (a program in any language)."
 )
 JOINT_ROBOTS = (
     "Robots that weigh goal and agent state: joint (it may ask you what you want), "

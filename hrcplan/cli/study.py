@@ -27,8 +27,8 @@ command.add_command(trials.collect_command)
     "run",
     epilog=options.notes(
         "Q: a factor of at least 1, as in 1.2.",
-        "NAME: failure-anticipation, changed-mind, collaboration, or module:NAME of your own "
-        "study.",
+        "NAME: failure-anticipation, changed-mind, collaboration, switch (the benchmark "
+        "hrcplan-switch), or module:NAME of your own study.",
         "DOMAIN, PROBLEM: paths, or the names of shipped files.",
         options.GOALS,
         options.ROBOTS,
@@ -43,7 +43,7 @@ command.add_command(trials.collect_command)
     type=click.IntRange(1, 1_000_000),
     metavar="N",
     help="Runs per cell; by default 1000 (failure-anticipation), 3 per ordered pair of "
-    "goals (changed-mind), or 500 (collaboration).",
+    "goals (changed-mind), 500 (collaboration), or 10 (switch).",
 )
 @options.seed("Random seed: everything random is derived from it.", least=None)
 @click.option(
@@ -72,7 +72,7 @@ command.add_command(trials.collect_command)
     metavar="PROBLEM",
     help="The problem; by default that of the paper. Only failure-anticipation.",
 )
-@click.option("--goals", metavar="GOALS", help="The goals. Not failure-anticipation.")
+@click.option("--goals", metavar="GOALS", help="The goals. Only changed-mind and collaboration.")
 @click.option(
     "--quality",
     metavar="Q",
@@ -91,14 +91,14 @@ command.add_command(trials.collect_command)
     multiple=True,
     metavar="METHOD",
     help="Run this method only; repeatable. A module:Class alone is added to the "
-    "study's methods. Not failure-anticipation.",
+    "methods of changed-mind. Not failure-anticipation.",
 )
 @click.option(
     "--human",
     "humans",
     multiple=True,
     metavar="HUMAN",
-    help="Run this human only; repeatable. Not failure-anticipation.",
+    help="Run this human only; repeatable. Only changed-mind and collaboration.",
 )
 @click.option(
     "--table",
@@ -111,7 +111,7 @@ command.add_command(trials.collect_command)
     "--chooser",
     metavar="NAME",
     help="How humans choose steps, such as frontier, habit or module:Class. "
-    "Not failure-anticipation.",
+    "Only changed-mind and collaboration.",
 )
 @click.option(
     "--pace",

@@ -16,7 +16,7 @@ from hrcplan.inference.classifier.training import training_time
 from hrcplan.inference.registry import METHODS, takes_goals
 from hrcplan.studies.changed_mind import scenario
 from hrcplan.studies.study import Cell, Say, StudyOptions
-from hrcplan.studies.switch.tasks import bank_of, definition, options_of, task_names
+from hrcplan.studies.switch.tasks import bank_of, definition, files_of, task_names
 from hrcplan.studies.switch.watcher import Watcher
 
 ASSISTANCE, INFERENCE = "assistance", "inference"
@@ -78,8 +78,7 @@ def check(options: StudyOptions) -> None:
 
 def robot(task: str, method: str) -> Assistant[Any]:
     """Return a method as a robot that helps in a task."""
-    options = options_of(task)
-    return scenario.robot(method, options["domain"], options["goals"])
+    return scenario.robot(method, *files_of(task))
 
 
 def watcher(task: str, method: str) -> Assistant[Any]:

@@ -10,6 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from hrcplan.bank import Bank, Goals, read_goals
+from hrcplan.bank.team_moves import TeamMoves
+from hrcplan.bank.turn_moves import team_moves
 from hrcplan.bank.variants import vary
 from hrcplan.bank.walked_goals import GoalRules, walked_goals
 from hrcplan.core.files import cache_folder, write_atomically
@@ -80,7 +82,7 @@ def options_of(task: str) -> StudyOptions:
     if not names["domain"]:
         folder = _written(task)
         names = {"domain": str(folder / "domain.pddl"), "goals": str(folder)}
-    return {**scenario.defaults(), **names}
+    return {**scenario.defaults(), **names, "chooser": table["chooser"]}
 
 
 def _written(task: str) -> Path:
@@ -108,7 +110,18 @@ def write_pddl(task: str, folder: Path) -> None:
             write_atomically(path, text)
 
 
+def files_of(task: str) -> tuple[str, str, str, str]:
+    """Return domain, goals and multiples of a task, as the changed-mind study knows its bank by."""
+    return scenario.task_of(options_of(task), definition()["humans"][0])
+
+
+@cache
 def bank_of(task: str) -> Bank:
     """Return the bank of a task, from the cache if it was built before."""
-    options = options_of(task)
-    return scenario.bank_of(options["domain"], options["goals"])
+    bank = scenario.bank_of(*files_of(task))
+    _held_moves.append(team_moves(bank))
+    return bank
+
+
+_held_moves: list[TeamMoves | None] = []
+"""The costs to go of a team are shared as long as one holds them: they serve all episodes."""
