@@ -12,8 +12,10 @@ from click.testing import CliRunner
 from hrcplan.bank import Bank, build_bank
 from hrcplan.bank.store import save
 from hrcplan.cli.main import main
+from hrcplan.studies import run_study
 from tests import schema
 from tests.episodes.test_own_goals import GOALS, LAMPS, ROOMS, TWO
+from tests.studies.test_switch import small_benchmark
 
 ROOT = Path(__file__).resolve().parent.parent
 SECTIONS = schema.sections("json.md")
@@ -70,6 +72,7 @@ COMMANDS = {
         ["study", "report", "{w}/rows"],
         ["study", "report", "{w}/claims"],
     ],
+    "score": [["score", "{w}/traces"], ["score", "{w}/traces/inference/yard/suboptimal/recursive/00000.jsonl"]],
     "study play": [["study", "play", "golden", "--method", "hrcplan", "--why"]],
     "planners": [["planners"]],
     "doctor": [["doctor"]],
@@ -125,7 +128,11 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def written(folder: Path) -> dict[str, list[Any]]:
     """Return what the commands print that write the files of the others."""
     sections = ("execute", "bank build and bank show", "study run")
-    return {section: documents(section, folder) for section in sections}
+    found = {section: documents(section, folder) for section in sections}
+    with small_benchmark(folder):
+        options = {"methods": "recursive"}
+        run_study("switch", folder / "switch", options=options, traces=folder / "traces")
+        return {**found, "score": documents("score", folder)}
 
 
 def documents(section: str, folder: Path) -> list[Any]:

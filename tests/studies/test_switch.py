@@ -2,7 +2,9 @@
 
 import json
 import random
+import shutil
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -23,24 +25,41 @@ from hrcplan.studies.switch.score import score
 OURS = "hrcplan,recursive"
 
 
-@pytest.fixture
-def small(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """The benchmark with one task, two humans and two runs; its instances are the listed ones."""
+@contextmanager
+def small_benchmark(folder: Path) -> Iterator[None]:
+    """Let the benchmark have one task, two humans and two runs; its instances are listed ones."""
     text = tasks.BENCHMARK.read_text("utf-8")
     head, _, rest = text.partition("[tasks.kitchen]")
     head = head.replace("runs = 10", "runs = 2").replace('"fixed", "optimal", ', "")
-    path = tmp_path / "benchmark.toml"
+    path = folder / "benchmark.toml"
     path.write_text(head + rest[rest.index("[tasks.yard]") :])
-    monkeypatch.setattr(tasks, "BENCHMARK", path)
-    tasks.definition.cache_clear()
-    yield
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(tasks, "BENCHMARK", path)
+        tasks.definition.cache_clear()
+        yield
     tasks.definition.cache_clear()
 
 
 @pytest.fixture
-def folder(tmp_path: Path, small: None) -> Path:
-    """A folder with rows and traces of two methods, in both tables."""
-    run_study("switch", tmp_path / "rows", options={"methods": OURS}, traces=tmp_path / "traces")
+def small(tmp_path: Path) -> Iterator[None]:
+    with small_benchmark(tmp_path):
+        yield
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with rows and traces of two methods, in both tables of the small benchmark."""
+    folder = tmp_path_factory.mktemp("switch")
+    with small_benchmark(folder):
+        run_study("switch", folder / "rows", options={"methods": OURS}, traces=folder / "traces")
+    return folder
+
+
+@pytest.fixture
+def folder(tmp_path: Path, whole: Path, small: None) -> Path:
+    """A copy of it, to be damaged."""
+    for name in ("rows", "traces"):
+        shutil.copytree(whole / name, tmp_path / name)
     return tmp_path
 
 
@@ -72,7 +91,7 @@ def test_scores_do_not_depend_on_names_and_places_of_files(folder: Path, tmp_pat
 
 
 def test_two_runs_write_the_same_bytes(folder: Path, tmp_path: Path) -> None:
-    run_study("switch", tmp_path / "r2", options={"methods": OURS}, traces=tmp_path / "t2", jobs=2)
+    run_study("switch", tmp_path / "r2", options={"methods": OURS}, traces=tmp_path / "t2")
     for path in trace_files(folder):
         other = tmp_path / "t2" / path.relative_to(folder / "traces")
         assert path.read_bytes() == other.read_bytes()

@@ -22,7 +22,7 @@ from hrcplan.studies.switch.instances import (
 )
 from hrcplan.studies.switch.methods import INFERENCE
 from hrcplan.studies.switch.replay import replay
-from hrcplan.studies.switch.standings import Standing, by_task_and_human, standings
+from hrcplan.studies.switch.standings import MEASURES, Standing, by_task_and_human, standings
 from hrcplan.studies.switch.tasks import NAME, bank_of, definition, options_of
 from hrcplan.studies.trace_files import SUFFIX
 
@@ -79,11 +79,13 @@ def _standing(one: Standing) -> dict[str, Any]:
     """Return a standing as JSON; an end of an interval is None where it is not known."""
     measures: dict[str, dict[str, float | None]] = {}
     for name, mean in one.means.items():
-        is_known = mean is not None and mean.is_known
+        interval = None
+        if mean is not None and mean.is_known:
+            interval = MEASURES[name].interval(mean)
         measures[name] = {
             "mean": None if mean is None else mean.mean,
-            "low": mean.interval.low if mean is not None and is_known else None,
-            "high": mean.interval.high if mean is not None and is_known else None,
+            "low": None if interval is None else interval.low,
+            "high": None if interval is None else interval.high,
         }
     return {"method": one.method, "n": one.n, "measures": measures}
 
@@ -128,9 +130,9 @@ def score(traces: str | Path) -> ScoredTraces:
 
 
 def _in_order(entries: Sequence[_Entry]) -> list[_Entry]:
-    """Return entries by instance and then by path, so that methods of one instance follow."""
+    """Return entries by instance and then by method, wherever their files are."""
     places = {one: place for place, one in enumerate(all_instances())}
-    return sorted(entries, key=lambda entry: (places[entry.instance], entry.path))
+    return sorted(entries, key=lambda one: (places[one.instance], one.table, one.method))
 
 
 def trace_paths(place: Path) -> list[Path]:
