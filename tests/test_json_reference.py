@@ -72,7 +72,10 @@ COMMANDS = {
         ["study", "report", "{w}/rows"],
         ["study", "report", "{w}/claims"],
     ],
-    "score": [["score", "{w}/traces"], ["score", "{w}/traces/inference/yard/suboptimal/recursive/00000.jsonl"]],
+    "score": [
+        ["score", "{w}/traces"],
+        ["score", "{w}/traces/inference/yard/suboptimal/recursive/00000.jsonl"],
+    ],
     "study play": [["study", "play", "golden", "--method", "hrcplan", "--why"]],
     "planners": [["planners"]],
     "doctor": [["doctor"]],
