@@ -63,8 +63,8 @@ command.add_command(trials.collect_command)
     "--limit",
     type=click.IntRange(1),
     metavar="N",
-    help="Run only the first N episodes of the main table, spread evenly over cells, and at most "
-    "as many of all other tables together.",
+    help="Run only N episodes of all tables together, spread evenly over cells; the main table "
+    "comes first.",
 )
 @click.option("--domain", metavar="DOMAIN", help="The domain; by default those of the study.")
 @click.option(

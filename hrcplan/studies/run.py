@@ -47,8 +47,8 @@ def run_study(
         runs: Runs per cell; by default as many as the study says.
         seed: From which everything random is derived.
         jobs: Worker processes, if there are enough episodes for more than one.
-        limit: Episodes of the study's first table, spread evenly over its cells, and at most as
-            many of all its other tables together.
+        limit: Episodes of all tables together, spread evenly over cells: one run of every cell of
+            the first table, then half of them of that table and half of all others.
         options: The study's own options; None values stand for its defaults.
         tables: The only tables that are run; all by default.
         traces: A folder to which a trace of each episode is written, too; episodes that have a row

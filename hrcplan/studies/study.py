@@ -6,7 +6,7 @@ A study names its cells and says how one episode is run; it knows nothing of fil
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import islice
 from pathlib import Path
@@ -226,20 +226,38 @@ def episodes(
     """Yield the episodes of a study in their fixed order.
 
     Those of the first table come run by run, each over all cells; those of the other tables follow,
-    also run by run. ``limit`` cuts the first table after that many, and all other tables together
-    after as many again; these get no more runs than the first table completes, but at least one. A
-    larger limit extends a smaller one. ``tables`` names the only tables that are run; then the
-    first of them comes first.
+    also run by run. ``limit`` bounds the episodes of all tables together; a larger one extends a
+    smaller one. ``tables`` names the only tables that are run; then the first of them comes first.
 
     Raises:
         UsageError: if the study has no table of that name.
     """
     first, *others = _named(study, tables)
-    cells = first.cells(options)
-    yield from islice(_by_run([first], options, runs), limit)
-    if limit is not None and cells:
-        runs = min(runs, max(1, limit // len(cells)))
-    yield from islice(_by_run(others, options, runs), limit)
+    main: Iterable[Episode] = _by_run([first], options, runs)
+    rest: Iterable[Episode] = _by_run(others, options, runs)
+    if limit is not None:
+        main, rest = _shares(list(islice(main, limit)), list(islice(rest, limit)), limit)
+    yield from main
+    yield from rest
+
+
+def _shares(
+    main: Sequence[Episode], rest: Sequence[Episode], limit: int
+) -> tuple[Sequence[Episode], Sequence[Episode]]:
+    """Return the first episodes of the main table and of all others, ``limit`` of them together.
+
+    The first run of the main table comes first. After it both get one in turn, but the others never
+    begin a run that the main table has not completed.
+    """
+    n_cells = sum(episode.run == 0 for episode in main)
+    n_main = n_rest = 0
+    while n_main + n_rest < min(limit, len(main) + len(rest)):
+        has_turn = n_rest < len(rest) and n_rest <= n_main - n_cells
+        if n_main == len(main) or (has_turn and (rest[n_rest].run + 1) * n_cells <= n_main):
+            n_rest += 1
+        else:
+            n_main += 1
+    return main[:n_main], rest[:n_rest]
 
 
 def _named(study: Study, names: Sequence[str]) -> list[StudyTable]:

@@ -101,7 +101,7 @@ def test_a_report_names_the_task_and_judges_the_claim(
     options: StudyOptions, tmp_path: Path
 ) -> None:
     choice = {**options, "methods": ",".join(ROBOTS)}
-    assert run_study("collaboration", tmp_path, limit=6, options=choice) == 12
+    assert run_study("collaboration", tmp_path, limit=6, options=choice) == 6
     assert run_study("collaboration", tmp_path, limit=6, options=choice) == 0
     report = report_study(tmp_path)
     assert [row["cell"]["method"] for row in report["rows"]] == list(ROBOTS)

@@ -62,10 +62,11 @@ def test_another_seed_gives_other_rows(tmp_path: Path) -> None:
 def test_a_limit_is_spread_evenly_and_a_larger_one_extends_it(tmp_path: Path) -> None:
     study = find(NAME)
     n_cells = len(study.tables[0].cells(TASK))
-    small, large = n_cells + 5, 2 * n_cells + 1
+    small, large = n_cells + 10, 2 * n_cells + 1
     run(tmp_path / "grown", runs=9, limit=small)
     before = rows(tmp_path / "grown")
-    assert len(before["rows"]) == small
+    assert sum(map(len, before.values())) == small
+    assert len(before["rows"]) == n_cells + 5
     per_cell = [
         sum(row[:2] == cell for row in before["rows"]) for cell in study.tables[0].cells(TASK)
     ]
@@ -73,7 +74,7 @@ def test_a_limit_is_spread_evenly_and_a_larger_one_extends_it(tmp_path: Path) ->
     run(tmp_path / "grown", runs=9, limit=large)
     run(tmp_path / "at-once", runs=9, limit=large)
     after = rows(tmp_path / "grown")
-    assert len(after["rows"]) == large
+    assert sum(map(len, after.values())) == large
     assert all(set(before[name]) <= set(after[name]) for name in TABLES)
     assert after == rows(tmp_path / "at-once")
 
@@ -307,17 +308,33 @@ def test_a_failing_episode_is_named_and_the_rows_before_it_stay(
 
 
 @pytest.mark.parametrize("name", ["changed-mind", "failure-anticipation"])
-def test_a_limit_bounds_all_tables(name: str) -> None:
+def test_a_limit_bounds_all_tables_together(name: str) -> None:
     """Also sweeps and variants; a larger limit holds all that a smaller one does."""
     study, smaller = find(name), set()
-    main = study.tables[0].name
-    for limit in (1, 8, 40, 300):
+    main, n_cells = study.tables[0].name, len(study.tables[0].cells(study.options))
+    for limit in sorted((1, 8, 40, n_cells, n_cells + 7, 3 * n_cells, 900)):
         wanted = list(episodes(study, study.options, 1000, limit))
-        assert sum(one.table == main for one in wanted) == limit
-        assert sum(one.table != main for one in wanted) <= limit
-        assert len(set(wanted)) == len(wanted)
+        assert len(wanted) == len(set(wanted)) == limit
+        n_main = sum(one.table == main for one in wanted)
+        assert [one.table == main for one in wanted] == [True] * n_main + [False] * (limit - n_main)
+        assert n_main >= min(limit, n_cells + (limit - n_cells) // 2)
+        assert max((one.run for one in wanted[n_main:]), default=0) <= n_main // n_cells
         assert smaller <= set(wanted)
         smaller = set(wanted)
+
+
+def test_a_limit_beyond_all_episodes_is_none() -> None:
+    study = find(NAME)
+    everything = list(episodes(study, TASK, 2))
+    for limit in (len(everything), len(everything) + 1, 10**6):
+        assert list(episodes(study, TASK, 2, limit)) == everything
+    assert set(episodes(study, TASK, 2, len(everything) - 1)) < set(everything)
+
+
+def test_a_limit_of_one_table_is_its_own() -> None:
+    study = find(NAME)
+    wanted = list(episodes(study, TASK, 9, 7, ["variants"]))
+    assert [one.table for one in wanted] == ["variants"] * 7
 
 
 def test_progress_is_told_from_the_start(tmp_path: Path) -> None:
