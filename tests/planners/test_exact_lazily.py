@@ -24,6 +24,7 @@ from hrcplan.plans import Plan
 from hrcplan.task import Task
 from hrcplan.task.ground import ground
 from hrcplan.validation import validate
+from tests.worlds import problem_from
 
 LATER = time.monotonic() + 3600
 
@@ -171,6 +172,46 @@ def test_what_costs_or_is_to_be_done_tells_objects_apart(tmp_path: Path) -> None
     assert len(swaps_of(carriers(tmp_path, goal="(lies b0 shed) (lies b1 shed)"))) == 3 + 2
 
 
+OWNED = (
+    DOMAIN.replace("box room)", "box room cart)")
+    .replace("(idle ?a - agent)", "(idle ?a - agent) (owns ?a - agent ?c - cart) (full ?c - cart)")
+    .replace("take :parameters (?a - agent", "take :parameters (?a - agent ?c - cart")
+    .replace(
+        "(and (at start (idle ?a)) (at start (free", "(and (at start (owns ?a ?c)) (at start (free"
+    )
+    .replace("(at end (has ?a ?b))", "(at end (has ?a ?b)) (at end (full ?c))")
+)
+
+
+def owners(n_agents: int, n_boxes: int) -> Task:
+    """Return a task of agents who put boxes into the carts that they own."""
+    agents, boxes, carts = ([f"{x}{i}" for i in range(n)] for x, n in
+                            (("a", n_agents), ("b", n_boxes), ("c", n_agents)))  # fmt: skip
+    parts = [f"(idle {a}) (in {a} hall) (free {a}) (= (effort {a}) 1)" for a in agents]
+    parts += [f"(owns {a} {cart})" for a, cart in zip(agents, carts, strict=True)]
+    parts += [f"(lies {box} hall)" for box in boxes]
+    names = f"{' '.join(agents)} - agent {' '.join(boxes)} - box {' '.join(carts)} - cart"
+    goal = " ".join(f"(lies {box} shed)" for box in boxes)
+    text = (
+        f"(define (problem p) (:domain carriers) (:objects {names} hall shed - room)"
+        f" (:init {' '.join(parts)} (= (total-cost) 0)) (:goal (and {goal}))"
+        " (:metric minimize (+ (total-cost) (total-time))))"
+    )
+    return Task(problem_from(OWNED, text))
+
+
+def test_agents_are_swapped_with_what_is_theirs() -> None:
+    task = owners(3, 3)
+    swaps = swaps_of(task)
+    assert len(swaps) == 3 + 3
+    names = [
+        set(task.actions[a].args) ^ set(task.actions[image].args)
+        for swap in swaps
+        for a, image in enumerate(swap.actions)
+    ]
+    assert {"a0", "a1", "c0", "c1"} in names
+
+
 def answers(task: Task, monkeypatch: pytest.MonkeyPatch, quick: int) -> Answer:
     monkeypatch.setattr(proof, "QUICK", quick)
     return ExactPlanner().replan(task)
@@ -201,6 +242,9 @@ def test_equal_agents_are_not_searched_twice(
     for quick in (1, FAR):
         answers(carriers(tmp_path, n_boxes=3), monkeypatch, quick)
     assert 3 * expanded[-2] < expanded[-1]
+    for quick in (1, FAR):
+        answers(owners(2, 2), monkeypatch, quick)
+    assert 3 * expanded[-2] < 2 * expanded[-1]
 
 
 def test_at_a_limit_the_best_plan_so_far_has_a_bound(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from public_pddl import breaking, judging, racing
+from public_pddl import breaking, comparing, judging, racing
 from public_pddl.archive import Pair, export, pairs
 from public_pddl.reader import READERS
 from public_pddl.reading import (
@@ -50,6 +50,8 @@ def main() -> None:
             judging.report(readable, options.plans, options.seed)
         if options.tasks:
             racing.report(readable, options.tasks, options.seed)
+        if options.qualities:
+            comparing.report(readable, options.qualities, options.seed, options.time)
 
 
 def _totals(table: list[Verdicts]) -> None:
@@ -93,6 +95,9 @@ def _options() -> argparse.Namespace:
     parser.add_argument("--mutants", type=int, default=0, help="broken mutants to refuse")
     parser.add_argument("--plans", type=int, default=0, help="plans to validate beside VAL")
     parser.add_argument("--tasks", type=int, default=0, help="tasks to plan beside planners")
+    words = "tasks whose plans of auto are compared with those of each planner alone"
+    parser.add_argument("--qualities", type=int, default=0, help=words)
+    parser.add_argument("--time", type=float, default=20, help="seconds of auto for one of them")
     return parser.parse_args()
 
 

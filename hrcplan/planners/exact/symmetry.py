@@ -23,6 +23,8 @@ from hrcplan.task import Task
 MAX_SWAPS = 32
 MAX_LOOKS = 200_000
 """Actions that are held against their images, in all: a second at most."""
+MAX_RELATIONS = 1000
+"""Facts that never change and that are looked at: who owns which tool, for example."""
 _MAX_TRIES = 200
 
 _Mapping = Mapping[str, str]
@@ -86,10 +88,11 @@ def symmetries(
         return ()  # where steps cost nothing, the first of the best plans could be left out
     images = _Images(task, frame, weights, deadline)
     swaps: dict[Swap, None] = {}
+    relations = _relations(task)
     for one, other in _pairs(task):
         if len(swaps) >= MAX_SWAPS or images.n_looks > MAX_LOOKS:
             break
-        for mapping in _mappings(task, {one: other, other: one}):
+        for mapping in _mappings(task, relations, {one: other, other: one}):
             swap = images.swap(mapping)
             if swap is not None:
                 swaps[swap] = None
@@ -122,13 +125,25 @@ def _image(fact: Fact, mapping: _Mapping) -> Fact:
     return (fact[0], *[mapping.get(name, name) for name in fact[1:]])
 
 
-def _mappings(task: Task, mapping: _Mapping) -> Iterator[_Mapping]:
-    """Yield extensions of a mapping that turn a goal of one alternative into itself."""
-    if len(task.goal) != 1:
-        return iter((mapping,))
-    mask, value = task.goal[0]
-    goal = [_Literal(value >> i & 1, task.facts[i]) for i in positions(mask)]
-    return _extensions(goal, frozenset(goal), mapping, count())
+def _mappings(task: Task, relations: Sequence[_Literal], mapping: _Mapping) -> Iterator[_Mapping]:
+    """Yield extensions of a mapping that turn a goal of one alternative into itself.
+
+    Then those that also turn the relations that never change into themselves.
+    """
+    goal = list[_Literal]()
+    if len(task.goal) == 1:
+        mask, value = task.goal[0]
+        goal = [_Literal(value >> i & 1, task.facts[i]) for i in positions(mask)]
+    yield from _extensions(goal, frozenset(goal), mapping, count())
+    if relations:
+        both = [*goal, *relations]
+        yield from _extensions(both, frozenset(both), mapping, count())
+
+
+def _relations(task: Task) -> list[_Literal]:
+    """Return the facts about several objects that no action changes, unless they are many."""
+    facts = [fact for fact in task.problem.facts if len(fact) > 2 and fact not in task.bits]
+    return [_Literal(1, fact) for fact in sorted(facts)] if len(facts) <= MAX_RELATIONS else []
 
 
 def _extensions(
