@@ -1,6 +1,6 @@
 """How robots do in the team domains of tests/data/teams, beside the targets that are written there.
 
-    .venv/bin/python tools/bench_teams.py [N_COURSES [CHOOSER,CHOOSER... [ROBOT,ROBOT...]]]
+    .venv/bin/python tools/bench_teams.py [N_COURSES [CHOOSER,... [ROBOT,... [DOMAIN,...]]]]
 
 Courses are those of the seeds in targets.toml, so the first N are the same in every run. The
 forest of `rhp`, `cdp` and `infogain` is trained once for each domain, in minutes.
@@ -56,12 +56,14 @@ def row(records: list[EpisodeRecord], oracle: list[EpisodeRecord]) -> str:
     )
 
 
-def main(n: int | None, choosers: list[str] | None, names: list[str]) -> None:
+def main(
+    n: int | None, choosers: list[str] | None, names: list[str], domains: list[str] | None
+) -> None:
     """Print a table for every domain."""
     spec: dict[str, Any] = tomllib.loads((FOLDER / "targets.toml").read_text("utf-8"))
     first, last = spec["seeds"]
     seeds = range(first, last + 1)[:n]
-    for name in spec["domains"]:
+    for name in domains or spec["domains"]:
         began = time.monotonic()
         bank = build_bank(str(FOLDER / name / "domain.pddl"), str(FOLDER / name))
         costs = cost_to_go_of(bank)  # kept while it is in use
@@ -87,4 +89,5 @@ if __name__ == "__main__":
         int(words[0]) if words else None,
         words[1].split(",") if len(words) > 1 else None,
         words[2].split(",") if len(words) > 2 else list(ROBOTS),
+        words[3].split(",") if len(words) > 3 else None,
     )

@@ -111,19 +111,23 @@ class AdaptiveBelief(FilterBelief[PairedState]):
         )
         super().__init__(ProgressTracker(bank), filters)
         self.rates = np.array(list(mistake_rates))[:, None]
+        self._rate_of_kind, self._others = (
+            self.rates.repeat(len(choosers), axis=0),
+            1 - self.rates[:, :, None],
+        )
+        self._shares = 1 / np.maximum(1, np.arange(bank.table.n_labels + 1))
         self.preferences = StepPreferences(self.tracker.combined_graph, list(choosers))
 
     def likelihood(self, progress: Progress, step: int | None, evidence: Evidence) -> Floats:
         """Return the likelihood of a step by kind of human (rate, then chooser) and goal."""
-        goals, n_choosers = evidence.goals, len(self.preferences.choosers)
         odd = (
-            1 / np.maximum(1, evidence.n_doable - evidence.n_next)
+            self._shares.take(evidence.n_doable - evidence.n_next, mode="clip")
             if evidence.log_odds is None
             else np.maximum(np.exp(evidence.log_odds), _UNLIKELY)
         )
-        likelihood: Floats = (self.rates * odd).repeat(n_choosers, axis=0)
-        if len(goals):
+        likelihood: Floats = self._rate_of_kind * odd
+        if len(evidence.goals):
             chances = self.preferences.of(step, progress, evidence)
-            by_kind = (1 - self.rates)[:, :, None] * chances
-            likelihood[:, goals] = by_kind.reshape(len(likelihood), -1)
+            by_kind = self._others * chances
+            likelihood[:, evidence.goals] = by_kind.reshape(len(likelihood), -1)
         return likelihood

@@ -11,7 +11,7 @@ from hrcplan.core.arrays import Floats
 from hrcplan.inference.changes import DECLARED, ChangeFilter
 
 _TINY = 1e-300
-_DECLARING, _NO_CHANGE = slice(2, 4), slice(4, 6)  # layers; those for acting are the first two
+_ACTING, _DECLARING, _NO_CHANGE = slice(0, 2), slice(2, 4), slice(4, 6)  # layers
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,13 +52,16 @@ class PairedFilters:
         layers = before.layers
         if before.likelihood is not None:
             same, others = self._transitions
-            moving = others @ layers.dot(self._ones[: layers.shape[2]])
-            layers = (same @ layers.reshape(len(same), -1)).reshape(layers.shape)
+            moving = others.dot(layers.dot(self._ones[: layers.shape[2]]))
+            layers = same.dot(layers.reshape(len(same), -1)).reshape(layers.shape)
             layers += moving[:, :, None]
-        layers = layers * likelihood
+            layers *= likelihood
+        else:
+            layers = layers * likelihood
         sums = layers.reshape(len(layers), -1).dot(self._ones).tolist()
         acting, declaring = max(sums[0] + sums[1], _TINY), max(sums[2] + sums[3], _TINY)
-        layers *= np.array([1 / acting] * 2 + [1 / declaring] * 4)[:, None, None]
+        layers[_ACTING] *= 1 / acting
+        layers[_DECLARING.start :] *= 1 / declaring
         is_declared = 1 - (sums[4] + sums[5]) / declaring > DECLARED
         if is_declared:
             layers[_NO_CHANGE] = layers[_DECLARING]
@@ -69,7 +72,8 @@ class PairedFilters:
         layers = before.layers * goals
         sums = layers.sum(axis=(1, 2)).tolist()
         acting, declaring = max(sums[0] + sums[1], _TINY), max(sums[2] + sums[3], _TINY)
-        layers *= np.array([1 / acting] * 2 + [1 / declaring] * 4)[:, None, None]
+        layers[_ACTING] *= 1 / acting
+        layers[_DECLARING.start :] *= 1 / declaring
         return replace(before, layers=layers)
 
     @cached_property
