@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 __version__ = "0.2.0"
 
 if TYPE_CHECKING:
+    from hrcplan import environments as environments
     from hrcplan import planners as planners
     from hrcplan.assistance import ASSISTANTS as assistants  # noqa: N811
     from hrcplan.assistance import Assistant, BeliefAssistant, StepChoice
@@ -109,6 +110,7 @@ __all__ = [
     "beliefs",
     "build_bank",
     "collaborate",
+    "environments",
     "event_worlds",
     "execute",
     "from_up",
@@ -132,6 +134,7 @@ _HOMES = {
     "hrcplan.assistance": ("Assistant", "BeliefAssistant", "StepChoice", "assistants=ASSISTANTS"),
     "hrcplan.bank": ("Bank", "build_bank", "load_bank=load"),
     "hrcplan.collaboration.collaborate": ("collaborate",),
+    "hrcplan.environments": ("environments=",),
     "hrcplan.episodes.episode": ("TurnWorld", "play"),
     "hrcplan.episodes.humans": ("Course", "EpisodeHuman", "humans=HUMANS"),
     "hrcplan.errors": (

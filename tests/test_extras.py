@@ -15,25 +15,33 @@ from hrcplan.errors import UsageError
 ROOT = Path(__file__).parents[1]
 EXTRAS = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 
-# What runs the command line in an interpreter in which the modules of all extras are absent.
-RUN = f"""
+# Makes the modules of some extras absent from an interpreter.
+ABSENT = """
 import sys
+absent = {absent!r}
 class Absent:
     def find_spec(self, name, path=None, target=None):
-        if name.partition(".")[0] in {sorted(EXTRA_OF)!r}:
+        if name.partition(".")[0] in absent:
             raise ModuleNotFoundError(f"No module named {{name!r}}", name=name)
 sys.meta_path.insert(0, Absent())
 import importlib.util as util
 real = util.find_spec
 util.find_spec = lambda name, package=None: (
-    None if name.partition(".")[0] in {sorted(EXTRA_OF)!r} else real(name, package))
-from hrcplan.__main__ import run
-run()
+    None if name.partition(".")[0] in absent else real(name, package))
 """
+RUN = "from hrcplan.__main__ import run\nrun()\n"
+
+
+def without(absent: list[str], script: str) -> str:
+    """Return what a script prints where modules are not installed."""
+    command = [sys.executable, "-c", ABSENT.format(absent=absent) + script]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
 
 
 def core(*words: str, cwd: Path) -> "subprocess.CompletedProcess[str]":
-    command = [sys.executable, "-c", RUN, *words]
+    command = [sys.executable, "-c", ABSENT.format(absent=sorted(EXTRA_OF)) + RUN, *words]
     env = {"PATH": "/nowhere", "HOME": str(cwd), "HRCPLAN_CACHE": str(cwd / "cache")}
     return subprocess.run(command, cwd=cwd, env=env, capture_output=True, text=True, timeout=120)
 

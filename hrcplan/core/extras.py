@@ -16,6 +16,8 @@ EXTRA_OF = {
     "distributed": ("distributed", "cluster"),
     "mcp": ("mcp", "mcp"),
     "pygls": ("pygls", "lsp"),
+    "gymnasium": ("gymnasium", "gym"),
+    "pettingzoo": ("pettingzoo", "gym"),
     "pddlgym": ("pddlgym", "pddlgym"),
     "joblib": ("joblib", "studies"),
     "sklearn": ("scikit-learn", "studies"),

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Container
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Protocol, SupportsIndex, runtime_checkable
 
 import numpy as np
@@ -53,14 +54,14 @@ class SimulatedTurns:
         return self._task.successor(state, action)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Mover:
     """Who acts in a turn: an agent, or any of several agents where steps do not say who."""
 
     agents: frozenset[str]
     is_human: bool
 
-    @property
+    @cached_property
     def name(self) -> str:
         """The agents' names, with + between."""
         return "+".join(sorted(self.agents))
@@ -186,7 +187,7 @@ class EpisodeTurns:
 
     def _ending(self) -> str | None:
         """Return how the episode has ended before a round; None if it goes on."""
-        if self._is_over():
+        if self.round <= self._last_change and self._is_over():  # else it was seen after the turn
             return REACHED
         if self.round > self._last_change and self._is_stuck():
             return STUCK
