@@ -49,7 +49,7 @@ class Arcs:
         """
         of_kind = self._weights_of_kinds(weights)
         if self._n_states < len(self._graph.states):
-            self._collect()
+            self._collect(deadline)
         sets, arcs = self._sets, self._arcs
         steps = [of_kind[kind] for kind in self._kinds_of_sets]  # FAR once a set was looked at
         least = [FAR] * len(self._graph.states)
@@ -91,11 +91,16 @@ class Arcs:
             return [weight for _, weight in split]
         return [of_kind[k] for k in range(len(of_kind))]
 
-    def _collect(self) -> None:
-        """Collect the sets of predecessors of every state."""
+    def _collect(self, deadline: float) -> None:
+        """Collect the sets of predecessors of every state.
+
+        Raises:
+            LimitError: at the deadline.
+        """
         n_states = len(self._graph.states)
         by_target: list[dict[int, list[int]]] = [{} for _ in range(n_states)]
         for source in range(n_states):
+            check_time(deadline, "while collecting what reaches each state")
             edges = iter(self._graph.edges(self._task, source))
             for action, target in zip(edges, edges, strict=True):
                 by_target[target].setdefault(self._kinds[action], []).append(source)
