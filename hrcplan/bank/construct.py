@@ -138,14 +138,15 @@ def assemble(
     for sources, _, targets in reversed(space.edges):
         alive[sources[alive[targets]]] = True
     before = np.concatenate([[0], np.cumsum(alive)])
-    ids = before[:-1]
-    parts = [
-        (ids[sources[keep]], steps[keep], ids[targets[keep]])
-        for sources, steps, targets in space.edges
-        for keep in [alive[sources] & alive[targets]]
-    ]
+    edges = space.edges
+    if not alive.all():
+        edges = tuple(
+            (before[sources[keep]], steps[keep], before[targets[keep]])
+            for sources, steps, targets in edges
+            for keep in [np.flatnonzero(alive[sources] & alive[targets])]
+        )
     layers = tuple((table.in_units(cost), int(before[first])) for cost, first in space.layers)
-    sources, steps, targets = (np.concatenate([part[i] for part in parts]) for i in range(3))
+    sources, steps, targets = (np.concatenate([part[i] for part in edges]) for i in range(3))
     return PlanGraph(
         name, packing, space.states[alive], _nonempty(layers, int(alive.sum())),
         *by_source(sources, steps, targets, int(alive.sum())), space.is_goal[alive],
@@ -169,8 +170,10 @@ def by_source(
         sources, steps, targets = sources[order], steps[order], targets[order]
     once = np.ones(len(sources), dtype=np.bool_)
     once[1:] = (sources[1:] != sources[:-1]) | (steps[1:] != steps[:-1])
-    first = np.searchsorted(sources[once], np.arange(n_nodes + 1))
-    return first, steps[once], targets[once].astype(np.int32)
+    if not once.all():
+        sources, steps, targets = sources[once], steps[once], targets[once]
+    first = np.concatenate([[0], np.cumsum(np.bincount(sources, minlength=n_nodes))])
+    return first, steps, targets.astype(np.int32)
 
 
 def merge_equivalent_nodes(graph: PlanGraph, table: StepTable, goal: Tests) -> PlanGraph:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hrcplan.core.arrays import Bools, Ids, Words
+from hrcplan.search.packed_states import any_word
 
 SALT = np.uint64(0x9E3779B97F4A7C15)
 
@@ -21,8 +22,10 @@ class SeenStates:
         while self._tables and len(self._tables[-1][0]) <= 2 * len(hashes):
             more, rows = self._tables.pop()
             hashes, states = np.concatenate([more, hashes]), np.concatenate([rows, states])
-        order = np.argsort(hashes)
-        self._tables.append((hashes[order], states[order]))
+        if (hashes[1:] < hashes[:-1]).any():
+            order = np.argsort(hashes)
+            hashes, states = hashes.take(order), states.take(order, axis=0)
+        self._tables.append((hashes, states))
 
     def contains(self, states: Words) -> Bools:
         """Return for each row whether it was taken in."""
@@ -33,7 +36,7 @@ class SeenStates:
             open_ = np.flatnonzero(place < len(table))
             while len(open_):  # goes on only where different states share a hash
                 open_ = open_[table[place[open_]] == hashes[open_]]
-                same = (rows[place[open_]] == states[open_]).all(axis=1)
+                same = ~any_word(rows[place[open_]] != states[open_])
                 is_member[open_[same]] = True
                 open_ = open_[~same]
                 place[open_] += 1
@@ -56,9 +59,9 @@ def group_rows(rows: Words) -> tuple[Words, Ids, Ids, Ids]:
     """
     single = rows.shape[1] == 1
     order = np.argsort(rows[:, 0]) if single else np.lexsort(rows.T[::-1])
-    in_order = rows[order]
+    in_order = rows.take(order, axis=0)
     first = np.ones(len(rows), dtype=np.bool_)
-    first[1:] = (in_order[1:] != in_order[:-1]).any(axis=1)
+    first[1:] = any_word(in_order[1:] != in_order[:-1])
     which = np.empty(len(rows), dtype=np.int64)
     which[order] = np.cumsum(first) - 1
     return in_order[first], which, order, np.flatnonzero(first)

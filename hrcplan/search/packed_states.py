@@ -5,7 +5,7 @@ A state is a row of 64-bit words that hold only the facts that matter.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -19,6 +19,7 @@ from hrcplan.task.transitions import Effects
 
 WORD = 64
 PAIRS = 1 << 20  # rows times steps that are looked at together
+BLOCK = 1 << 16  # of these, whose conditions are: they stay in the cache
 _LOW = (1 << WORD) - 1
 
 
@@ -77,6 +78,11 @@ class FactPacking:
         return [int.from_bytes(raw[i : i + n_bytes], "little") for i in range(0, len(raw), n_bytes)]
 
 
+def any_word(words: Bools) -> Bools:
+    """Return for each row whether any of its words, the last axis, is true."""
+    return np.asarray(words[..., 0] if words.shape[-1] == 1 else words.any(axis=-1))
+
+
 class PackedRules:
     """Ops over packed states; ``expand`` applies all of them to all rows.
 
@@ -88,6 +94,7 @@ class PackedRules:
     def __init__(self, ops: Sequence[Operator], packing: FactPacking) -> None:
         self.ops = tuple(ops)
         self.packing = packing
+        self._packed_tests: dict[Tests, list[tuple[Words, Words]]] = {}
         rules = {i: rule for i, op in enumerate(ops) if (rule := op.simple_rule) is not None}
         self._simple = np.array(list(rules), dtype=np.int32)
         self._complex = [i for i in range(len(ops)) if i not in rules]
@@ -95,44 +102,84 @@ class PackedRules:
         self._values = packing.rows([rule.value for rule in rules.values()])
         self._adds = packing.rows([rule.adds for rule in rules.values()])
         self._keeps = ~packing.rows([rule.writes for rule in rules.values()])
+        deletes = ~self._keeps & ~self._adds
+        changes = self._values & deletes | self._masks & ~self._values & self._adds
+        self._doubtful = np.flatnonzero(~any_word(changes != 0))
+        """Rules whose condition does not say that they change the state."""
 
-    def expand(self, states: Words) -> Iterator[tuple[Ids, SmallIds, Words]]:
-        """Yield (row, op, successor) arrays for all changes that can be made to ``states``."""
+    def expand(
+        self, states: Words, admits: Callable[[Ids, SmallIds], Bools] | None = None
+    ) -> Iterator[tuple[Ids, SmallIds, Words]]:
+        """Yield (row, op, successor) arrays for all changes that can be made to ``states``.
+
+        Args:
+            states: The states.
+            admits: Says which changes are wanted, from their rows and ops; all if not given.
+        """
         chunk = max(1, PAIRS // max(1, len(self._simple)))
         for begin in range(0, len(states), chunk):
-            part = states[begin : begin + chunk]
-            rows, ops, after = self._expand_simple(part)
-            yield rows + begin, ops, after
+            rows, rules = self._changing(states[begin : begin + chunk])
+            rows, ops = rows + begin, self._simple.take(rules)
+            if admits is not None:
+                wanted = np.flatnonzero(admits(rows, ops))
+                rows, rules, ops = rows.take(wanted), rules.take(wanted), ops.take(wanted)
+            yield rows, ops, self._after(states, rows, rules)
         for i in self._complex:
-            yield self._expand_complex(states, i)
+            rows, ops, after = self._expand_complex(states, i)
+            if admits is not None:
+                wanted = np.flatnonzero(admits(rows, ops))
+                rows, ops, after = rows[wanted], ops[wanted], after[wanted]
+            yield rows, ops, after
 
-    def _expand_simple(self, states: Words) -> tuple[Ids, SmallIds, Words]:
-        fits = (states[:, None, 0] & self._masks[None, :, 0]) == self._values[None, :, 0]
+    def _changing(self, states: Words) -> tuple[Ids, Ids]:
+        """Return the pairs of a row and a simple rule that can run and changes the state."""
+        n_rules = len(self._simple)
+        block = max(1, BLOCK // max(1, n_rules))
+        parts = [
+            np.flatnonzero(self._fits(states[begin : begin + block])) + begin * n_rules
+            for begin in range(0, len(states), block)
+        ]
+        pairs = np.concatenate(parts) if len(parts) > 1 else parts[0]
+        rows = pairs // max(1, n_rules)
+        rules = pairs - rows * n_rules
+        return rows, rules
+
+    def _fits(self, states: Words) -> Bools:
+        """Return a matrix of states by rules: whether a rule can run and changes the state."""
+        columns = states.T[:, :, None]
+        fits = (columns[0] & self._masks[:, 0]) == self._values[:, 0]
         for word in range(1, self.packing.n_words):
-            fits &= (states[:, None, word] & self._masks[None, :, word]) == self._values[
-                None, :, word
-            ]
-        rows, rules = np.divmod(np.flatnonzero(fits), max(1, len(self._simple)))
-        before = states[rows]
-        after = before & self._keeps[rules] | self._adds[rules]
-        is_change = (after != before).any(axis=1)
-        return rows[is_change], self._simple[rules[is_change]], after[is_change]
+            fits &= (columns[word] & self._masks[:, word]) == self._values[:, word]
+        doubtful = self._doubtful
+        if doubtful.size:
+            writes, adds = ~self._keeps[doubtful], self._adds[doubtful]
+            fits[:, doubtful] &= any_word((states[:, None] & writes) != adds)
+        return np.asarray(fits)
+
+    def _after(self, states: Words, rows: Ids, rules: Ids) -> Words:
+        after = states.take(rows, axis=0)
+        after &= self._keeps.take(rules, axis=0)
+        after |= self._adds.take(rules, axis=0)
+        return after
 
     def _expand_complex(self, states: Words, index: int) -> tuple[Ids, SmallIds, Words]:
         op = self.ops[index]
         rows = np.flatnonzero(self.meets(states, op.tests))
         before = states[rows]
         after = self._apply(self._apply(before, op.at_start), op.at_end)
-        is_change = (after != before).any(axis=1)
+        is_change = any_word(after != before)
         ops = np.full(int(is_change.sum()), index, dtype=np.int32)
         return rows[is_change], ops, after[is_change]
 
     def meets(self, states: Words, tests: Tests) -> Bools:
         """Return for each row whether any of the tests holds."""
+        if tests not in self._packed_tests:
+            self._packed_tests[tests] = [
+                (self.packing.row(m), self.packing.row(v)) for m, v in tests
+            ]
         holds = np.zeros(len(states), dtype=np.bool_)
-        for mask, value in tests:
-            row = self.packing.row(mask)
-            holds |= ((states & row) == self.packing.row(value)).all(axis=1)
+        for mask, value in self._packed_tests[tests]:
+            holds |= ~any_word((states & mask) != value)
         return holds
 
     def _apply(self, states: Words, effects: Effects) -> Words:

@@ -20,10 +20,10 @@ from hrcplan.bank.enumerated import step_task
 from hrcplan.pddl.generate import with_goal
 from hrcplan.pddl.inputs import read
 from hrcplan.planners import kstar
-from hrcplan.planners.lowering import Lowered, lower
+from hrcplan.planners.lowering import Lowering, lower
 from hrcplan.planners.process import ProcessLimits, run
 
-BUILT_S, BUILT_MB, SAMPLED, OVER = 2.0, 300, 300_000, 10
+BUILT_S, BUILT_MB, SAMPLED, OVER = 0.5, 300, 300_000, 10
 N_ROUNDS, N_SAMPLED = 3, 200_000
 K, SYMK_K = 10_000, 5_000  # SymK takes about 2 ms for each plan, and 2 s to start
 LIMITS = ProcessLimits(120.0, memory_bytes=2 << 30, output_bytes=1 << 28)
@@ -117,11 +117,11 @@ def _ours(bank: Bank) -> None:
     assert bank.graphs[0].plans >= len(set(islice(bank.plans(0), K))) == K
 
 
-def _kstar(lowered: Lowered) -> None:
+def _kstar(lowered: Lowering) -> None:
     assert len(kstar.list_plans(lowered, LIMITS, n=K).plans) == K
 
 
-def _symk(lowered: Lowered) -> None:
+def _symk(lowered: Lowering) -> None:
     """Run SymK as its own front end does; it writes each plan to a file."""
     spec = find_spec("up_symk")
     assert spec is not None
