@@ -94,6 +94,7 @@ def run_study(
         missing = store.missing(study.tables, all_episodes)
         if files is not None:
             missing = files.missing(all_episodes, missing)
+            files.write_pddl(choice)
         n_done = len(all_episodes) - len(missing)
         if progress is not None:
             progress(n_done, len(all_episodes))

@@ -118,6 +118,7 @@ class Study:
     share a value of a column are not taken as independent; without it every row counts. ``renamed``
     holds, by key column or option, the names of earlier versions with the present ones: they still
     work in options, and in rows that were written before. ``version`` is that of a benchmark.
+    ``pddl`` returns the PDDL files of the study's tasks, by path: they are written with traces.
     """
 
     name: str
@@ -135,6 +136,7 @@ class Study:
     unit: tuple[str, ...] = ()
     renamed: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     version: str = ""
+    pddl: Callable[[StudyOptions], Mapping[str, str]] = lambda options: {}
 
     def present_name(self, key: str, value: str) -> str:
         """Return a value of a key column or an option by the names of this version."""

@@ -14,6 +14,7 @@ from hrcplan.studies.study import Episode, Study, StudyOptions, StudyRow
 
 SUFFIX = ".jsonl"
 _PLAIN = " ,=+@-._"  # characters of a cell's name that are the same in that of its folder
+PDDL = "pddl"
 SELECTIONS = ("methods", "humans")
 """Options that only select cells, which the cell says already."""
 _LONGEST = 120  # characters of a cell's name that its folder has
@@ -64,6 +65,15 @@ class TraceFiles:
             episode for episode in episodes
             if episode in rowless or not trace_path(self.folder, episode).is_file()
         ]  # fmt: skip
+
+    def write_pddl(self, options: StudyOptions) -> None:
+        """Write the PDDL of the study's tasks to the folder ``pddl``, if the study has some.
+
+        Raises:
+            UsageError: if that is not possible.
+        """
+        for name, text in self.study.pddl(options).items():
+            _write(self.folder / PDDL / name, text)
 
     def write(self, options: StudyOptions, seed: int, results: Sequence[EpisodeResult]) -> None:
         """Write the traces of episodes.

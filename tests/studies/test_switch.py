@@ -11,9 +11,11 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
+from hrcplan.bank import build_bank
 from hrcplan.cli.main import main
 from hrcplan.errors import InputError, UsageError
-from hrcplan.inference.traces import text_sha256
+from hrcplan.inference import infer
+from hrcplan.inference.traces import read_trace, text_sha256
 from hrcplan.studies import report_study, run_study
 from hrcplan.studies.store import Store
 from hrcplan.studies.study import StudyRow, find
@@ -241,6 +243,15 @@ def test_the_command_prints_tables_or_faults(folder: Path) -> None:
     done = CliRunner().invoke(main, ["score", str(folder / "traces")], standalone_mode=False)
     assert "error[bad-trace]" in done.stdout
     assert "nothing is scored" in done.stdout
+
+
+def test_the_pddl_lies_with_the_traces_and_inference_reads_both(folder: Path, whole: Path) -> None:
+    place = whole / "traces" / "pddl" / "yard"
+    bank = build_bank(place / "domain.pddl", place, only=["goal-01", "goal-02"])
+    path = trace_files(folder)[0]
+    inference = infer(bank, path)
+    assert not inference.ignored
+    assert len(inference.actions) == len(read_trace(path.read_text("utf-8")).actions)
 
 
 def test_the_study_has_a_report(folder: Path) -> None:

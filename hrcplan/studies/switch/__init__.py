@@ -12,7 +12,7 @@ from functools import partial
 from hrcplan.studies.study import Study, StudyTable
 from hrcplan.studies.switch import episodes, methods
 from hrcplan.studies.switch.findings import findings, inputs
-from hrcplan.studies.switch.tasks import definition
+from hrcplan.studies.switch.tasks import all_pddl_files, definition
 
 STUDY = Study(
     name="switch",
@@ -33,6 +33,8 @@ STUDY = Study(
     inputs=inputs,
     runs=lambda options: int(definition()["runs"]),
     prepare=methods.prepare,
+    files=methods.files,
+    pddl=lambda options: all_pddl_files(),
     is_ready=lambda cell: not methods.needs_training(str(cell[2])),
     unit=("first", "second"),
 )  # fmt: skip

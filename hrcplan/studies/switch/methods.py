@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 from functools import lru_cache
+from pathlib import Path
 from typing import Any
 
 from hrcplan.assistance import ASSISTANTS, Assistant
 from hrcplan.assistance.assistant import KnowsGoal
+from hrcplan.bank.cache import cache_path
 from hrcplan.core.text import nearest
 from hrcplan.errors import UsageError
 from hrcplan.inference.belief import Belief
-from hrcplan.inference.classifier.forest import ForestBelief
+from hrcplan.inference.classifier.forest import ForestBelief, forest_path
 from hrcplan.inference.classifier.training import training_time
 from hrcplan.inference.registry import METHODS, takes_goals
 from hrcplan.studies.changed_mind import scenario
@@ -72,7 +74,8 @@ def check(options: StudyOptions) -> None:
         if ":" in name:
             _is_robot(name)
         elif name not in known:
-            hint = nearest(name, known) or f"{', '.join(dict.fromkeys(known))}; or module:Class"
+            short = dict.fromkeys([*ASSISTANTS.names(), *METHODS.names()])
+            hint = nearest(name, known) or f"{', '.join(short)}; or module:Class, cmd:PROGRAM"
             raise UsageError(f"there is no method '{name}'", code="unknown-method", hint=hint)
 
 
@@ -107,12 +110,21 @@ def needs_training(method: str) -> bool:
 
 def prepare(options: StudyOptions, jobs: int, say: Say) -> None:
     """Train the forests that methods need, so that no worker has to; they stay in the cache."""
-    if not any(
-        needs_training(str(cell[2])) for t in (ASSISTANCE, INFERENCE) for cell in cells(t, options)
-    ):
-        return
-    for task in task_names():
+    for task in task_names() if _are_forests_needed(options) else ():
         bank = bank_of(task)
         how_long = training_time(bank, jobs)
         say(f"{task}: a forest for {len(bank.names)} goals: trained once, {how_long}, then kept")
         ForestBelief(bank, n_jobs=jobs)
+
+
+def files(options: StudyOptions) -> list[Path]:
+    """Return the files of the cache folder that episodes read: banks, made here, and forests."""
+    banks = [bank_of(task) for task in task_names()]
+    forests = map(forest_path, banks if _are_forests_needed(options) else [])
+    paths = [*(cache_path(bank.goals) for bank in banks), *forests]
+    return [path for path in paths if path is not None]
+
+
+def _are_forests_needed(options: StudyOptions) -> bool:
+    names = {str(cell[2]) for table in (ASSISTANCE, INFERENCE) for cell in cells(table, options)}
+    return any(map(needs_training, names))

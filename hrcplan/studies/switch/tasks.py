@@ -67,6 +67,17 @@ def pddl_files(task: str) -> dict[str, str]:
     return files
 
 
+def all_pddl_files() -> dict[str, str]:
+    """Return the PDDL files of all tasks, below a folder for each.
+
+    >>> [name for name in all_pddl_files() if name.startswith("yard/")][:2]
+    ['yard/domain.pddl', 'yard/goal-01.pddl']
+    """
+    return {
+        f"{task}/{name}": text for task in task_names() for name, text in pddl_files(task).items()
+    }
+
+
 def hashes_of(task: str) -> dict[str, str]:
     """Return the hash of a task's world, as in traces, and that of all its files."""
     text = "".join(f"{name}\n{text}" for name, text in pddl_files(task).items())
