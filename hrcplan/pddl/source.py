@@ -132,6 +132,10 @@ def read_text(path: str | Path) -> str:
     return source.text
 
 
+_HEAD = 4096
+"""How many bytes are looked at to tell UTF-16 from what is no text."""
+
+
 def decode(path: str, data: bytes) -> SourceText:
     """Return ``data`` as a Source.
 
@@ -159,7 +163,7 @@ def decode(path: str, data: bytes) -> SourceText:
 
 
 def _not_text(path: str, data: bytes) -> SourceText:
-    if data[:2] in (b"\xff\xfe", b"\xfe\xff") or data.count(0) * 4 > len(data):
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff") or _is_wide(data[:_HEAD]):
         source = SourceText(path, "")
         source.error(0, "utf-16", "the file is UTF-16, not UTF-8", "save the file as UTF-8 text")
         return source
@@ -168,6 +172,12 @@ def _not_text(path: str, data: bytes) -> SourceText:
     source.error(len(before), "binary", "the file holds a NUL byte: it is not text")
     source.text = ""
     return source
+
+
+def _is_wide(data: bytes) -> bool:
+    """Return whether bytes look like ASCII as UTF-16: nearly every second one is zero."""
+    fewest, most = sorted((data[::2].count(0), data[1::2].count(0)))
+    return most * 2.5 > len(data) and fewest * 40 < len(data)
 
 
 def in_order(diagnostics: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:

@@ -70,6 +70,7 @@ TEXT = "(define (domain d)\n  (:predicates (p)) ; é\n  (:action a :parameters (
 ENCODED = {
     "latin-1": (TEXT.encode("latin-1"), (2, 23, "not-utf-8")),
     "utf-16": (TEXT.encode("utf-16"), (1, 1, "utf-16")),
+    "binary with many zeros": (b"HRCPBANK" + bytes(3) + b"\1" + bytes(200), (1, 9, "binary")),
     "utf-16 without mark": (TEXT.encode("utf-16-le"), (1, 1, "utf-16")),
     "NUL": (TEXT.encode().replace(b"(p))", b"(p\0))", 1), (2, 18, "binary")),
     "binary": (bytes(range(256)) * 20, (1, 1, "binary")),
