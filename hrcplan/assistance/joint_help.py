@@ -41,6 +41,7 @@ NONE_PRIOR = 0.02  # that people want none of the goals of the bank
 NONE_HAZARD = 0.1  # that before a human step this is drawn again
 NONE_HOLDS = 0.5
 IDLES = 0.2  # how likely people stand still who could do a next step of their goal
+IDLES_WITHOUT = 0.4  # the same without a goal of the bank: they may have done what they wanted
 MAX_PRICED = 8  # agent states whose prices are remembered
 
 
@@ -132,7 +133,12 @@ class JointHelp(ExpectedHelp):
 
     def start(self) -> JointState:
         """Return the state before anything was done."""
-        return _joint(super().start())
+        state, n_composed = _joint(super().start()), self.bank.n_composed
+        if not n_composed:
+            return state
+        prior = np.ones(len(self.names))  # composed goals share what none of these has at first
+        prior[-n_composed:] = NONE_PRIOR * (len(prior) - n_composed) / n_composed
+        return self._after_evidence(state, prior)
 
     def posterior(self, state: AssistantState[Any]) -> Floats:
         """Return the probability of each goal, in order, given that it is one of the bank."""
@@ -181,13 +187,13 @@ class JointHelp(ExpectedHelp):
         """
         if self.tracker.moves is not None:
             if is_evidence:
-                return _joint(self.observe_wait(state), state)
+                return self._with_none(state, _joint(self.observe_wait(state), state))
             move = self.tracker.wait(state.progress)
             return state if move is None else self._with_progress(state, move[0])
         if not is_evidence:
             return state
         likelihood = np.where(self._has_step(state.progress, self._people), IDLES, 1.0)
-        return self._after_evidence(state, likelihood)
+        return self._weighed(state, likelihood, IDLES_WITHOUT)
 
     def _with_progress(self, state: JointState, progress: Progress) -> JointState:
         belief: Any = with_progress(state.belief, progress)
@@ -218,9 +224,12 @@ class JointHelp(ExpectedHelp):
             answer: One of them; None for something else.
         """
         likelihood = answer_likelihood(len(self.names), options, answer)
-        posterior = self.posterior(state)
-        none = state.none * (1.0 if answer is None else likelihood.min())
-        named = (1 - state.none) * float(posterior @ likelihood)
+        return self._weighed(state, likelihood, 1.0 if answer is None else float(likelihood.min()))
+
+    def _weighed(self, state: JointState, likelihood: Floats, without: float) -> JointState:
+        """Return the state after evidence; ``without`` is its likelihood if no goal is wanted."""
+        none = state.none * without
+        named = (1 - state.none) * float(self.posterior(state) @ likelihood)
         after = self._after_evidence(state, likelihood)
         return replace(after, none=none / max(none + named, 1e-300))
 

@@ -11,7 +11,7 @@ from hrcplan.bank.progress import Progress
 from hrcplan.core.arrays import Floats
 
 LEAST = 0.02  # the probability of a goal that is asked about
-ASK_PRICE = 1.0  # steps that a first question costs
+ASK_PRICE = 1.5  # steps that a first question costs; tuned on randomly generated households
 IDLE_SHARE = 0.5  # of the price, where people stand still anyway
 WRONG = 0.02  # the probability of an answer that is not true
 
@@ -39,7 +39,7 @@ class AskingRecord:
         So the number of questions is limited by what an answer can be worth.
 
         >>> AskingRecord().price, AskingRecord(1, 1, people_wait=True).price
-        (1.0, 1.0)
+        (1.5, 1.5)
         """
         return ASK_PRICE * (1 + self.n_asked) * (IDLE_SHARE if self.people_wait else 1.0)
 

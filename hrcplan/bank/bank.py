@@ -72,7 +72,9 @@ class Bank:
     """Plan graphs of goals, in order; ``graphs[g]`` belongs to goal ``g``.
 
     ``table`` numbers the steps, alike for all goals. ``build_s`` is how long building took.
-    ``human`` is the only human who has these goals; None if all humans share one.
+    ``human`` is the only human who has these goals; None if all humans share one. The last
+    ``n_composed`` goals are composed of goal facts of the others; ``shared_costs`` are their costs
+    to go in a team, which live as long as the bank.
     """
 
     goals: Goals
@@ -81,6 +83,8 @@ class Bank:
     recipe: BuildOptions = OPTIMAL_PLANS
     build_s: float = 0.0
     human: str | None = None
+    n_composed: int = 0
+    shared_costs: object = None
     _graphs: dict[tuple[int, int, int | None], PlanGraph] = field(default_factory=dict)
     _solo_facts_of: dict[tuple[int, int], int] = field(default_factory=dict)
 

@@ -7,6 +7,7 @@ search forward finds the states, and one search backward for each goal the numbe
 from __future__ import annotations
 
 from collections.abc import Iterator
+from copy import copy
 from dataclasses import dataclass, field
 from functools import cached_property
 from weakref import WeakValueDictionary
@@ -22,6 +23,7 @@ from hrcplan.core.arrays import Floats, Ids, Words
 from hrcplan.errors import UsageError
 from hrcplan.pddl.conventions import people
 from hrcplan.search.packed_states import FactPacking, PackedRules
+from hrcplan.task.conditions import Test
 
 TIMESTEP = 1 << 12  # actions are counted below it
 NEVER = np.iinfo(np.int32).max - 2 * TIMESTEP  # the goal is out of reach
@@ -74,7 +76,8 @@ class CostToGo:
         table = self.bank.table
         self._packing = FactPacking(tuple(range(len(table.task.facts))))
         rules = PackedRules(table.ops, self._packing)
-        rows = group_rows(reachable_states(table, self._packing, rules, self.max_states))[0]
+        self._rows = group_rows(reachable_states(table, self._packing, rules, self.max_states))[0]
+        rows = self._rows
         self._keys = _keys(rows)
         owners = np.array(step_owners(table, self.bank.team), dtype=np.int64)
         steps = np.array([op.step for op in table.ops], dtype=np.int64)
@@ -90,6 +93,31 @@ class CostToGo:
         self._owners = owners[self._steps]
         self._first = self._sources.searchsorted(np.arange(len(rows) + 1))
         self._is_goal = [rules.meets(rows, tests) for tests in self.bank.goals.tests]
+
+    def with_goals_of(self, bank: Bank) -> CostToGo:
+        """Return the costs of a bank of the same task that has further goals after its own."""
+        other, n_goals = copy(self), len(self._is_goal)
+        rules = PackedRules(bank.table.ops, self._packing)
+        other.bank, other._costs, other._priced = bank, {}, dict(self._priced)
+        new = [rules.meets(self._rows, tests) for tests in bank.goals.tests[n_goals:]]
+        other._is_goal = [*self._is_goal, *new]
+        for acting, costs in self._costs.items():
+            other._costs[acting] = np.concatenate([costs, other._costs_from(n_goals, acting)])
+        return other
+
+    def can_hold(self, tests: tuple[Test, ...]) -> bool:
+        """Return whether the team can get to a state that meets one of several tests."""
+        rules = PackedRules(self.bank.table.ops, self._packing)
+        return bool(rules.meets(self._rows, tests).any())
+
+    def _costs_from(self, first: int, acting: frozenset[int]) -> Costs:
+        """Return the costs to go to the goals from one on."""
+        ways = np.full(len(self.bank.table.ops), TIMESTEP + 1, dtype=np.int32)
+        shape = len(self._is_goal) - first, len(self.bank.team), len(self._keys)
+        costs = np.full(shape, NEVER, dtype=np.int32)
+        for goal, table in enumerate(costs, first):
+            self._lower(table, goal, acting, ways, TIMESTEP)
+        return costs
 
     def place(self, state: int) -> int:
         """Return the index of a state of the task.
@@ -149,11 +177,7 @@ class CostToGo:
         acting = self._acting(with_robots, human)
         costs = self._costs.get(acting)
         if costs is None:
-            ways = np.full(len(self.bank.table.ops), TIMESTEP + 1, dtype=np.int32)
-            shape = len(self._is_goal), len(self.bank.team), len(self._keys)
-            costs = self._costs[acting] = np.full(shape, NEVER, dtype=np.int32)
-            for goal, table in enumerate(costs):
-                self._lower(table, goal, acting, ways, TIMESTEP)
+            costs = self._costs[acting] = self._costs_from(0, acting)
         return costs[:, turn, places]
 
     def _acting(self, with_robots: bool, human: str | None) -> frozenset[int]:
@@ -241,8 +265,12 @@ def _keys(rows: Words) -> NDArray[np.bytes_]:
 _SHARED: WeakValueDictionary[tuple[int, int], CostToGo] = WeakValueDictionary()
 
 
-def cost_to_go_of(bank: Bank) -> CostToGo:
+def cost_to_go_of(bank: Bank, like: Bank | None = None) -> CostToGo:
     """Return the costs to go of a bank of team plans; all who ask for one bank share them.
+
+    Args:
+        bank: The bank.
+        like: A bank of the same task, whose goals are the first ones of this bank.
 
     Raises:
         LimitError: if the team can get to too many states.
@@ -250,5 +278,6 @@ def cost_to_go_of(bank: Bank) -> CostToGo:
     key = id(bank.table), id(bank.graphs)  # the same for all humans of a bank
     costs = _SHARED.get(key)
     if costs is None:
-        costs = _SHARED[key] = CostToGo(bank)
+        costs = CostToGo(bank) if like is None else cost_to_go_of(like).with_goals_of(bank)
+        _SHARED[key] = costs
     return costs

@@ -101,6 +101,13 @@ class Goals:
         formulas = tuple(self.formulas[self.names.index(name)] for name in names)
         return replace(self, names=tuple(names), formulas=formulas)
 
+    def plus(self, names: Sequence[str], formulas: Sequence[Formula]) -> Goals:
+        """Return these goals and further ones of the same task, which is not grounded again."""
+        all_names, all_formulas = (*self.names, *names), (*self.formulas, *formulas)
+        more = replace(self, names=all_names, formulas=all_formulas, files=())
+        vars(more)["task"] = self.task
+        return more
+
 
 def from_problems(problems: Sequence[Problem], files: tuple[SourceFile, ...] = ()) -> Goals:
     """Return the goals of problems that are alike in all but name and goal.

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
+from itertools import takewhile
 from typing import Any
 
 import numpy as np
@@ -14,12 +15,22 @@ from hrcplan.assistance.explanation import Explanation
 from hrcplan.assistance.joint_help import JointHelp, JointState
 from hrcplan.assistance.step_values import NextSteps
 from hrcplan.bank import Bank
+from hrcplan.bank.composed_goals import GoalComposer, with_composed
 from hrcplan.collaboration import events as shared
 from hrcplan.collaboration.belief_fold import BeliefFold
 from hrcplan.collaboration.events import SharedCommand, SharedEvent
-from hrcplan.collaboration.history import History
+from hrcplan.collaboration.history import (
+    BegunAction,
+    ComposedGoals,
+    EndedAction,
+    History,
+    PassedTurn,
+    actions_in,
+    composed_in,
+)
 from hrcplan.collaboration.joint_adviser import JointAdviser
 from hrcplan.collaboration.reading import ActionWords, Reader, read_exactly, reader_of
+from hrcplan.collaboration.robots import JOINT_ROBOTS, assistant_maker
 from hrcplan.collaboration.run import CompanionRun
 from hrcplan.collaboration.setup import TURNS, CollaborationSetup
 from hrcplan.errors import UsageError
@@ -32,6 +43,8 @@ from hrcplan.pddl.semantics import LiftedState
 from hrcplan.plans import PlannedAction
 
 N_HELPED = 3  # goals that are named as reasons for a step
+MOST_COMPOSED, MOST_AT_ONCE = 20, 6  # goals that are composed in all, and after one step
+N_BETWEEN = 6  # actions and waits before goals are composed again
 
 
 class Adviser:
@@ -52,9 +65,12 @@ class Adviser:
         make_assistant: Callable[[Bank], Assistant[Any]], planner: PlanProvider | None = None,
         reader: Reader | None = None,
     ) -> None:  # fmt: skip
-        self.setup, self.bank = setup, bank
+        self.setup, self.listed = setup, bank
         self._make, self._planner, self._reader = make_assistant, planner, reader
         self.run: CompanionRun | None = None
+        self._banks: dict[tuple[str, ...], Bank] = {(): bank}
+        self._folds: dict[tuple[str, ...], BeliefFold] = {}
+        self._joint: tuple[BeliefFold, JointAdviser] | None = None
 
     @cached_property
     def planner(self) -> PlanProvider:
@@ -64,17 +80,41 @@ class Adviser:
     @cached_property
     def reader(self) -> Reader:
         """What finds the action that a person means."""
-        return self._reader or reader_of(self.bank.goals.problem)
+        return self._reader or reader_of(self.listed.goals.problem)
+
+    @property
+    def fold(self) -> BeliefFold:
+        """The belief of the assistant, with the goals that were composed so far."""
+        return self._fold_with(composed_in(self.history))
+
+    @property
+    def bank(self) -> Bank:
+        """The plans of the goals that are listed, and of those that were composed so far."""
+        names = composed_in(self.history)
+        return self._fold_with(names).bank if names else self.listed
+
+    def _fold_with(self, composed: tuple[str, ...]) -> BeliefFold:
+        fold = self._folds.get(composed)
+        if fold is None:
+            bank = self._bank_with(composed)
+            make = assistant_maker(self.setup.method) if composed else self._make
+            fold = self._folds[composed] = BeliefFold(bank, make(bank), self.setup.model.actions)
+        return fold
+
+    def _bank_with(self, composed: tuple[str, ...]) -> Bank:
+        bank = self._banks.get(composed)
+        if bank is None:
+            bank = self._banks[composed] = with_composed(self.listed, composed)
+        return bank
 
     @cached_property
-    def fold(self) -> BeliefFold:
-        """The belief of the assistant."""
-        return BeliefFold(self.bank, self._make(self.bank), self.setup.model.actions)
+    def _composer(self) -> GoalComposer:
+        return GoalComposer(self.listed)
 
     @property
     def is_ready(self) -> bool:
         """Whether the assistant has been made."""
-        return "fold" in self.__dict__
+        return bool(self._folds)
 
     @property
     def assistant(self) -> Assistant[Any]:
@@ -99,11 +139,16 @@ class Adviser:
             case shared.AskReading():
                 return self.read(ask)
 
-    @cached_property
+    @property
     def joint(self) -> JointAdviser:
         """What answers for a robot that weighs goal and agent state."""
-        assert isinstance(self.assistant, JointHelp)
-        return JointAdviser(self.setup, self.fold, self.assistant, self._explained)
+        return self._joint_with(self.fold)
+
+    def _joint_with(self, fold: BeliefFold) -> JointAdviser:
+        if self._joint is None or self._joint[0] is not fold:
+            assert isinstance(fold.assistant, JointHelp)
+            self._joint = fold, JointAdviser(self.setup, fold, fold.assistant, self._explained)
+        return self._joint[1]
 
     @property
     def history(self) -> History:
@@ -116,11 +161,14 @@ class Adviser:
         Raises:
             UsageError: if it chooses what is no step, or what none of these robots can do.
         """
-        state = self.fold.state(history)
-        goals = self.likeliest(state)
-        chosen = shared.Chosen(ask.t, goals=goals, n_declared=n_declared(state))
-        if isinstance(self.assistant, JointHelp):
-            return self.joint.choose(ask, history, chosen)
+        names = composed_in(history)
+        new = self._composed_now(history, names)
+        fold = self._fold_with(names + new)
+        state = fold.state(history)
+        goals = _likeliest(fold, state)
+        chosen = shared.Chosen(ask.t, goals=goals, n_declared=n_declared(state), composed=new)
+        if isinstance(fold.assistant, JointHelp):
+            return self._joint_with(fold).choose(ask, history, chosen)
         # Where plans say who acts, each robot is asked in its own turn.
         for agents in [(agent,) for agent in ask.agents] if self.fold.has_turns else [ask.agents]:
             if self.setup.pace != TURNS:
@@ -130,11 +178,34 @@ class Adviser:
                 return self._explained(chosen, state, action)
         return chosen
 
+    def _composed_now(self, history: History, names: tuple[str, ...]) -> tuple[str, ...]:
+        """Return the goals that are composed after a history, if people seem to have no listed one.
+
+        Args:
+            history: What was seen.
+            names: The goals that were composed before.
+        """
+        state = self._fold_with(names).state(history)
+        robot = JOINT_ROBOTS.get(self.setup.method)
+        may_compose = robot is not None and not robot.knows_goal and robot.weighs_goal
+        if not may_compose or not isinstance(state, JointState) or state.none <= shared.HALF:
+            return ()
+        since = tuple(takewhile(lambda mark: not isinstance(mark, ComposedGoals), history[::-1]))
+        if names and sum(isinstance(mark, BegunAction | PassedTurn) for mark in since) < N_BETWEEN:
+            return ()
+        most = min(MOST_AT_ONCE + len(names), MOST_COMPOSED)
+        moves = list(_moves_of_people(history, self.listed))
+        new = [name for name in self._composer.compose(moves, most) if name not in names]
+        if not new:
+            return ()
+        larger = with_composed(self._bank_with(names), new[: MOST_COMPOSED - len(names)])
+        all_names = larger.names[len(self.listed.names) :]
+        self._banks[all_names] = larger
+        return all_names[len(names) :]
+
     def likeliest(self, state: BeliefState) -> tuple[tuple[str, float], ...]:
         """Return every goal with its probability, the likeliest first."""
-        posterior = self.assistant.posterior(state)
-        order = np.argsort(-np.asarray(posterior), kind="stable").tolist()
-        return tuple((self.bank.names[goal], float(posterior[goal])) for goal in order)
+        return _likeliest(self.fold, state)
 
     def _action(self, state: BeliefState, agents: frozenset[str]) -> PlannedAction | None:
         """Return the ground action that the assistant wants one of the robots to do now."""
@@ -257,3 +328,23 @@ class Adviser:
         )
         by_step = ((words, self.bank.table.find(words)) for words in steps)
         return {w: float(chances[s]) for w, s in by_step if s is not None and chances[s] > 0}
+
+
+def _moves_of_people(history: History, bank: Bank) -> Iterator[tuple[int, int]]:
+    """Yield the states before and after each step of people, as bits; what runs is done."""
+    failed = {m.number for m in history if isinstance(m, EndedAction) and m.outcome != ev.DONE}
+    world = bank.initial
+    for action in actions_in(history):
+        step = bank.table.find(action.words)
+        after = None if step is None else bank.table.successor(world, step)
+        if after is None or action.number in failed:
+            continue
+        if not action.is_robot:
+            yield world, after
+        world = after
+
+
+def _likeliest(fold: BeliefFold, state: BeliefState) -> tuple[tuple[str, float], ...]:
+    posterior = fold.assistant.posterior(state)
+    order = np.argsort(-np.asarray(posterior), kind="stable").tolist()
+    return tuple((fold.bank.names[goal], float(posterior[goal])) for goal in order)

@@ -12,14 +12,19 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from hrcplan.bank.composed_goals import composed_formula
 from hrcplan.collaboration import events as shared
 from hrcplan.collaboration.events import SharedEvent
 from hrcplan.collaboration.history import (
+    BegunAction,
+    ComposedGoals,
+    DeniedGoals,
     EndedAction,
     PassedTurn,
     SeenState,
     SensedValues,
     WantedGoal,
+    composed_in,
 )
 from hrcplan.collaboration.reports import Reports
 from hrcplan.collaboration.run import CompanionPhase, CompanionRun, CompanionStep
@@ -62,6 +67,8 @@ class Companion:
                 return self.reports.begun(run, event)
             case shared.Passed():
                 return self.reports.passed(run, event)
+            case shared.Idle():
+                return self.reports.idle(run), ()
             case shared.Said():
                 return self.reports.take_words(run, event)
             case shared.Read():
@@ -144,7 +151,7 @@ class Companion:
         question = self._done_question(run)
         if question is not None:
             return replace(run, question=question, phase=CompanionPhase.ASKING), (question,)
-        run = replace(run, denied=run.denied & self.setup.reached(run.run.state))
+        run = replace(run, denied=run.denied & self._reached(run))
         if run.is_paused:
             return run, ()
         if self.setup.has_one_goal:
@@ -156,9 +163,34 @@ class Companion:
         """Return the question whether that was all, if a goal holds that was not asked about."""
         if self.setup.has_one_goal and run.running:
             return None
-        reached = self.setup.reached(run.run.state) - run.denied
+        reached = self._reached(run) - run.denied
         names = tuple(name for name in self.setup.goals if name in reached)
+        if not names and reached:
+            names = (next(name for name, _ in run.belief.goals if name in reached),)
         return shared.Ask(run.t, shared.DONE, names) if names else None
+
+    def _reached(self, run: CompanionRun) -> frozenset[str]:
+        """Return the goals that hold; of those that were composed only a probable one.
+
+        Where people stand still, any of them may be what they wanted.
+        """
+        listed = self.setup.reached(run.run.state)
+        composed = composed_in(run.history)
+        if not composed:
+            return listed
+        still = self._stand_still(run)
+        names = {n for n, p in run.belief.goals if n in composed and (still or p > shared.HALF)}
+        formulas = {name: composed_formula(name) for name in names | (run.denied - listed)}
+        return listed | self.setup.reached(run.run.state, formulas)
+
+    def _stand_still(self, run: CompanionRun) -> bool:
+        """Return whether people do nothing, and have not just denied that this was all."""
+        for mark in reversed(run.history):
+            if isinstance(mark, DeniedGoals):
+                return False
+            if isinstance(mark, PassedTurn | BegunAction) and mark.agent in self.setup.people:
+                return isinstance(mark, PassedTurn)
+        return False
 
     def _follow_plan(self, run: CompanionRun) -> CompanionStep:
         if run.denied and not run.running:
@@ -197,6 +229,8 @@ class Companion:
         if history != run.history and run.n_asked_again < MAX_ASKED_AGAIN:
             return self._ask_step(replace(run, n_asked_again=run.n_asked_again + 1), agents)
         notes = self._change_notes(run, event)
+        if event.composed:
+            run = run.plus(ComposedGoals(event.composed))
         run = replace(run, phase=CompanionPhase.LISTENING, belief=event, n_asked_again=0)
         if event.asks:
             question = shared.Ask(run.t, shared.GOAL, (*event.asks, shared.OTHER))

@@ -39,6 +39,14 @@ class Passed:
 
 
 @dataclass(frozen=True, slots=True)
+class Idle:
+    """Nothing has happened for some seconds: people who could act stand still."""
+
+    t: float
+    seconds: float
+
+
+@dataclass(frozen=True, slots=True)
 class Said:
     """A person says something; ``agent`` is "" if it is not known who."""
 
@@ -128,6 +136,7 @@ class Chosen:
         asks: Goals of which people are asked which one they have; none to ask nothing.
         takes_over: Why the robot does a step that people could do, such as "may fail".
         none_of_these: The probability that no listed goal is wanted; 0 if that is not weighed.
+        composed: Further goals that were composed now, by their facts.
     """
 
     t: float
@@ -139,6 +148,7 @@ class Chosen:
     asks: tuple[str, ...] = ()
     takes_over: str = ""
     none_of_these: float = 0.0
+    composed: tuple[str, ...] = ()
 
     @property
     def claims(self) -> bool:
@@ -187,7 +197,7 @@ class Correct:
 
 
 PersonEvent = (
-    Begun | Passed | Said | Answered | Undone | StateTold | Wanted | Paused | Stopped
+    Begun | Passed | Idle | Said | Answered | Undone | StateTold | Wanted | Paused | Stopped
     | Continued
     | ev.StopAsked
 )  # fmt: skip
@@ -197,7 +207,7 @@ SharedCommand = Command | AskStep | AskReading | Ask | Correct
 KINDS: Mapping[str, type] = {
     **codec.KINDS,
     **{kind.__name__.lower(): kind
-       for kind in (Begun, Passed, Said, Read, Answered, Undone, StateTold, Wanted, Paused, Stopped,
-                    Continued, Chosen, AskStep, AskReading, Ask, Correct)},
+       for kind in (Begun, Passed, Idle, Said, Read, Answered, Undone, StateTold, Wanted, Paused,
+                    Stopped, Continued, Chosen, AskStep, AskReading, Ask, Correct)},
 }  # fmt: skip
 SHARED_QUESTIONS: Mapping[type, type] = {**QUESTIONS, AskStep: Chosen, AskReading: Read}

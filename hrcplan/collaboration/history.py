@@ -72,6 +72,13 @@ class DeniedGoals:
 
 
 @dataclass(frozen=True, slots=True)
+class ComposedGoals:
+    """Goals that people may have though they are not listed; see `hrcplan.bank.composed_goals`."""
+
+    names: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class PassedTurn:
     """An agent did nothing in its turn."""
 
@@ -95,7 +102,7 @@ class SeenState:
 
 Mark = (
     BegunAction | EndedAction | PassedTurn | WantedGoal | SeenState | SensedValues | AskedGoal
-    | DeniedGoals
+    | DeniedGoals | ComposedGoals
 )  # fmt: skip
 History = tuple[Mark, ...]
 
@@ -129,6 +136,11 @@ def begun_action(history: History, number: int) -> BegunAction | None:
 def actions_in(history: History) -> Iterator[BegunAction]:
     """Yield the actions, in the order in which they began."""
     return (mark for mark in history if isinstance(mark, BegunAction))
+
+
+def composed_in(history: History) -> tuple[str, ...]:
+    """Return the names of all composed goals, in order."""
+    return tuple(n for mark in history if isinstance(mark, ComposedGoals) for n in mark.names)
 
 
 def state_after(
@@ -205,7 +217,7 @@ class SeenFacts:
 
 @dataclass(frozen=True, slots=True)
 class SeenWait:
-    """An agent did nothing in its turn; ``goes_on``: and has done nothing since it did so last."""
+    """An agent did nothing in its turn; ``goes_on``: as before, and not for twice as long yet."""
 
     agent: str
     goes_on: bool
@@ -219,7 +231,8 @@ def evidence_in(history: History, model: ActionModel | None = None) -> tuple[See
 
     An action is evidence when it begins. A person's attempt that failed remains evidence without
     an effect; attempts of one action, without another action of this person between them, are one
-    observation. What a robot failed to do has not happened.
+    observation. What a robot failed to do has not happened. Who stands still on and on shows
+    something new whenever that has lasted twice as long.
 
     Args:
         history: The history.
@@ -227,7 +240,7 @@ def evidence_in(history: History, model: ActionModel | None = None) -> tuple[See
     """
     outcomes = {m.number: m.outcome for m in history if isinstance(m, EndedAction)}
     seen: list[SeenMark | None] = []
-    waiting: set[str] = set()
+    waits: dict[str, int] = {}  # how often each agent has done nothing since it acted
     attempts: dict[str, int] = {}  # the place of each person's last action, if that failed
     for place, mark in enumerate(history):
         match mark:
@@ -238,7 +251,7 @@ def evidence_in(history: History, model: ActionModel | None = None) -> tuple[See
                 happens = outcomes.get(mark.number, ev.DONE) == ev.DONE
                 if mark.is_robot and not happens:
                     continue
-                waiting.discard(mark.agent)
+                waits.pop(mark.agent, None)
                 before = attempts.pop(mark.agent, None)
                 if before is not None and _words(seen[before]) == mark.words:
                     seen[before] = None
@@ -248,8 +261,8 @@ def evidence_in(history: History, model: ActionModel | None = None) -> tuple[See
             case EndedAction(number=number, outcome=ev.DONE):
                 seen.append(SeenEnd(number))
             case PassedTurn(agent):
-                seen.append(SeenWait(agent, agent in waiting))
-                waiting.add(agent)
+                n = waits[agent] = waits.get(agent, 0) + 1
+                seen.append(SeenWait(agent, n & (n - 1) > 0))
             case WantedGoal() | AskedGoal() | DeniedGoals():
                 seen.append(mark)
     return tuple(one for one in seen if one is not None)

@@ -120,6 +120,14 @@ class Reports:
             return _told(companion, "not-your-turn", f"it is not the turn of {agent}")
         return replace(self._closed(companion), has_acted=True).plus(PassedTurn(agent)), ()
 
+    def idle(self, companion: CompanionRun) -> CompanionRun:
+        """Return the run when people have stood still; only where nobody waits for a turn."""
+        takes_turns = self.setup.pace == TURNS or self.setup.has_one_goal
+        if takes_turns or companion.phase is not CompanionPhase.LISTENING:
+            return companion
+        still = (agent for agent in self.setup.people if not companion.is_busy(agent))
+        return companion.plus(*map(PassedTurn, still))
+
     def take_words(self, companion: CompanionRun, event: shared.Said) -> CompanionStep:
         """Return the run when a person has said something, and the question what it means."""
         agents = (event.agent,) if event.agent else self._listeners(companion)

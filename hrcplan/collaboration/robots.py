@@ -28,18 +28,22 @@ class JointRobot:
         make: Makes its assistant from a bank.
         weighs_agents: Whether it looks at agent states; if not, all are low for it.
         knows_goal: Whether people have to say what they want.
+        weighs_goal: Whether it infers what they want.
     """
 
     make: Callable[[Bank], JointHelp]
     weighs_agents: bool = True
     knows_goal: bool = False
+    weighs_goal: bool = True
 
 
 JOINT_ROBOTS: Mapping[str, JointRobot] = {
     JOINT: JointRobot(JointHelp),
     "joint-without-asking": JointRobot(lambda bank: JointHelp(bank, asks=False)),
     "goal-only": JointRobot(JointHelp, weighs_agents=False),
-    "state-only": JointRobot(lambda bank: JointHelp(bank, UniformBelief(bank), asks=False)),
+    "state-only": JointRobot(
+        lambda bank: JointHelp(bank, UniformBelief(bank), asks=False), weighs_goal=False
+    ),
     "joint-oracle": JointRobot(lambda bank: JointOracle(bank, asks=False), knows_goal=True),
 }
 """``goal-only`` infers the goal and takes agents as they are at first, ``state-only`` the other way

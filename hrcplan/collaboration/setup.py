@@ -78,11 +78,15 @@ class CollaborationSetup:
         """Whether there is nothing to guess, so that a plan is followed."""
         return len(self.goals) == 1
 
-    def reached(self, state: LiftedState) -> frozenset[str]:
-        """Return the goals that hold in a state."""
+    def reached(
+        self, state: LiftedState, goals: Mapping[str, Formula] | None = None
+    ) -> frozenset[str]:
+        """Return the goals that hold in a state: of the listed ones, or of others."""
         full = LiftedState(state.facts, {**self.problem.values, **state.values})
         return frozenset(
-            name for name, goal in self.goals.items() if holds(goal, full, {}, self.problem)
+            name
+            for name, goal in (self.goals if goals is None else goals).items()
+            if holds(goal, full, {}, self.problem)
         )
 
     @cached_property

@@ -16,6 +16,7 @@ from hrcplan.collaboration.persons import (
 from hrcplan.collaboration.run import CompanionPhase, CompanionRun
 from hrcplan.collaboration.setup import TURNS, CollaborationSetup
 from hrcplan.execution import events as ev
+from hrcplan.execution.action_model import UNIT_S
 from hrcplan.execution.codec import exact_number
 from hrcplan.execution.links import RobotLink
 from hrcplan.execution.links.messages import PersonBegun
@@ -145,7 +146,14 @@ class SharedWorld:
             events = self._reports(self._run)
         if not events and self.person.is_live:
             return self._acts(self._run, self.setup.people) or self.next()
-        return events
+        return events or self._idle(self._run)
+
+    def _idle(self, run: CompanionRun) -> tuple[SharedEvent, ...]:
+        """Return that simulated people and robots stand still, where they need no turn to act."""
+        takes_turns = self.setup.pace == TURNS or self.setup.has_one_goal
+        if takes_turns or run.phase is not CompanionPhase.LISTENING or run.is_paused:
+            return ()
+        return (shared.Idle(run.t + UNIT_S, float(UNIT_S)),)
 
     def _acts(self, run: CompanionRun, agents: tuple[str, ...]) -> tuple[SharedEvent, ...]:
         """Return what people do, at the time at which they do it."""

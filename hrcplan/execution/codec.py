@@ -39,7 +39,7 @@ class Item(Protocol):
 
 
 ABSENT = "absent"
-LEFT_OUT = frozenset({ABSENT, "asks", "takes_over", "none_of_these"})
+LEFT_OUT = frozenset({ABSENT, "asks", "takes_over", "none_of_these", "composed"})
 """What is left out where it is empty, as in journals of earlier versions."""
 
 KINDS: Mapping[str, type] = {
