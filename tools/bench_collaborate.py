@@ -27,6 +27,7 @@ from hrcplan.collaboration.run import CompanionRun
 from hrcplan.collaboration.setup import FREE, TURNS
 from hrcplan.episodes.humans import Course
 from hrcplan.execution import events as ev
+from hrcplan.studies.collaboration.prices import TaskPrices
 
 ROBOTS = "joint,joint-without-asking,goal-only,hrcplan,joint-oracle"
 
@@ -85,16 +86,17 @@ def timed(adviser: Adviser, decision_ms: list[float]) -> None:
     adviser.answer = measure  # type: ignore[method-assign]
 
 
-def total_s(run: CompanionRun) -> float:
-    """Return how long all actions that were done take, one after the other."""
+def total_s(run: CompanionRun, prices: TaskPrices) -> float:
+    """Return how long all actions that were done take by the PDDL, one after the other."""
     done = {m.number for m in run.history if isinstance(m, EndedAction) and m.outcome == ev.DONE}
-    return sum(action.lasts_s for action in actions_in(run.history) if action.number in done)
+    words = (action.words for action in actions_in(run.history) if action.number in done)
+    return sum(map(prices.durations_s.__getitem__, words))
 
 
 def measured(bank: Bank, name: str, seeds: range) -> Figures:
     """Return the figures of one robot."""
     figures, robot = Figures(), assistant_maker(name)(bank)
-    unit = float(np.mean([float(a.duration or 1) for a in bank.table.task.actions]))
+    prices = TaskPrices(bank)
     for seed in seeds:
         course = course_of(bank, seed)
         for pace in (FREE, TURNS):
@@ -105,7 +107,7 @@ def measured(bank: Bank, name: str, seeds: range) -> Figures:
             run = parts.run(watch=watch)
             outcome = collaboration_outcome(run)
             if pace == TURNS:  # where every step lasts 1
-                figures.one_at_a_time_s.append(unit * total_s(run))
+                figures.one_at_a_time_s.append(total_s(run, prices))
                 continue
             figures.finished.append(outcome.success)
             figures.makespan_s.append(outcome.duration_s)

@@ -16,6 +16,7 @@ class TaskPrices:
 
     Attributes:
         costs: The cost of each action, by its name and objects.
+        durations_s: How long each action lasts.
         mean_cost: That of an average action.
         mean_duration_s: How long an average action lasts; a step without duration lasts 1.
 
@@ -31,7 +32,10 @@ class TaskPrices:
             for action, cost in zip(task.actions, task.costs, strict=True)
         }
         self.mean_cost = fmean(self.costs.values())
-        self.mean_duration_s = fmean(map(self._duration_s, task.actions))
+        self.durations_s = {
+            (action.name, *action.args): self._duration_s(action) for action in task.actions
+        }
+        self.mean_duration_s = fmean(self.durations_s.values())
         self._metric = metric(self._problem)
 
     def _duration_s(self, action: GroundAction) -> float:
