@@ -119,7 +119,7 @@ class SimulatedPerson:
         self._tried = agents, run.history
         event = self._event(run, agents, self._move(run, agents, turn))
         goal = self.bank.names[self.course.goal(turn)]
-        if not self.tells_goal or goal == _goal_told(run.history):
+        if not self.tells_goal or goal == _last_wanted(run.history):
             return (event,)
         return event, shared.Wanted(run.t, goal)
 
@@ -175,8 +175,8 @@ class SimulatedPerson:
         return shared.Begun(run.t, ground.agent or agents[0], ground.name, ground.args)
 
 
-def _goal_told(history: History) -> str | None:
-    """Return the goal that the robot was told last; None if it was told none."""
+def _last_wanted(history: History) -> str | None:
+    """Return the last goal that people said they have; None if they said none."""
     return next((m.goal for m in reversed(history) if isinstance(m, WantedGoal)), None)
 
 
