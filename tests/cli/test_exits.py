@@ -233,3 +233,16 @@ def test_a_limit_that_is_none_is_named(words: list[str], tmp_path: Path) -> None
 @pytest.mark.parametrize("seconds", ["inf", "1e10"])
 def test_a_timeout_may_be_endless(seconds: str) -> None:
     assert SECONDS.convert(seconds, None, None) == MOST_SECONDS
+
+
+def test_a_planner_in_this_process_leaves_no_words_at_the_exit(tmp_path: Path) -> None:
+    """kairos would report its own objects as leaks if they were not taken away."""
+    (tmp_path / "d.pddl").write_text(
+        "(define (domain d) (:predicates (p)) (:action a :parameters () :effect (p)))"
+    )
+    (tmp_path / "p.pddl").write_text("(define (problem x) (:domain d) (:init) (:goal (p)))")
+    words = ["execute", "--planner", "kairos", str(tmp_path / "d.pddl"), str(tmp_path / "p.pddl")]
+    done = subprocess.run(
+        [sys.executable, "-P", "-m", "hrcplan", *words], capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stderr) == (0, "")
