@@ -155,7 +155,7 @@ def run(
         raise click.UsageError("--jobs is for this machine: give --jobs or --cluster, not both")
     jobs = jobs or (1 if cluster is not None else len(os.sched_getaffinity(0)))
     choices |= {"methods": ",".join(methods) or None, "humans": ",".join(humans) or None}
-    with study_progress() as progress:
+    with study_progress(folder) as progress:
         n_new = run_study(
             name, folder, runs=runs, seed=seed, jobs=jobs, limit=limit, options=choices,
             tables=tables, traces=traces, progress=progress, say=output.note,

@@ -243,8 +243,10 @@ def prepare(options: StudyOptions, jobs: int, say: Say) -> None:
     """Train the forests that methods need, so that no worker has to; they are kept in the cache."""
     for task in _tasks(options, needs_forest):
         bank = bank_of(*task)
-        how_long = training_time(bank, jobs)
-        say(f"a forest for {len(bank.names)} goals: trained once, {how_long}, then kept")
+        path = forest_path(bank)
+        if path is None or not path.is_file():
+            how_long = training_time(bank, jobs)
+            say(f"a forest for {len(bank.names)} goals: trained once, {how_long}, then kept")
         ForestBelief(bank, n_jobs=jobs)
 
 
