@@ -32,7 +32,7 @@ def end_with_quarantine(folder: Path, failures: Mapping[Episode, str]) -> None:
         path.unlink(missing_ok=True)
         return
     entries = [{**asdict(episode), "why": why} for episode, why in failures.items()]
-    entries.sort(key=lambda entry: json.dumps(entry))
+    entries.sort(key=lambda entry: (entry["table"], str(entry["cell"]), entry["run"]))
     write_atomically(path, json.dumps({"episodes": entries}, indent=2) + "\n")
     names = [f"{e['table']}, cell {e['cell']}, run {e['run']}: {cut(e['why'], MAX_REASON)}"
              for e in entries[:MAX_NAMES]]  # fmt: skip

@@ -70,14 +70,16 @@ def test_batch_that_fails_is_run_again_then_singly_then_not_at_all() -> None:
     poison, cured = (Episode("rows", ("one",), run) for run in range(2))
 
     async def runs() -> tuple[list[int], dict[Episode, str]]:
-        backlog, sizes = Backlog([(poison, cured)]), []
+        backlog, sizes = Backlog([poison, cured]), []
+        one, other = await backlog.take(), await backlog.take()
+        backlog.put_back(EpisodeBatch([*one.episodes, *other.episodes]))
         while not backlog.done.is_set():
             batch = await asyncio.wait_for(backlog.take(), 5)
             sizes.append(len(batch.episodes))
             if poison in batch.episodes:
                 backlog.fail(batch, "broken")
             else:
-                backlog.close(batch)
+                backlog.close(batch, 1.0)
         return sizes, backlog.quarantine
 
     sizes, quarantine = asyncio.run(runs())
@@ -87,12 +89,37 @@ def test_batch_that_fails_is_run_again_then_singly_then_not_at_all() -> None:
 
 def test_batch_that_was_not_run_has_not_failed() -> None:
     async def runs() -> EpisodeBatch:
-        backlog = Backlog([(Episode("rows", ("one",), 0),)])
+        backlog = Backlog([Episode("rows", ("one",), 0)])
         backlog.put_back(await backlog.take())
         assert not backlog.done.is_set()
         return await backlog.take()
 
     assert asyncio.run(runs()).n_failures == 0
+
+
+@pytest.mark.parametrize("n_slots", [1, 4, 1000])
+def test_batches_grow_to_a_sensible_duration_and_shrink_at_the_end(n_slots: int) -> None:
+    """Episodes take .01 s here; a scheduler gets no more than 50 batches a second or so."""
+    everything = [Episode("rows", ("one",), run) for run in range(200_000)]
+
+    async def batches() -> list[list[Episode]]:
+        backlog, taken = Backlog(everything), []
+        backlog.n_slots = n_slots
+        while not backlog.done.is_set():
+            batch = await backlog.take()
+            taken.append(list(batch.episodes))
+            backlog.close(batch, 0.01 * len(batch.episodes))
+        return taken
+
+    taken = asyncio.run(batches())
+    assert [episode for batch in taken for episode in batch] == everything
+    sizes = list(map(len, taken))
+    assert sizes[:3] == [1, 2, 4]
+    assert sizes[-1] == 1
+    wanted_s = max(1.0, 0.02 * n_slots)
+    if n_slots < 1000:  # else there are too few episodes for it
+        assert wanted_s / 2 <= 0.01 * max(sizes) <= 2 * wanted_s
+    assert max(sizes) <= len(everything) / (2 * n_slots)
 
 
 def test_nothing_to_do_is_done_at_once() -> None:
@@ -167,25 +194,37 @@ def test_same_bytes_as_on_this_machine(cluster: Cluster, toy: Path) -> None:
     assert run_study(STUDY, toy / "far", runs=60, cluster=cluster.address) == 0
 
 
-def test_poisonous_episodes_are_in_quarantine_until_they_run(cluster: Cluster, toy: Path) -> None:
-    """One raises, one ends its process, one is killed."""
-    for run, order in ((3, "raise"), (12, "leave"), (31, "kill")):
+FAULTS = {
+    "raise": "ZeroDivisionError: broken",
+    "leave": "SystemExit: 3",
+    "kill": "killed by signal 9",
+}
+
+
+@pytest.mark.parametrize(
+    "orders",
+    [{3: "raise"}, pytest.param({3: "raise", 12: "leave", 31: "kill"}, marks=slow)],
+    ids=["raises", "raises, ends its process, is killed"],
+)
+def test_poisonous_episodes_are_in_quarantine_until_they_run(
+    cluster: Cluster, toy: Path, orders: dict[int, str]
+) -> None:
+    for run, order in orders.items():
         (toy / f"run-{run}").write_text(order)
-    process = command(cluster.address, toy, "--runs", "32")
+    n_runs, n = max(orders) + 1, 2 * len(orders)
+    process = command(cluster.address, toy, "--runs", str(n_runs))
     _, text = process.communicate()
     assert process.returncode == 4, text
-    assert "6 episodes in quarantine" in text
+    assert f"{n} episodes in quarantine" in text
     found = json.loads((toy / "out" / "quarantine.json").read_text())["episodes"]
-    why = {entry["run"]: entry["why"] for entry in found}
-    assert len(found) == 6
-    assert {entry["run"] for entry in found} == {3, 12, 31}
-    assert "ZeroDivisionError: broken" in why[3]
-    assert "SystemExit: 3" in why[12]
-    assert "killed by signal 9" in why[31]
-    for run in (3, 12, 31):
+    assert [(one["cell"], one["run"]) for one in found] == [
+        ([cell], run) for cell in ("one", "three") for run in orders
+    ]
+    assert all(FAULTS[orders[one["run"]]] in one["why"] for one in found)
+    for run in orders:
         (toy / f"run-{run}").unlink()
-    assert run_study(STUDY, toy / "out", runs=32, cluster=cluster.address) == 6
-    run_study(STUDY, toy / "near", runs=32)
+    assert run_study(STUDY, toy / "out", runs=n_runs, cluster=cluster.address) == n
+    run_study(STUDY, toy / "near", runs=n_runs)
     assert rows(toy / "out") == rows(toy / "near")
     assert not (toy / "out" / "quarantine.json").exists()
 

@@ -29,6 +29,7 @@ PARTS = {
     "bank": "building, sampling, and listing plans beside top-k planners",
     "beliefs": "updates of 30 and of 10,000 goals",
     "words": "phrases of people read as steps, in states of walks",
+    "cluster": "a study on two workers of Dask, and on two of joblib",
     "assistants": "decisions of robots, and how they grow with the goals",
 }
 

@@ -24,7 +24,7 @@ from hrcplan.studies.cluster.backlog import Backlog
 from hrcplan.studies.cluster.connection import ANSWER_S, CLOSE_S, connect
 from hrcplan.studies.cluster.process import call, end_processes
 from hrcplan.studies.cluster.tasks import ClusterJob, DifferenceError, WorkerError
-from hrcplan.studies.runner import StudyWork, in_batches
+from hrcplan.studies.runner import StudyWork
 from hrcplan.studies.study import Episode, Say
 from hrcplan.studies.trace_files import EpisodeResult
 
@@ -123,10 +123,11 @@ class ClusterRunner:
     async def _run(self, episodes: Sequence[Episode], put: TakeResults) -> None:
         """Run episodes on all workers that are there or come."""
         self._list_file_names()
-        backlog, serving = Backlog(in_batches(episodes)), dict[str, asyncio.Task[None]]()
+        backlog, serving = Backlog(episodes), dict[str, asyncio.Task[None]]()
         try:
             while not backlog.done.is_set():
                 present = await self._present()
+                backlog.n_slots = max(1, sum(present.values()))
                 for worker in [worker for worker in serving if worker not in present]:
                     serving.pop(worker).cancel()
                 for worker in [worker for worker, task in serving.items() if task.done()]:
@@ -221,6 +222,7 @@ class ClusterRunner:
         """Give one thread of a worker one batch after the other."""
         while True:
             batch = await backlog.take()
+            began = time.monotonic()
             try:
                 results = await self._ask(worker, tasks.run_batch, batch.episodes)
             except asyncio.CancelledError:
@@ -235,7 +237,7 @@ class ClusterRunner:
                 return
             else:
                 put(results)
-                backlog.close(batch)
+                backlog.close(batch, time.monotonic() - began)
 
     async def _ask(
         self, worker: str, function: Callable[Concatenate[ClusterJob, P], T],
