@@ -22,9 +22,9 @@ from hrcplan.studies.store import Store
 from hrcplan.studies.study import episodes, find
 from tests.studies.clusters import Cluster, toy_study
 
-N_WORKERS, N_ROUNDS = 2, 2
-NAME, RUNS, TABLE = "failure-anticipation", 100, "rows"
-N_TOY = 1_000  # episodes of next to no work: what remains is the way there and back
+N_WORKERS, N_ROUNDS = 2, 1
+NAME, RUNS, TABLE = "failure-anticipation", 60, "rows"
+N_TOY = 400  # episodes of next to no work: what remains is the way there and back
 MOST_SHARE = 0.15
 TICKS = os.sysconf("SC_CLK_TCK")
 
