@@ -15,7 +15,9 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
+import numpy  # noqa: F401  (its threads can be limited once it is loaded)
 import pytest
+from threadpoolctl import threadpool_limits
 
 import hrcplan
 
@@ -79,7 +81,8 @@ def test_python_examples(
     capsys: pytest.CaptureFixture[str],
 ) -> None:  # fmt: skip
     monkeypatch.chdir(tmp_path)
-    found = doctest.testfile(str(document), module_relative=False, optionflags=FLAGS)
+    with threadpool_limits(1):  # threads of small products wait for each other on a busy machine
+        found = doctest.testfile(str(document), module_relative=False, optionflags=FLAGS)
     assert found.failed == 0, capsys.readouterr().out
 
 

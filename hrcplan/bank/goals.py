@@ -15,7 +15,7 @@ from hrcplan.errors import InputError, UsageError
 from hrcplan.pddl.model import Formula, Problem, fact_text
 from hrcplan.pddl.source import SourceText, decode
 from hrcplan.task import Task
-from hrcplan.task.conditions import Test
+from hrcplan.task.conditions import Test, meets
 
 MAX_DIFFERENCES = 5  # named in one message
 
@@ -85,7 +85,7 @@ class Goals:
 
     def is_reached(self, goal: int, state: int) -> bool:
         """Return whether a goal holds in a state of ``task``."""
-        return any(state & mask == value for mask, value in self.tests[goal])
+        return meets(state, self.tests[goal])
 
     def only(self, names: Sequence[str]) -> Goals:
         """Return the goals of these names, in this order; the task stays the same.

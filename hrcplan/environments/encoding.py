@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hrcplan.bank import Bank
-from hrcplan.core.bits import positions
+from hrcplan.core.bits import positions, single_bits
 from hrcplan.episodes.turns import Mover
 from hrcplan.errors import UsageError
 from hrcplan.task.transitions import Rule
@@ -19,7 +19,6 @@ Bits = NDArray[np.int8]
 """Zeros and ones."""
 WAIT = 0
 """The action that does nothing; action k is the k-th step of the agent, counted from 1."""
-MAX_PATTERNS = 20_000  # differences of two states that are remembered
 
 
 class ActionEncoding:
@@ -87,41 +86,34 @@ class ActionEncoding:
 
 
 class _AbleSteps:
-    """Which of some steps agents can do in a state; quick if states differ little from before."""
+    """Which of some steps agents can do in a state; quick if it differs little from the last one.
+
+    The answer depends on the state alone.
+    """
 
     def __init__(self, bank: Bank, steps: Sequence[int], agents: frozenset[str]) -> None:
         self._table, self._steps, self._agents = bank.table, steps, agents
         rules = bank.table.rules_of(agents)
         self._rules = [rules[step] for step in steps]
-        self._mentions: dict[int, set[int]] = {}
+        self._looks_at = dict[int, int]()  # for each fact the steps that depend on it
         for place, (step, rule) in enumerate(zip(steps, self._rules, strict=True)):
-            for position in positions(_footprint(bank, step, rule)):
-                self._mentions.setdefault(position, set()).add(place)
-        self._parts: dict[int, tuple[int, list[int]]] = {}
-        self._state, self._able = 0, self._update(0, 0, range(len(steps)))
+            for fact in single_bits(_footprint(bank, step, rule)):
+                self._looks_at[fact] = self._looks_at.get(fact, 0) | 1 << place
+        self._state, self._able = 0, self._update(0, 0, (1 << len(steps)) - 1)
 
     def of(self, state: int) -> int:
         """Return the steps that can be done in a state, as bits."""
-        pattern = self._state ^ state
-        if pattern:
-            keep, places = self._part(pattern)
-            self._able = self._update(state, self._able & keep, places)
+        changes = self._state ^ state
+        if changes:
+            doubtful = 0
+            for fact in single_bits(changes):
+                doubtful |= self._looks_at.get(fact, 0)
+            self._able = self._update(state, self._able & ~doubtful, doubtful)
             self._state = state
         return self._able
 
-    def _part(self, pattern: int) -> tuple[int, list[int]]:
-        """Return which steps do not depend on facts, as a mask, and the places of all others."""
-        part = self._parts.get(pattern)
-        if part is None:
-            if len(self._parts) >= MAX_PATTERNS:
-                self._parts.clear()
-            mentions = (self._mentions.get(position, set()) for position in positions(pattern))
-            places = sorted(set().union(*mentions))
-            part = self._parts[pattern] = ~sum(1 << place for place in places), places
-        return part
-
-    def _update(self, state: int, able: int, places: Iterable[int]) -> int:
-        for place in places:
+    def _update(self, state: int, able: int, doubtful: int) -> int:
+        for place in positions(doubtful):
             rule = self._rules[place]
             if rule is None:
                 can = self._table.doer(state, self._steps[place], self._agents) is not None

@@ -131,24 +131,18 @@ class EpisodeTurns:
         graph, node = self.bank.locate(self.goal, self.state)
         return () if node is None else graph.next(node)
 
-    def action_of(self, step: SupportsIndex) -> int:
-        """Return the ground action by which a step is done in this turn.
-
-        Raises:
-            UsageError: if there is no such step, or the agents who act now cannot do it.
-        """
-        return _action(self.bank.table, self.state, step, self.mover.agents)
-
     def do(self, step: int | None) -> None:
         """Do a step, or wait, and go on to the next turn.
 
         Raises:
-            UsageError: as of ``action_of``.
+            UsageError: if there is no such step, or the agents who act now cannot do it.
         """
         if step is None:
             self.n_waits += 1
         else:
-            self.state = self.world.do(self.state, self.action_of(step))
+            agents = self.order[self.place].agents
+            action = _action(self.bank.table, self.state, step, agents)
+            self.state = self.world.do(self.state, action)
             self.lasts[self.place] = int(step)
             self.n_waits = 0
         self._pass_on(step)

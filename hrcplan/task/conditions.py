@@ -107,7 +107,10 @@ def _constant_tests(truth: bool) -> Tests:
 
 def meets(state: int, tests: Tests) -> bool:
     """Return whether any of the alternatives holds in a state."""
-    return any(state & mask == value for mask, value in tests)
+    for mask, value in tests:  # noqa: SIM110  (any() takes three times as long)
+        if state & mask == value:
+            return True
+    return False
 
 
 def any_of(parts: Iterable[Tests]) -> Tests:

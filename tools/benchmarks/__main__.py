@@ -19,6 +19,7 @@ from rows import Row, markdown, plain
 
 PARTS = {
     "simulator": "random walks: ours, unified-planning's, pddlgym's",
+    "environments": "robots that learn: steps per second, human turns and resets included",
     "startup": "python -c pass, hrcplan --help, hrcplan plan transport/two-boxes",
     "planners": "our planner call over the raw planner",
     "replan": "a changed motivation, proven anew in process",
