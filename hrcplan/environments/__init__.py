@@ -18,12 +18,13 @@ hrcplan.errors.UsageError: an environment has no option 'goal_changes'
 from __future__ import annotations
 
 from importlib.util import find_spec
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Unpack
 
 from hrcplan.bank import Bank
 from hrcplan.core.extras import require
 from hrcplan.environments.policies import AssistantPolicy as AssistantPolicy
 from hrcplan.environments.policies import PolicyAssistant as PolicyAssistant
+from hrcplan.environments.rollout import SceneryOptions
 
 if TYPE_CHECKING:
     from pettingzoo import AECEnv
@@ -38,7 +39,7 @@ ENV_ID = "hrcplan/Collaboration-v0"
 
 def make(
     domain: str | Bank = "kitchen", goals: str | None = None, *, render_mode: str | None = None,
-    **scenery: Any,
+    **scenery: Unpack[SceneryOptions],
 ) -> CollaborationEnv:  # fmt: skip
     """Return a Gymnasium environment: robots help simulated humans whose goal they have to infer.
 
@@ -61,7 +62,7 @@ def make(
 
 def make_vec(
     domain: str | Bank = "kitchen", goals: str | None = None, *, num_envs: int = 1024,
-    **scenery: Any,
+    **scenery: Unpack[SceneryOptions],
 ) -> CollaborationVectorEnv:  # fmt: skip
     """Return many environments that are stepped at once, where it does not matter who acts.
 
@@ -87,7 +88,7 @@ def aec_env(
     goals: str | None = None,
     *,
     render_mode: str | None = None,
-    **scenery: Any,
+    **scenery: Unpack[SceneryOptions],
 ) -> AECEnv:
     """Return a PettingZoo environment in which humans and robots act one after the other.
 
@@ -112,7 +113,7 @@ def aec_env(
 
 def parallel_env(
     domain: str | Bank = "kitchen", goals: str | None = None, *, render_mode: str | None = None,
-    **scenery: Any,
+    **scenery: Unpack[SceneryOptions],
 ) -> CollaborationParallelEnv:  # fmt: skip
     """Return a PettingZoo environment in which humans and robots choose at the same time.
 

@@ -238,7 +238,7 @@ def _goal_tests(bank: Bank, simulator: BatchSimulator) -> list[tuple[Words, Word
 
 
 def _draw(matrix: Bools, chance: Floats) -> tuple[Ids, Ids]:
-    """Return how many columns of each row are set, and one of them by chance; -1 without any."""
+    """Return how many columns of each row are set, and one of them at random; -1 without any."""
     counts = matrix.sum(axis=1)
     rank = (chance * counts).astype(np.int64) + 1
     chosen = (matrix.cumsum(axis=1) >= rank[:, None]).argmax(axis=1)

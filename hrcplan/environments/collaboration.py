@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Unpack
 
 import gymnasium
 import numpy as np
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from hrcplan.bank import Bank
 from hrcplan.environments.encoding import ActionEncoding, Bits, RobotObservations, as_bits
 from hrcplan.environments.rendering import MODES, render
-from hrcplan.environments.rollout import Rollout, Scenery, bank_for
+from hrcplan.environments.rollout import Rollout, Scenery, SceneryOptions, bank_for
 from hrcplan.errors import UsageError
 
 Observation = NDArray[Any]
@@ -48,7 +48,7 @@ class CollaborationEnv(gymnasium.Env[Observation, np.int64]):
 
     def __init__(
         self, domain: str | Bank = "kitchen", goals: str | None = None, *,
-        render_mode: str | None = None, **scenery: Any,
+        render_mode: str | None = None, **scenery: Unpack[SceneryOptions],
     ) -> None:  # fmt: skip
         if render_mode is not None and render_mode not in MODES:
             raise UsageError(f"the render mode is {' or '.join(MODES)}, not '{render_mode}'")

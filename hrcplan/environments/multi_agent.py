@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, SupportsIndex, Unpack
 
 import numpy as np
 from gymnasium import spaces
@@ -18,7 +18,7 @@ from hrcplan.environments.encoding import (
     as_bits,
 )
 from hrcplan.environments.rendering import MODES, render
-from hrcplan.environments.rollout import Rollout, Scenery, bank_for
+from hrcplan.environments.rollout import Rollout, Scenery, SceneryOptions, bank_for
 from hrcplan.episodes.turns import Mover
 from hrcplan.errors import UsageError
 
@@ -37,7 +37,7 @@ class _Team:
 
     def __init__(
         self, domain: str | Bank, goals: str | None, render_mode: str | None,
-        scenery: dict[str, Any],
+        scenery: SceneryOptions,
     ) -> None:  # fmt: skip
         if render_mode is not None and render_mode not in MODES:
             raise UsageError(f"the render mode is {' or '.join(MODES)}, not '{render_mode}'")
@@ -98,7 +98,7 @@ class _Team:
             return as_bits(1, actions.n_actions)
         return actions.mask(self.rollout.turns.state, mover.agents)
 
-    def do(self, action: Any) -> None:
+    def do(self, action: SupportsIndex) -> None:
         """Let the agent whose turn it is do an action; it waits if it cannot do it."""
         mover = self.rollout.turns.mover
         actions = self.actions[mover.name]
@@ -134,7 +134,7 @@ class CollaborationAECEnv(AECEnv):  # type: ignore[misc]
 
     def __init__(
         self, domain: str | Bank = "kitchen", goals: str | None = None, *,
-        render_mode: str | None = None, **scenery: Any,
+        render_mode: str | None = None, **scenery: Unpack[SceneryOptions],
     ) -> None:  # fmt: skip
         super().__init__()
         self.team = _Team(domain, goals, render_mode, scenery)
@@ -161,10 +161,10 @@ class CollaborationAECEnv(AECEnv):  # type: ignore[misc]
         self._skip_agent_selection = None
         self._take_turn()
 
-    def step(self, action: Any) -> None:
+    def step(self, action: SupportsIndex | None) -> None:
         """Let the selected agent act; None once it is terminated or truncated."""
         agent = self.agent_selection
-        if self.terminations[agent] or self.truncations[agent]:
+        if action is None or self.terminations[agent] or self.truncations[agent]:
             self._was_dead_step(action)
             return
         self._cumulative_rewards[agent] = 0.0
@@ -210,7 +210,7 @@ class CollaborationParallelEnv(ParallelEnv):  # type: ignore[misc]
 
     def __init__(
         self, domain: str | Bank = "kitchen", goals: str | None = None, *,
-        render_mode: str | None = None, **scenery: Any,
+        render_mode: str | None = None, **scenery: Unpack[SceneryOptions],
     ) -> None:  # fmt: skip
         self.team = _Team(domain, goals, render_mode, scenery)
         self.render_mode = render_mode
@@ -236,7 +236,7 @@ class CollaborationParallelEnv(ParallelEnv):  # type: ignore[misc]
         return self._observations(), {name: self.team.info(name) for name in self.agents}
 
     def step(
-        self, actions: dict[str, Any]
+        self, actions: dict[str, SupportsIndex]
     ) -> tuple[
         dict[str, AgentObservation], dict[str, float], dict[str, bool], dict[str, bool],
         dict[str, dict[str, Any]],

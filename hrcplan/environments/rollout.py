@@ -8,7 +8,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypedDict, Unpack
 
 import numpy as np
 
@@ -28,6 +28,18 @@ from hrcplan.inference.run import GOALS_PER, HUMAN, TEAM
 
 TRIES = 100  # draws of an episode that is not over before it begins
 OPTIONS = ("course", "goal")
+
+
+class SceneryOptions(TypedDict, total=False):
+    """The attributes of `Scenery` as options of an environment."""
+
+    human: str
+    changes: int
+    mistake_rate: float
+    wait_rate: float
+    goals_per: str
+    world: str
+    belief: str | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +80,7 @@ class Scenery:
             raise UsageError(f"goals are per {' or '.join(GOALS_PER)}, not '{self.goals_per}'")
 
     @classmethod
-    def of(cls, **options: Any) -> Scenery:
+    def of(cls, **options: Unpack[SceneryOptions]) -> Scenery:
         """Return what episodes with these options are like.
 
         Raises:

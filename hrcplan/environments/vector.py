@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import fields
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 from gymnasium import spaces
@@ -21,13 +21,13 @@ from hrcplan.environments.batch_turns import (
     BatchRules,
     BatchTurns,
 )
-from hrcplan.environments.rollout import Scenery, bank_for, known_options
+from hrcplan.environments.rollout import Scenery, SceneryOptions, bank_for, known_options
 from hrcplan.errors import UnsupportedError, UsageError
 
-Observations = NDArray[np.int8]
+BatchObservations = NDArray[np.int8]
 
 
-class CollaborationVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[Any]]):
+class CollaborationVectorEnv(VectorEnv[BatchObservations, NDArray[np.int64], NDArray[Any]]):
     """Many `CollaborationEnv` side by side; the humans are ``frontier`` and share a goal.
 
     Spaces, rewards and endings are those of `CollaborationEnv`; random numbers are others, drawn
@@ -49,7 +49,7 @@ class CollaborationVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[
 
     def __init__(
         self, domain: str | Bank = "kitchen", goals: str | None = None, *, num_envs: int = 1024,
-        **scenery: Any,
+        **scenery: Unpack[SceneryOptions],
     ) -> None:  # fmt: skip
         if num_envs < 1:
             raise UsageError(f"there is at least one environment, not {num_envs}")
@@ -88,7 +88,7 @@ class CollaborationVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
-    ) -> tuple[Observations, dict[str, Any]]:
+    ) -> tuple[BatchObservations, dict[str, Any]]:
         """Start an episode in every environment.
 
         Args:
@@ -104,7 +104,7 @@ class CollaborationVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[
 
     def step(
         self, actions: NDArray[np.int64]
-    ) -> tuple[Observations, NDArray[Any], NDArray[Any], NDArray[Any], dict[str, Any]]:
+    ) -> tuple[BatchObservations, NDArray[Any], NDArray[Any], NDArray[Any], dict[str, Any]]:
         """Let the robots act, then the humans; ended episodes are followed by new ones.
 
         Raises:
@@ -145,7 +145,7 @@ class CollaborationVectorEnv(VectorEnv[Observations, NDArray[np.int64], NDArray[
     def _chances(self) -> NDArray[np.float64]:
         return self.np_random.random((self.num_envs, N_DRAWS))
 
-    def _observations(self, turns: BatchTurns) -> Observations:
+    def _observations(self, turns: BatchTurns) -> BatchObservations:
         return self.rules.simulator.facts(turns.states).view(np.int8)
 
     def _infos(self, turns: BatchTurns) -> dict[str, Any]:
