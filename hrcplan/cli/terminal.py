@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Mapping, Sequence
 
 from hrcplan.assistance.joint_help import JointState
@@ -11,7 +12,7 @@ from hrcplan.cli.narrator import Narrator, goals_text
 from hrcplan.collaboration import events as shared
 from hrcplan.collaboration.events import PersonEvent
 from hrcplan.collaboration.history import History
-from hrcplan.collaboration.persons import NO_WORDS, YES_WORDS
+from hrcplan.collaboration.persons import NO_WORDS, YES_WORDS, idle_wait_s
 from hrcplan.collaboration.reading import ActionWords
 from hrcplan.collaboration.run import CompanionRun
 from hrcplan.core.numbers import number_text
@@ -35,6 +36,29 @@ pause   the robot begins nothing more
 stop    it also stops what it does
 go      it goes on
 quit    end"""
+
+
+class IdleAlarm:
+    """Ends a wait for a line when something happens, or nothing has happened for some seconds.
+
+    Args:
+        wait_s: For how long.
+        interrupt: Waits, and returns whether something has happened; None if nothing can.
+    """
+
+    def __init__(self, wait_s: float, interrupt: Callable[[float], bool] | None) -> None:
+        self.wait_s, self._interrupt = wait_s, interrupt
+        self._end_s = time.monotonic() + wait_s
+        self.is_over = False
+
+    def __call__(self, seconds: float) -> bool:
+        """Wait for some seconds; return whether the wait for a line is to end."""
+        if self._interrupt is None:
+            time.sleep(seconds)
+        elif self._interrupt(seconds):
+            return True
+        self.is_over = time.monotonic() >= self._end_s
+        return self.is_over
 
 
 class Terminal:
@@ -73,14 +97,21 @@ class Terminal:
             self._offered = run.history, agents
         while True:
             prompt = f"{agents[0]}> " if len(self.setup.people) > 1 else "> "
+            alarm = self._alarm(run)
             try:
-                text = self.lines.next(prompt, self.interrupt)
+                text = self.lines.next(prompt, self.interrupt if alarm is None else alarm)
             except InterruptedInputError:
-                return ()
+                is_idle = alarm is not None and alarm.is_over
+                return (shared.Idle(run.t, alarm.wait_s),) if is_idle and alarm else ()
             self._offered = None
             event = self._event(run, agents, text)
             if event is not None:
                 return (event,)
+
+    def _alarm(self, run: CompanionRun) -> IdleAlarm | None:
+        """Return what ends a long wait for a line at a terminal; None if it says nothing."""
+        wait_s = idle_wait_s(run, self.setup) if self.lines.is_terminal else None
+        return None if wait_s is None else IdleAlarm(wait_s, self.interrupt)
 
     def _event(self, run: CompanionRun, agents: tuple[str, ...], text: str) -> PersonEvent | None:
         """Return what a line means; None if it is answered here and now."""

@@ -35,6 +35,8 @@ from hrcplan.execution.monitor import Monitor
 from hrcplan.execution.run import Phase
 from hrcplan.plans import PlannedAction
 
+LEAST_WAITS = 2  # before people are asked again about a goal that they have denied
+
 
 class Companion:
     """The machine of one collaboration."""
@@ -163,7 +165,10 @@ class Companion:
         """Return the question whether that was all, if a goal holds that was not asked about."""
         if self.setup.has_one_goal and run.running:
             return None
-        reached = self._reached(run) - run.denied
+        reached = self._reached(run)
+        n_waits = self._n_waits(run)
+        if not self.setup.is_joint or n_waits < LEAST_WAITS or n_waits & (n_waits - 1):
+            reached -= run.denied  # who waits on and on may want by now what they have denied
         names = tuple(name for name in self.setup.goals if name in reached)
         if not names and reached:
             names = (next(name for name, _ in run.belief.goals if name in reached),)
@@ -178,19 +183,21 @@ class Companion:
         composed = composed_in(run.history)
         if not composed:
             return listed
-        still = self._stand_still(run)
+        still = self._n_waits(run) > 0
         names = {n for n, p in run.belief.goals if n in composed and (still or p > shared.HALF)}
         formulas = {name: composed_formula(name) for name in names | (run.denied - listed)}
         return listed | self.setup.reached(run.run.state, formulas)
 
-    def _stand_still(self, run: CompanionRun) -> bool:
-        """Return whether people do nothing, and have not just denied that this was all."""
+    def _n_waits(self, run: CompanionRun) -> int:
+        """Return how often people have done nothing; 0 if they have just denied that it is all."""
+        n_waits = 0
         for mark in reversed(run.history):
-            if isinstance(mark, DeniedGoals):
-                return False
-            if isinstance(mark, PassedTurn | BegunAction) and mark.agent in self.setup.people:
-                return isinstance(mark, PassedTurn)
-        return False
+            if isinstance(mark, DeniedGoals) and not n_waits:
+                return 0
+            if isinstance(mark, BegunAction) and not mark.is_robot:
+                break
+            n_waits += isinstance(mark, PassedTurn) and mark.agent in self.setup.people
+        return n_waits
 
     def _follow_plan(self, run: CompanionRun) -> CompanionStep:
         if run.denied and not run.running:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 from typing import Protocol, runtime_checkable
 
@@ -29,6 +30,23 @@ YES_WORDS = ("yes", "y", "ja", "j")
 NO_WORDS = ("no", "n", "nein")
 
 NOBODY_CAN_HELP = "no agent can help the goal any more"
+
+
+IDLE_S = 30.0  # without an event, after which people at a terminal or a page stand still
+MOST_IDLE = 4  # times in a row that this is an event, each after twice as long as the one before
+
+
+def idle_wait_s(run: CompanionRun, setup: CollaborationSetup) -> float | None:
+    """Return for how many seconds people may think until they stand still; None for ever.
+
+    Where turns are taken, or a question is open, waiting says nothing.
+    """
+    is_free = setup.pace != TURNS and not setup.has_one_goal
+    if not is_free or run.question is not None or run.is_paused or run.running:
+        return None
+    last = itertools.takewhile(lambda mark: isinstance(mark, PassedTurn), reversed(run.history))
+    n = sum(1 for _ in last) // len(setup.people)
+    return IDLE_S * 2**n if n < MOST_IDLE else None
 
 
 class Person(Protocol):

@@ -121,7 +121,7 @@ class Reports:
         return replace(self._closed(companion), has_acted=True).plus(PassedTurn(agent)), ()
 
     def idle(self, companion: CompanionRun) -> CompanionRun:
-        """Return the run when people have stood still; only where nobody waits for a turn."""
+        """Return the run when people have stood still; only where agents take no turns."""
         takes_turns = self.setup.pace == TURNS or self.setup.has_one_goal
         if takes_turns or companion.phase is not CompanionPhase.LISTENING:
             return companion

@@ -19,6 +19,7 @@ from hrcplan.collaboration.collaborate import (
 )
 from hrcplan.collaboration.events import SharedCommand, SharedEvent
 from hrcplan.collaboration.outcome import CollaborationOutcome
+from hrcplan.collaboration.persons import idle_wait_s
 from hrcplan.collaboration.run import CompanionRun
 from hrcplan.collaboration.setup import TURNS, CollaborationSetup
 from hrcplan.errors import HrcplanError, UsageError
@@ -197,6 +198,7 @@ class LiveSession:
         self.head = collaboration_head(setup) | {"name": self.name, "spec": self.spec.to_json()}
         self.story = story
         bank = shared_bank.bank
+        self._person.wait_s = lambda run: idle_wait_s(run, setup)
         if self.spec.human == ME:
             return parts_with(setup, bank, self._adviser, self._person, Nature(setup.seed))
         course = course_of(bank, setup.seed)

@@ -52,6 +52,8 @@ class PagePerson:
     Args:
         offer: Is called before a person acts, with the run and who can act.
         line: Returns the line of the journal that pages have seen.
+
+    ``wait_s`` says for how many seconds people may think until they stand still; None for ever.
     """
 
     is_live = True
@@ -60,6 +62,7 @@ class PagePerson:
         self, offer: Callable[[CompanionRun, tuple[str, ...]], None], line: Callable[[], int]
     ) -> None:
         self._offer, self._line = offer, line
+        self.wait_s: Callable[[CompanionRun], float | None] = lambda run: None
         self._requests: queue.SimpleQueue[PageRequest | None] = queue.SimpleQueue()
         self._open: PageRequest | None = None
 
@@ -97,7 +100,11 @@ class PagePerson:
         self._offer(run, agents)
         self._reply()
         while True:
-            request = self._requests.get()
+            wait_s = self.wait_s(run)
+            try:
+                request = self._requests.get(timeout=wait_s)
+            except queue.Empty:
+                return (shared.Idle(run.t, wait_s or 0.0),)
             if request is None:
                 raise SessionStoppedError
             event = self._event(request, run)

@@ -125,6 +125,17 @@ def test_costs_of_tired_people_are_higher() -> None:
     assert costs[0] > graph.steps_left[0]
 
 
+def test_a_step_is_worth_the_same_whether_an_even_or_an_odd_number_is_left() -> None:
+    """With strict turns it would be worth nothing every second time, and the robot would wait."""
+    graph = bank_of("kitchen").graphs[0]
+    prices = joint("kitchen").price_model.prices(TIRED)
+    costs = costs_to_go(graph, prices)
+    by_layer = [costs[graph.steps_left == n].min() for n in range(2, int(graph.steps_left[0]) + 1)]
+    saved = np.diff(by_layer)
+    assert saved.min() > 1
+    assert np.ptp(saved) < 0.1
+
+
 def test_each_question_costs_more_than_the_one_before() -> None:
     prices = [AskingRecord(n, n).price for n in range(4)]
     assert prices == sorted(set(prices))
