@@ -54,7 +54,7 @@ def test_who_waits_on_and_on_is_asked_again_about_a_goal_that_was_denied(nested:
     inner = run.run.__class__(**{**_fields(run.run), "state": _with_facts(run, facts)})
     run = run.__class__(**{**_fields(run), "run": inner, "denied": frozenset({"small"})})
     asked = []
-    for n in range(5):
+    for _ in range(5):
         run = run.plus(PassedTurn("ann"))
         asked.append(machine._done_question(run) is not None)
         assert machine._done_question(run.plus(DeniedGoals(("small",)))) is None
@@ -101,7 +101,7 @@ def kitchen() -> Bank:
 
 
 def test_what_people_will_probably_fail_at_does_not_count_as_done(kitchen: Bank) -> None:
-    setup = make_setup(kitchen, pace="free", method="joint", profile="sensed")
+    setup = make_setup(kitchen, pace="free", method="joint")
     robot = Adviser(setup, kitchen, assistant_of(setup)).joint
     attempt = BegunAction(1, "human", "get", ("human", "pan"), 1.0, False)
     for value, ends in ((1, ()), (9, (EndedAction(1, ev.FAILED),))):
