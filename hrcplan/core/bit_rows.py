@@ -12,8 +12,7 @@ from hrcplan.core.arrays import Bools, Ids, Words
 
 WORD = 64
 _ONES = np.uint64(2**WORD - 1)
-_CHUNK = 1024  # rows that are packed together
-_NO_IDS = np.zeros(0, np.int64)
+_WORDS = 1 << 20  # words of numbers that are looked at together: 8 MB
 # Each stage swaps the off-diagonal blocks of all 8 x 8 bit blocks; a block is one word.
 _SWAPS = (
     (np.uint64(7), np.uint64(0x00AA00AA00AA00AA)),
@@ -145,23 +144,37 @@ class SparseRows:
     words: Words
 
     @classmethod
-    def of(cls, numbers: Sequence[int], n_bits: int) -> SparseRows:
-        """Return integers of ``n_bits`` bits as sparse rows."""
-        sizes, places, words = [_NO_IDS], [_NO_IDS], [np.zeros(0, np.uint64)]
-        for begin in range(0, len(numbers), _CHUNK):
-            rows = pack(numbers[begin : begin + _CHUNK], n_bits)
-            owners, columns = np.nonzero(rows)
-            sizes.append(np.bincount(owners, minlength=len(rows)))
-            places.append(columns)
-            words.append(rows[owners, columns])
-        lists = Ragged.of_sizes(np.concatenate(sizes))
-        return cls(lists, np.concatenate(places), np.concatenate(words))
+    def of(cls, numbers: Sequence[int]) -> SparseRows:
+        """Return integers, few bits of which are set, as sparse rows."""
+        owners, bits = bit_positions(numbers)
+        places = bits // WORD
+        is_first = np.ones(len(bits), dtype=np.bool_)
+        is_first[1:] = (owners[1:] != owners[:-1]) | (places[1:] != places[:-1])
+        starts = np.flatnonzero(is_first)
+        single = np.uint64(1) << (bits % WORD).astype(np.uint64)
+        words = np.bitwise_or.reduceat(single, starts) if len(starts) else single
+        sizes = np.bincount(owners[starts], minlength=len(numbers))
+        return cls(Ragged.of_sizes(sizes), places[starts], words)
 
-    def positions(self) -> tuple[Ids, Ids]:
-        """Return the bits that are set: their rows, in order, and their positions."""
-        entries, bits = np.nonzero(bools(self.words[:, None], WORD))
-        owners = np.repeat(np.arange(len(self.lists.sizes)), self.lists.sizes)
-        return owners[entries], self.places[entries] * WORD + bits
+
+def bit_positions(numbers: Sequence[int]) -> tuple[Ids, Ids]:
+    """Return the bits of integers that are set: whose they are, in order, and their positions.
+
+    >>> bit_positions([0b101, 0, 0b10])
+    (array([0, 0, 2]), array([0, 2, 1]))
+    """
+    owners, places = [np.zeros(0, np.int64)], [np.zeros(0, np.int64)]
+    longest = max((number.bit_length() for number in numbers), default=0)
+    chunk = max(1, _WORDS // n_words(longest))
+    for begin in range(0, len(numbers), chunk):
+        rows = pack(numbers[begin : begin + chunk], longest)
+        flat = rows.reshape(-1)
+        at = np.flatnonzero(flat != 0)
+        which, columns = np.divmod(at, rows.shape[1])
+        entries, bits = np.nonzero(bools(flat[at][:, None], WORD))
+        owners.append(which[entries] + begin)
+        places.append(columns[entries] * WORD + bits)
+    return np.concatenate(owners), np.concatenate(places)
 
 
 class RowSets:

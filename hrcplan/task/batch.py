@@ -50,11 +50,9 @@ class BatchSimulator:
         self.n_actions = len(task.actions)
         self.n_words = bit_rows.n_words(self.n_facts)
         effects = [action.sequential for action in task.actions]
-        self._at_start = BatchEffects([start for start, _ in effects], self.n_facts)
+        self._at_start = BatchEffects([start for start, _ in effects])
         self._at_end = (
-            BatchEffects([end for _, end in effects], self.n_facts)
-            if any(end for _, end in effects)
-            else None
+            BatchEffects([end for _, end in effects]) if any(end for _, end in effects) else None
         )
         self._conditions = ActionConditions(task.actions, self.n_facts)
         self._conditional = np.flatnonzero([action.conditional for action in task.actions])

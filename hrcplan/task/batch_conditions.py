@@ -10,8 +10,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from hrcplan.core.arrays import Ids, Words
-from hrcplan.core.bit_rows import RowSets, SparseRows
+from hrcplan.core.arrays import Words
+from hrcplan.core.bit_rows import RowSets, bit_positions
 from hrcplan.task.actions import GroundAction
 from hrcplan.task.conditions import Tests
 
@@ -20,8 +20,8 @@ class LiteralSets:
     """The literals that sets of conditions or effects name, as rows after those of the facts."""
 
     def __init__(self, true: Sequence[int], false: Sequence[int], n_facts: int) -> None:
-        owners, facts = SparseRows.of(true, n_facts).positions()
-        other_owners, other_facts = SparseRows.of(false, n_facts).positions()
+        owners, facts = bit_positions(true)
+        other_owners, other_facts = bit_positions(false)
         self._negated, rows = np.unique(other_facts, return_inverse=True)
         self._n_rows = n_facts
         members = np.concatenate([facts, rows + n_facts])
@@ -42,17 +42,21 @@ class BatchConditions:
     """
 
     def __init__(self, conditions: Sequence[Tests], n_facts: int) -> None:
-        index = {test: i for i, test in enumerate(dict.fromkeys(t for c in conditions for t in c))}
-        values = [value for _, value in index]
-        self._literals = LiteralSets(values, [mask & ~value for mask, value in index], n_facts)
-        owners = [i for i, tests in enumerate(conditions) for _ in tests]
-        members = [index[test] for tests in conditions for test in tests]
-        self._alternatives = RowSets(_ids(owners), _ids(members), len(conditions))
+        alternatives = [test for tests in conditions for test in tests]
+        values = [value for _, value in alternatives]
+        forbids = [mask & ~value for mask, value in alternatives]
+        self._literals = LiteralSets(values, forbids, n_facts)
+        owners = np.repeat(np.arange(len(conditions)), [len(tests) for tests in conditions])
+        self._alternatives = RowSets(owners, np.arange(len(alternatives)), len(conditions))
 
     def enabled(self, facts: Words) -> Words:
         """Return for each condition in which states it holds."""
         rows = self._literals.rows(facts)
         return self._alternatives.combine(self._literals.sets.combine(rows, "all"), "any")
+
+
+_Key = tuple[Tests, tuple[int, int] | None]
+"""What an action needs, and what it adds and deletes; None if that depends on the state."""
 
 
 class ActionConditions:
@@ -64,13 +68,18 @@ class ActionConditions:
     """
 
     def __init__(self, actions: Sequence[GroundAction], n_facts: int) -> None:
-        keys = [(a.tests, None if _is_change(a) else (a.adds, a.deletes)) for a in actions]
-        index = {key: i for i, key in enumerate(dict.fromkeys(keys))}
-        self._groups = _ids([index[key] for key in keys])
-        self._tests = BatchConditions([tests for tests, _ in index], n_facts)
-        writes = {i: write for (_, write), i in index.items() if write is not None}
-        self._doubtful = _ids(list(writes))
-        deletes, adds = [d for _, d in writes.values()], [a for a, _ in writes.values()]
+        distinct: list[_Key] = []
+        by_step: dict[tuple[str, ...], list[int]] = {}
+        groups = [_group_of(action, distinct, by_step) for action in actions]
+        self._groups = np.array(groups, dtype=np.int64)
+        self._tests = BatchConditions([tests for tests, _ in distinct], n_facts)
+        doubtful = {
+            i: writes for i, (tests, writes) in enumerate(distinct)
+            if writes is not None and not _is_change(tests, *writes)
+        }  # fmt: skip
+        self._doubtful = np.array(list(doubtful), dtype=np.int64)
+        adds = [writes[0] for writes in doubtful.values()]
+        deletes = [writes[1] for writes in doubtful.values()]
         self._changes = LiteralSets(deletes, adds, n_facts)
 
     def applicable(self, facts: Words) -> Words:
@@ -82,13 +91,24 @@ class ActionConditions:
         return rows[self._groups]
 
 
-def _is_change(action: GroundAction) -> bool:
-    """Return whether the condition alone says that something changes, or that is not known."""
-    adds, deletes = action.adds, action.deletes
-    return action.conditional or all(
-        mask & ~value & adds or value & deletes for mask, value in action.tests
-    )
+def _group_of(
+    action: GroundAction, distinct: list[_Key], by_step: dict[tuple[str, ...], list[int]]
+) -> int:
+    """Return the index in ``distinct`` of what an action needs and does.
+
+    Actions that need and do the same are those of one step, as a rule; to hash all that they need
+    and do takes long in large tasks. Conditional effects are left out.
+    """
+    key = (action.tests, None if action.conditional else (action.adds, action.deletes))
+    alike = by_step.setdefault(action.step, [])
+    for i in alike:
+        if distinct[i] == key:
+            return i
+    alike.append(len(distinct))
+    distinct.append(key)
+    return alike[-1]
 
 
-def _ids(numbers: Sequence[int]) -> Ids:
-    return np.array(numbers, dtype=np.int64)
+def _is_change(tests: Tests, adds: int, deletes: int) -> bool:
+    """Return whether a condition alone says that something changes."""
+    return all(mask & ~value & adds or value & deletes for mask, value in tests)

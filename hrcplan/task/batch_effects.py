@@ -20,19 +20,19 @@ class BatchEffects:
 
     Args:
         effects: The effects of each action.
-        n_facts: Bits of a state.
     """
 
-    def __init__(self, effects: Sequence[Effects], n_facts: int) -> None:
+    def __init__(self, effects: Sequence[Effects]) -> None:
         rows = [[(test, e) for e in part for test in e.tests] for part in effects]
         flat = [row for part in rows for row in part]
         sizes = [*map(len, rows), 0]  # the last list is that of no action, -1
         self._rows = Ragged.of_sizes(np.array(sizes, dtype=np.int64))
         self._is_certain = all(test in ALWAYS for test, _ in flat)
-        self._needs = SparseRows.of([value for (_, value), _ in flat], n_facts)
-        self._forbids = SparseRows.of([mask & ~value for (mask, value), _ in flat], n_facts)
-        self._deletes = SparseRows.of([effect.deletes for _, effect in flat], n_facts)
-        self._adds = SparseRows.of([effect.adds for _, effect in flat], n_facts)
+        tests = [test for test, _ in flat] if not self._is_certain else []
+        self._needs = SparseRows.of([value for _, value in tests])
+        self._forbids = SparseRows.of([mask & ~value for mask, value in tests])
+        self._deletes = SparseRows.of([effect.deletes for _, effect in flat])
+        self._adds = SparseRows.of([effect.adds for _, effect in flat])
 
     def apply(self, states: Words, actions: Ids) -> None:
         """Change states in place, each by one action; -1 changes nothing.

@@ -26,7 +26,7 @@ PARTS = {
     "exact": "proofs for two agents and for three",
     "execution": "simulated runs of failure anticipation and their replans",
     "links": "a message to a robot and back",
-    "growth": "grounding, walking and validating as tasks grow",
+    "growth": "grounding, walking and validating as tasks grow, to 100,000 ground actions",
     "bank": "building, sampling, and listing plans beside top-k planners",
     "beliefs": "updates of 30 and of 10,000 goals",
     "words": "phrases of people read as steps, in states of walks",

@@ -8,16 +8,18 @@ from dataclasses import replace
 from functools import partial
 from math import log
 
+import numpy as np
 from rows import Row, milliseconds, worked
 
 from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import TRUE, Problem
 from hrcplan.plans import Plan, PlannedAction
 from hrcplan.task import Task
+from hrcplan.task.batch import BatchSimulator
 from hrcplan.validation import validate
 
-MOST_GROUND_S, N_STEPS = 30, 200
-SIZES = [(5, 4, 20), (10, 5, 60), (15, 7, 150)]  # cities, places in each, packages
+MOST_GROUND_S, N_STEPS, N_WALKS, N_BATCH_STEPS = 30, 200, 256, 5
+SIZES = [(5, 4, 20), (10, 5, 60), (15, 7, 150), (15, 7, 330)]  # cities, places in each, packages
 LENGTHS = [100, 400, 1600]
 DOMAIN = """
 (define (domain delivery) (:requirements :strips :typing)
@@ -43,25 +45,41 @@ def rows() -> Iterator[Row]:
 
 
 def _tasks() -> Iterator[Row]:
-    last: tuple[int, float] | None = None
+    """Grounding, walks, many walks at once, and validation, on tasks of growing size."""
+    before: dict[str, tuple[int, float]] = {}
     for problem in _deliveries():
-        made: list[Task] = []
-        ground = worked(partial(_ground, problem, made))
-        task = made[0]
-        walk = worked(partial(_walk, task, N_STEPS)) / N_STEPS
+        tasks: list[Task] = []
+        ground = worked(partial(_ground, problem, tasks))
+        task = tasks[0]
         n = len(task.actions)
-        yield Row(
-            f"delivery, {n:,} ground actions, {len(task.facts):,} facts",
-            f"grounded in {milliseconds(ground)}",
-            f"{walk * 1e6:,.0f} µs a step{_exponent(last, n, ground)}",
-            f"<= {MOST_GROUND_S} s" if problem.name == "largest" else "",
-            ground > MOST_GROUND_S,
-        )
-        last = n, ground
+        over = problem.name == "largest" and ground > MOST_GROUND_S
+        for what, seconds, unit_s in (("grounded", ground, 1.0), *_steps(task)):
+            yield Row(
+                f"delivery, {n:,} ground actions, {len(task.facts):,} facts: {what}",
+                milliseconds(seconds) if unit_s == 1 else f"{seconds / unit_s:,.1f} µs",
+                _exponent(before.get(what), n, seconds).removeprefix(", "),
+                f"<= {MOST_GROUND_S} s" if problem.name == "largest" and seconds is ground else "",
+                over and seconds is ground,
+            )
+            before[what] = n, seconds
 
 
-def _ground(problem: Problem, made: list[Task]) -> None:
-    made.append(Task(problem))
+def _steps(task: Task) -> Iterator[tuple[str, float, float]]:
+    """Yield what is done with a task, the seconds that it takes, and their unit."""
+    task.applicable(task.initial)  # lays the actions out
+    yield "a step of a walk", worked(partial(_walk, task, N_STEPS)) / N_STEPS, 1e-6
+    simulators: list[BatchSimulator] = []
+    yield "made ready for many walks", worked(lambda: simulators.append(BatchSimulator(task))), 1
+    states, rng = simulators[0].initial(N_WALKS), np.random.default_rng(1)
+    walk = worked(lambda: simulators[0].walk(states, N_BATCH_STEPS, rng))
+    yield f"a step of {N_WALKS} walks at once", walk / N_WALKS / N_BATCH_STEPS, 1e-6
+    plan = Plan(tuple(_walk(task, N_STEPS)))
+    open_goal = replace(task.problem, goal=TRUE)
+    yield f"validated {N_STEPS} actions", worked(partial(validate, open_goal, plan)), 1
+
+
+def _ground(problem: Problem, tasks: list[Task]) -> None:
+    tasks.append(Task(problem))
 
 
 def _deliveries() -> Iterator[Problem]:
