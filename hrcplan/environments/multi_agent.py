@@ -120,7 +120,7 @@ class _Team:
 
 
 class CollaborationAECEnv(AECEnv):  # type: ignore[misc]
-    """Humans and robots act one after the other, the humans first; see the `guide`.
+    """Humans and robots act one after the other, the humans first.
 
     An observation holds ``observation`` and ``action_mask``. A human also observes its goal. All
     agents get the same reward: minus a timestep for each turn, and if the episode is stuck, those

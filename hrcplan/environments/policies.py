@@ -42,14 +42,14 @@ class AssistantPolicy:
         else:
             self._robot = PerHuman(bank, lambda view: ASSISTANTS.make(assistant, view))
             self._observer = PerHumanObserver(self._robot)
-        self._n_observed = 0
+        self._moves, self._n_observed = self._rollout.moves, 0
         self._state = self._robot.start()
 
     def act(self) -> int:
         """Return the action of the robot whose turn it is."""
         rollout, moves = self._rollout, self._rollout.moves
-        if moves is not self._moves_of_episode:
-            self._moves_of_episode, self._n_observed = moves, 0
+        if moves is not self._moves:  # another episode
+            self._moves, self._n_observed = moves, 0
             self._state = self._robot.start()
         for mover, step, goal in moves[self._n_observed :]:
             self._state = self._observer.after(self._state, mover, step)
@@ -60,8 +60,6 @@ class AssistantPolicy:
         able = self._env.actions.able(rollout.turns.state, rollout.turns.mover.agents)
         action = self._env.actions.action(choice)
         return action if able >> action & 1 else 0  # it is a step of another robot
-
-    _moves_of_episode: Any = None
 
 
 class PolicyAssistant(BeliefAssistant[Any]):

@@ -14,6 +14,7 @@ from pettingzoo.test import api_test, parallel_api_test, parallel_seed_test, see
 
 import hrcplan
 from hrcplan.bank import build
+from hrcplan.core.extras import EXTRA_OF
 from hrcplan.environments import aec_env, make, make_vec, parallel_env
 from hrcplan.errors import UnsupportedError, UsageError
 from tests.test_extras import without
@@ -190,6 +191,24 @@ for name in ("make", "make_vec", "aec_env", "parallel_env"):
         print(error.hint)
 """
     assert without(["gymnasium", "pettingzoo"], script) == "pip install 'hrcplan[gym]'\n" * 4
+
+
+def test_the_extra_alone_is_enough_and_policies_need_none():
+    others = sorted(set(EXTRA_OF) - {"gymnasium", "pettingzoo"})
+    script = """
+import hrcplan
+bank = hrcplan.build_bank("kitchen", only=["parfait-nut", "smoothie-berry"])
+make = hrcplan.environments
+env, many = make.make(bank, human="cc-htn", belief="switching"), make.make_vec(bank, num_envs=2)
+pair, both = make.aec_env(bank), make.parallel_env(bank)
+for each in (env, many, pair, both):
+    each.reset(seed=0)
+waits = dict.fromkeys(both.agents, 0)
+print(env.step(0)[1], many.step([0, 0])[1].tolist(), pair.step(0), both.step(waits)[1])
+"""
+    assert without(others, script).startswith("-3.0 [-3.0, -3.0] None {'human': -2.0")
+    script = "from hrcplan.environments import PolicyAssistant; print(PolicyAssistant.__name__)"
+    assert without(sorted(EXTRA_OF), script) == "PolicyAssistant\n"
 
 
 def test_environments_are_a_public_name():
