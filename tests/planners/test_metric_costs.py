@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import random
+from contextlib import suppress
+
 import pytest
 
 from hrcplan.errors import UnsupportedError
@@ -151,3 +154,44 @@ def test_nothing_limits_a_gain() -> None:
     task = Task(with_total_cost(market("maximize (profit)", domain=endless)))
     with pytest.raises(UnsupportedError, match=r"\(sell .*again and again"):
         most_gain(task, prices(task).prices)
+
+
+def random_problem(seed: int) -> Problem:
+    """Return a task whose actions run once each and change costs and counters by chance."""
+    rng = random.Random(seed)
+    actions = ""
+    for i in range(3):
+        effects = [f"(not (once{i}))", f"(f{rng.randrange(4)} ?o)"]
+        for _ in range(2):
+            target, amount = rng.choice(TARGETS), rng.choice(AMOUNTS)
+            effect = f"({rng.choice(('increase', 'decrease'))} {target} {amount})"
+            effects.append(rng.choice((effect, f"(when (f{rng.randrange(4)} ?o) {effect})")))
+        needs = rng.choice(("", "(f0 ?o)"))
+        actions += f"""(:action a{i} :parameters (?o) :precondition (and (once{i}) {needs})
+          :effect (and {" ".join(effects)}))"""
+    facts = " ".join([*(f"(f{i} ?o)" for i in range(4)), "(once0) (once1) (once2)"])
+    metric = f"(+ {' '.join(rng.sample(TERMS, 3))})"
+    domain = f"""(define (domain d) (:requirements :adl :numeric-fluents) (:predicates {facts})
+      (:functions (c) (d ?o) (w ?o) (total-cost)) {actions})"""
+    return problem_of(domain, f"""(define (problem p) (:domain d) (:objects o1 o2)
+      (:init (once0) (once1) (once2) (f0 o1) (= (c) 1) (= (d o1) 0) (= (d o2) 2) (= (w o1) 1)
+        (= (w o2) 3) (= (total-cost) 4))
+      (:goal (f{rng.randrange(1, 4)} o{rng.choice((1, 2))}))
+      (:metric {rng.choice(("minimize", "maximize"))} {metric}))""")  # fmt: skip
+
+
+TARGETS = ("(c)", "(d ?o)", "(total-cost)")
+AMOUNTS = ("2", "(w ?o)", "(* 0.5 (w ?o))", "(+ 1 (w ?o))")
+TERMS = ["(c)", "(* 2 (d o1))", "(d o2)", "(* -1 (c))", "(total-cost)", "(* 0.5 (total-time))", "3"]
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_the_best_plan_stays_the_best(seed: int) -> None:
+    problem = random_problem(seed)
+    costs = with_total_cost(problem)
+    one, other = (UniformCost().solve(Request(p)) for p in (problem, costs))
+    assert (one.status, one.objective) == (other.status, other.objective)
+    with suppress(UnsupportedError):
+        bound = RelaxedBound().solve(Request(costs)).bound
+        if bound is not None and one.objective is not None:
+            assert bound >= one.objective if problem.maximize else bound <= one.objective
