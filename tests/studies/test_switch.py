@@ -13,6 +13,7 @@ from click.testing import CliRunner
 
 from hrcplan.bank import build_bank
 from hrcplan.cli.main import main
+from hrcplan.episodes.episode import EpisodeRecord, EpisodeTurn
 from hrcplan.errors import InputError, UsageError
 from hrcplan.inference import infer
 from hrcplan.inference.traces import read_trace, text_sha256
@@ -20,7 +21,7 @@ from hrcplan.studies import report_study, run_study
 from hrcplan.studies.store import Store
 from hrcplan.studies.study import StudyRow, find
 from hrcplan.studies.switch import instances, methods, tasks
-from hrcplan.studies.switch.episodes import KEYS, played_oracle_steps
+from hrcplan.studies.switch.episodes import GUESSES, KEYS, played_oracle_steps, row_of
 from hrcplan.studies.switch.instances import SwitchInstance, all_instances, listed
 from hrcplan.studies.switch.score import score
 
@@ -282,6 +283,14 @@ def test_instances_are_as_listed(task: str) -> None:
     assert known.goals == tuple(names[goal] for goal in instance.course.goals)
     assert known.turns == instance.course.turns
     assert known.oracle_steps == played_oracle_steps(instance)
+
+
+def test_an_episode_without_guesses_has_no_measures_of_them() -> None:
+    instance = SwitchInstance("yard", "fixed", 0)
+    waiting = EpisodeTurn(0, True, None, 0, False)
+    row = row_of("assistance", instance, EpisodeRecord(instance.course, (waiting,), "stuck"), {})
+    assert {row[name] for name in GUESSES} == {None}
+    assert row["reached_pct"] == 0.0
 
 
 def test_generated_goals_depend_on_the_seed_alone() -> None:

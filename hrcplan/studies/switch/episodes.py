@@ -57,13 +57,18 @@ def play(instance: SwitchInstance, helper: Assistant[Any]) -> tuple[EpisodeRecor
 def row_of(
     table: str, instance: SwitchInstance, record: EpisodeRecord, beliefs: Beliefs
 ) -> StudyRow:
-    """Return the row of an episode; the same for an episode and its trace that is replayed."""
+    """Return the row of an episode; the same for an episode and its trace that is replayed.
+
+    Where the human did nothing, so that there was no guess, measures of guesses have no value.
+    """
     row: StudyRow = {
         **changed_mind.columns_of_course(bank_of(instance.task), {"": record.course}, record),
         **changed_mind.measures_of(record),
         "brier": _brier(record, beliefs),
         "extra_vs_oracle": record.cost - oracle_steps(instance),
     }
+    if row["brier"] is None:
+        row |= dict.fromkeys(GUESSES)
     return {name: row[name] for name in COLUMNS[table]}
 
 

@@ -42,10 +42,10 @@ class RecordedRobot:
         self._timesteps = trace.episode.timesteps or 0
         self._by_timestep: dict[int, tuple[int, TraceAction]] = {}
         for line, action in enumerate(trace.actions, start=2):
-            t = int(action.t)
-            if t != action.t or not max(self._by_timestep, default=-1) < t < self._timesteps:
+            last = max(self._by_timestep, default=-1)
+            if not (action.t.is_integer() and last < action.t < self._timesteps):
                 self.fail("bad-time", f"timestep {action.t:g} is out of order", line)
-            self._by_timestep[t] = line, action
+            self._by_timestep[int(action.t)] = line, action
         self._now = 0
 
     def start(self) -> RecordedState:
