@@ -17,6 +17,8 @@ from hrcplan.pddl.source import SourceText
 
 WIDTH = 120
 _STEP = 2
+_MOST_ROUNDS = 8
+"""A group that is broken because it is too long may be laid out differently the next time."""
 _MAX_DEPTH = 150  # the writer is recursive
 _LISTS = frozenset([":types", ":constants", ":objects", ":predicates", ":functions", ":init"])
 _WITH_GROUP = frozenset(["define", "forall", "exists", "when", ":derived"])
@@ -64,11 +66,15 @@ def format_text(text: str, path: str = "PDDL") -> str:
     faults = [fault for fault in source.diagnostics if fault.severity == "error"]
     if faults:
         raise PddlError(faults)
-    writer = _Writer()
-    for part in _parts(text, path):
-        writer.begin(part, 0)
-        writer.write(part, 0, 0)
-    return writer.text()
+    for _ in range(_MOST_ROUNDS):
+        writer = _Writer()
+        for part in _parts(text, path):
+            writer.begin(part, 0)
+            writer.write(part, 0, 0)
+        if writer.text() == text or not writer.has_broken_group:
+            return writer.text()
+        text = writer.text()
+    return text
 
 
 def _parts(text: str, path: str) -> list[_Part]:
@@ -110,6 +116,7 @@ class _Writer:
 
     def __init__(self) -> None:
         self._lines = [""]
+        self.has_broken_group = False  # one that stood on one line, but is too long for that
 
     def text(self) -> str:
         return "\n".join(line.rstrip() for line in self._lines).strip("\n") + "\n"
@@ -141,6 +148,7 @@ class _Writer:
         elif not part.is_broken and self._fits(part, n_closing):
             self.add(_inline(part))
         else:
+            self.has_broken_group |= not part.is_broken
             self._write_group(part.parts, indent, n_closing)
 
     def _fits(self, part: _Part, n_closing: int) -> bool:

@@ -87,3 +87,11 @@ def test_text_without_matching_parentheses_is_refused() -> None:
 def test_text_that_is_nested_too_deeply_is_refused() -> None:
     with pytest.raises(InputError, match="150 levels"):
         format_text("(define " + "(" * 200 + ")" * 200 + ")")
+
+
+def test_a_head_that_is_too_long_is_laid_out_once() -> None:
+    head = "(:derived (blocked-transition ?p - process ?t - transition) (and "
+    body = "(exists (?q - queue) (exists (?m - message) (exists (?n - number) (and\n(p ?q) (r ?m)"
+    for n in range(30):
+        once = format_text(f"(define (domain d)\n{head}{'x' * n} {body})))))))")
+        assert format_text(once) == once
