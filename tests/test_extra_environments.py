@@ -10,11 +10,11 @@ import subprocess
 import sys
 import time
 import tomllib
-import urllib.request
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
+from urllib.request import HTTPCookieProcessor, build_opener
 
 import pytest
 
@@ -73,7 +73,8 @@ def browse(programs: Path, folder: Path) -> None:
     with program(programs / "hrcplan", "serve", folder=folder, stdout=subprocess.PIPE) as server:
         assert server.stdout
         address = next(m[0] for line in server.stdout if (m := re.search(r"http://\S+", line)))
-        with urllib.request.urlopen(address, timeout=60) as page:
+        browser = build_opener(HTTPCookieProcessor())
+        with browser.open(address, timeout=60) as page:
             assert "kitchen" in page.read().decode()
 
 
@@ -140,6 +141,26 @@ def act_in_pddlgym(programs: Path, folder: Path) -> None:
     run(programs / "python", "-c", code, cwd=folder)
 
 
+def learn(programs: Path, folder: Path) -> None:
+    code = """if True:
+        import hrcplan
+        from gymnasium.utils.env_checker import check_env
+        from pettingzoo.test import parallel_api_test
+        check_env(hrcplan.environments.make("kitchen").unwrapped)
+        parallel_api_test(hrcplan.environments.parallel_env("kitchen"), num_cycles=20)
+    """
+    run(programs / "python", "-c", code, cwd=folder)
+
+
+MAKE_ENVIRONMENT = """if True:
+    import hrcplan, sys
+    try:
+        hrcplan.environments.make("kitchen")
+    except hrcplan.UsageError as error:
+        sys.exit(f"{error}; {error.hint}")
+"""
+
+
 PARTS = {
     "planners": Part(
         [
@@ -163,6 +184,7 @@ PARTS = {
     "lsp": Part(talk=edit, without=[(2, ["lsp"])]),
     "mcp": Part(talk=ask_tools, without=[(2, ["mcp", "."])]),
     "cluster": Part(talk=run_on_a_cluster, without=[(2, [*STUDY, "--cluster", "127.0.0.1:1"])]),
+    "gym": Part(talk=learn, without=[(1, ["-c", MAKE_ENVIRONMENT])]),
     "java": Part([["planners"]]),
     "topk": Part([SAMPLE], without=[(5, SAMPLE)]),
     "pddlgym": Part(talk=act_in_pddlgym),
@@ -193,7 +215,7 @@ def test_commands_name_the_extra_that_they_miss(wheel: Path, tmp_path: Path) -> 
     for extra, part in PARTS.items():
         for code, words in part.without:
             done = subprocess.run(
-                [programs / "hrcplan", *words],
+                [programs / ("python" if words[0] == "-c" else "hrcplan"), *words],
                 cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=120,
             )  # fmt: skip
             said = done.stdout + done.stderr

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Sequence
 
@@ -51,6 +52,9 @@ def _add_documents(server: LanguageServer, files: PddlWorkspace) -> None:
     def publish(uri: str, with_folder: bool) -> None:
         path = path_of(uri)
         files.texts[path] = server.workspace.get_text_document(uri).source
+        show(path, with_folder)
+
+    def show(path: str, with_folder: bool) -> None:
         for name, faults in files.faults(path, with_folder=with_folder).items():
             shown = Positions(server, files.text(name)).diagnostics(faults)
             server.text_document_publish_diagnostics(
@@ -71,7 +75,17 @@ def _add_documents(server: LanguageServer, files: PddlWorkspace) -> None:
 
     @server.feature(lsp.TEXT_DOCUMENT_DID_CLOSE)
     def closed(params: lsp.DidCloseTextDocumentParams) -> None:
-        files.texts.pop(path_of(params.text_document.uri), None)
+        path = path_of(params.text_document.uri)
+        files.texts.pop(path, None)
+        if os.path.isfile(path):
+            show(path, False)
+            return
+        # A file that is gone has no faults, and problems of its domain have others now.
+        server.text_document_publish_diagnostics(
+            lsp.PublishDiagnosticsParams(params.text_document.uri, [])
+        )
+        for other in list(files.texts)[:1]:
+            show(other, False)
 
 
 def _add_questions(server: LanguageServer, files: PddlWorkspace) -> None:

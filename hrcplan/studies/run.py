@@ -70,6 +70,8 @@ def run_study(
         raise UsageError("runs, jobs and limit are at least 1")
     if cluster is not None and jobs != 1:
         raise UsageError("jobs are processes of this machine: name jobs or a cluster, not both")
+    if cluster is not None:
+        require("distributed", "--cluster")
     for module in ("joblib", "matplotlib", "sklearn"):
         require(module, "a study")
     if cluster is not None:

@@ -232,3 +232,26 @@ def test_columns_count_as_the_editor_counts(folder: Path, encoding: str, n_units
     client.process.wait()
     ends = [fault["range"]["end"] for fault in client.faults["wide.pddl"]]
     assert {"line": 2, "character": n_units} in ends
+
+
+def test_a_closed_file_counts_as_it_is_on_disk(editor: Editor, folder: Path) -> None:
+    domain, problem = folder / "domain.pddl", folder / "one.pddl"
+    domain.write_text(DOMAIN.replace("cler", "clear"))
+    editor.open(domain, DOMAIN)
+    editor.open(problem, PROBLEM)
+    editor.settle(problem)
+    assert editor.faults["domain.pddl"]
+    editor.tell("textDocument/didClose", {"textDocument": {"uri": domain.as_uri()}})
+    editor.settle(problem)
+    assert (editor.faults["domain.pddl"], editor.faults["one.pddl"]) == ([], [])
+
+
+def test_a_renamed_file_leaves_no_faults_behind(editor: Editor, folder: Path) -> None:
+    domain, problem = folder / "domain.pddl", folder / "one.pddl"
+    editor.open(domain, DOMAIN)
+    editor.open(problem, PROBLEM)
+    domain.rename(folder / "domain.txt")
+    editor.tell("textDocument/didClose", {"textDocument": {"uri": domain.as_uri()}})
+    editor.settle(problem)
+    assert editor.faults["domain.pddl"] == []
+    assert "no domain 'boxes' given" in str(editor.faults["one.pddl"])

@@ -27,6 +27,7 @@ PARTS = {
     "execution": "simulated runs of failure anticipation and their replans",
     "links": "a message to a robot and back",
     "growth": "grounding, walking and validating as tasks grow, to 100,000 ground actions",
+    "reach": "editors, layout, unified-planning and tools of language models",
     "bank": "building, sampling, and listing plans beside top-k planners",
     "beliefs": "updates of 30 and of 10,000 goals",
     "words": "phrases of people read as steps, in states of walks",
