@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import sys
 import textwrap
 from collections.abc import Callable, Container, Mapping, Sequence
@@ -72,6 +71,8 @@ def document(value: Mapping[str, Any]) -> None:
 
     It is one line if the command prints one for every event (``LINES``).
     """
+    import json  # 2 ms that results in words do without
+
     limit = sys.get_int_max_str_digits()
     sys.set_int_max_str_digits(0)  # numbers are bounded where they are computed
     try:
@@ -82,6 +83,8 @@ def document(value: Mapping[str, Any]) -> None:
 
 
 def _json_character(character: str) -> str:
+    import json
+
     is_plain = character.isprintable() or character == "\n"
     return character if is_plain else json.dumps(character)[1:-1]
 

@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import field, replace
 from fractions import Fraction
-from html import escape
+from typing import TYPE_CHECKING
 
 from hrcplan.core.numbers import Number, exact, number_text
 from hrcplan.core.records import record
@@ -33,9 +33,11 @@ from hrcplan.planners.contract import (
     Status,
 )
 from hrcplan.planners.lanes import schedule, with_durations
-from hrcplan.planners.soft_goals import HardGoals, without_preferences
 from hrcplan.plans import EPSILON_S, Plan
 from hrcplan.validation import Report, objective, validate
+
+if TYPE_CHECKING:
+    from hrcplan.planners.soft_goals import HardGoals
 
 _TOLERANCE = 1e-6  # relative; planners print metrics with a few decimals
 _ROUNDING = 2e-3
@@ -122,6 +124,8 @@ class Result:
     def _repr_html_(self) -> str:
         """Return the plan as a picture with the result below it."""
         picture = "" if self.plan is None else self.plan.picture(self.problem)
+        from html import escape
+
         return f"{picture}<p>{escape(repr(self))}</p>"
 
 
@@ -138,7 +142,11 @@ def ask(planner: Planner, request: Request, lanes: bool, why: str) -> Result:
     if missing is not None:
         raise MissingPlannerError(f"planner '{planner.card.name}' cannot run here: {missing}")
     beyond = sorted(remaining(request.problem) - planner.card.constructs)
-    hard_goals = without_preferences(request.problem) if beyond == [PREFERENCES] else None
+    hard_goals = None
+    if beyond == [PREFERENCES]:
+        from hrcplan.planners.soft_goals import without_preferences
+
+        hard_goals = without_preferences(request.problem)
     if beyond and hard_goals is None:
         message = f"planner '{planner.card.name}' does not know {' and '.join(beyond)}"
         raise UnsupportedError(message, hint="kairos knows them" if planner.card.own else None)

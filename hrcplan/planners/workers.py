@@ -27,6 +27,8 @@ Work = Callable[[Callable[[M], None]], None]
 
 GRACE_S = 0.5
 """Between the request to end, in which a planner's processes are cleared up, and a kill."""
+SHORTEST_S = 0.0005
+"""How soon it is looked at first whether workers have ended."""
 _DEATH = signal.SIGUSR1
 _BLOCKED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
@@ -128,10 +130,11 @@ def end(workers: Sequence[Worker[Any]]) -> None:
     for worker in workers:
         worker.signal(signal.SIGTERM)
     deadline = time.monotonic() + GRACE_S
-    waiting = list(workers)
+    waiting, pause_s = list(workers), SHORTEST_S
     while waiting and time.monotonic() < deadline:
         waiting = [worker for worker in waiting if worker.is_running]
-        time.sleep(0.005 if waiting else 0)
+        time.sleep(pause_s if waiting else 0)
+        pause_s = min(10 * SHORTEST_S, 2 * pause_s)
     for worker in waiting:
         worker.signal(signal.SIGKILL)
     for worker in workers:

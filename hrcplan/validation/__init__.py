@@ -16,7 +16,7 @@ from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.inputs import Readable, as_problem
 from hrcplan.pddl.model import Domain, Problem
 from hrcplan.pddl.semantics import unmet
-from hrcplan.plans import EPSILON_S, Plan, as_plan
+from hrcplan.plans import EPSILON_S, Plan
 from hrcplan.validation.happenings import BrokenPlanError
 from hrcplan.validation.replay import PlanReplay
 from hrcplan.validation.report import Report, objective
@@ -84,7 +84,11 @@ def validate(
     if isinstance(problem, Plan):
         raise TypeError("the plan is the last argument of validate(), after the problem")
     parsed_problem = as_problem(domain, None if isinstance(problem, EllipsisType) else problem)
-    return _replay(parsed_problem, as_plan(plan, parsed_problem), epsilon_s)
+    if not isinstance(plan, Plan):
+        from hrcplan.plans import as_plan
+
+        plan = as_plan(plan, parsed_problem)
+    return _replay(parsed_problem, plan, epsilon_s)
 
 
 def _replay(problem: Problem, plan: Plan, epsilon_s: Number) -> Report:
