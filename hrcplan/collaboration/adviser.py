@@ -304,7 +304,11 @@ class Adviser:
         return shared.Read(ask.t, reading.outcome, options, note)
 
     def _why_not(self, ask: shared.AskReading) -> str:
-        named = read_exactly(ask.text, list(self._actions(ask.agents)), {}).options
+        actions = list(self._actions(ask.agents))
+        named = read_exactly(ask.text, actions, {}).options
+        if not named:
+            reading = self.reader(ask.text, actions, {})
+            named = reading.options if reading.outcome == shared.ACT else ()
         if not named:
             return ""
         obstacle = self._obstacle(named[0], self._state_for(ask.agents))

@@ -117,3 +117,13 @@ def test_a_robot_that_knows_the_goal_hears_it_once_and_ends(kitchen: Bank) -> No
     run = simulated(setup, kitchen, Course((0, 1), (3,), seed="0"), nature=nature).run()
     assert run.run.ending == ev.GOAL
     assert [m.goal for m in run.history if isinstance(m, WantedGoal)] == list(kitchen.names)
+
+
+def test_of_words_for_an_action_that_cannot_be_done_now_it_is_said_what_it_needs(
+    kitchen: Bank,
+) -> None:
+    setup = make_setup(kitchen, method="joint")
+    adviser = Adviser(setup, kitchen, assistant_of(setup))
+    read = adviser.read(shared.AskReading(0.0, ("human",), "i boil the pasta in the pan"))
+    assert read.outcome == shared.NONE
+    assert read.note == "(cook human pasta pan stove) needs (in pasta pan)"
