@@ -26,7 +26,7 @@ from hrcplan.task.steps import MAX_TIES
 
 MAX_MIB = 2048
 Edges = tuple[Ids, SmallIds, Ids]
-Item = TypeVar("Item", bound=np.generic)
+Scalar = TypeVar("Scalar", bound=np.generic)
 
 
 @dataclass(frozen=True, slots=True)
@@ -247,7 +247,7 @@ class Explorer:
         )
 
 
-def _joined(parts: Sequence[NDArray[Item]]) -> NDArray[Item]:
+def _joined(parts: Sequence[NDArray[Scalar]]) -> NDArray[Scalar]:
     return parts[0] if len(parts) == 1 else np.concatenate(parts)
 
 
