@@ -242,6 +242,7 @@ def test_worker_killed_in_the_middle(cluster: Cluster, toy: Path) -> None:
     finally:
         process.kill()
     assert process.returncode == 0, text
+    assert "ended before" not in text
     run_study(STUDY, toy / "near", runs=40)
     assert rows(toy / "out") == rows(toy / "near")
 
@@ -336,11 +337,14 @@ def test_forests_and_banks_are_what_episodes_read() -> None:
 # Workers that differ.
 
 
-def add_other_worker(cluster: Cluster) -> None:
-    """Start a worker with another version of hrcplan."""
+OTHER = "import hrcplan\nhrcplan.__version__ = '0.0.9'\n"
+
+
+def add_other_worker(cluster: Cluster, code: str = OTHER) -> None:
+    """Start a worker with another version of hrcplan, or with what code says."""
     folder = cluster.folder / "other"
     folder.mkdir()
-    (folder / "sitecustomize.py").write_text("import hrcplan\nhrcplan.__version__ = '0.0.9'\n")
+    (folder / "sitecustomize.py").write_text(code)
     cluster.add_worker(PYTHONPATH=os.pathsep.join([str(folder), str(ROOT)]))
 
 
@@ -353,6 +357,14 @@ def test_worker_of_another_version_is_refused(toy: Path, tmp_path: Path) -> None
         assert caught.value.code == "worker-differs"
         assert not (toy / "out").exists()
         assert not (toy / "log").exists()
+
+
+@slow
+def test_worker_without_hrcplan_ends_the_run_at_once(toy: Path, tmp_path: Path) -> None:
+    with Cluster(tmp_path, n_workers=0) as mixed:
+        add_other_worker(mixed, "import sys\nsys.modules['hrcplan'] = None\n")
+        with pytest.raises(UsageError, match="is hrcplan installed there"):
+            run_study(STUDY, toy / "out", cluster=mixed.address)
 
 
 @slow

@@ -10,7 +10,7 @@ from __future__ import annotations
 import asyncio
 import os
 import time
-from collections.abc import Callable, Coroutine, Iterator, Mapping, Sequence
+from collections.abc import Callable, Coroutine, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from queue import SimpleQueue
@@ -37,7 +37,8 @@ LOOK_S = 0.5
 PATIENCE_S = 300.0
 """How long to wait while there is no worker."""
 MAX_FAULTS = 3  # workers that one message names
-SAME = "start the workers again, from the environment that this command runs in"
+ENDED = "ended before it could be compared; is hrcplan installed there?"
+SAME = "start scheduler and workers again, from the environment that this command runs in"
 RESUME = "call the command again to go on; rows that were written stay"
 
 
@@ -113,9 +114,21 @@ class ClusterRunner:
         self._list_file_names()
         while not (present := await self._present()):
             await asyncio.sleep(LOOK_S)
-        await asyncio.gather(*map(self._admit, present))
-        if self._refusals:
-            faults = [f"worker {worker} {why}" for worker, why in self._refusals.items()]
+        comparing = {worker: asyncio.create_task(self._admit(worker)) for worker in present}
+        try:
+            while not all(task.done() for task in comparing.values()):
+                await asyncio.wait(comparing.values(), timeout=LOOK_S)
+                for worker in comparing.keys() - (await self._present()).keys():
+                    comparing[worker].cancel()
+        finally:
+            await _cancel(comparing.values())
+        faults = [f"worker {worker} {why}" for worker, why in self._refusals.items()]
+        for worker, task in comparing.items():
+            if task.cancelled():
+                faults += [f"worker {worker} {ENDED}"] if not self._admitted else []
+            else:
+                task.result()
+        if faults:
             more = len(faults) - MAX_FAULTS
             text = "; ".join(faults[:MAX_FAULTS]) + (f"; and {more} more" if more > 0 else "")
             raise UsageError(text, code="worker-differs", hint=SAME)
@@ -130,6 +143,9 @@ class ClusterRunner:
                 backlog.n_slots = max(1, sum(present.values()))
                 for worker in [worker for worker in serving if worker not in present]:
                     serving.pop(worker).cancel()
+                    if worker not in self._admitted:
+                        self._say(f"worker {worker} {ENDED}")
+                    self._admitted.discard(worker)
                 for worker in [worker for worker, task in serving.items() if task.done()]:
                     task = serving.pop(worker)
                     if not task.cancelled():
@@ -140,9 +156,7 @@ class ClusterRunner:
                 with suppress(asyncio.TimeoutError):
                     await asyncio.wait_for(backlog.done.wait(), LOOK_S)
         finally:
-            for task in serving.values():
-                task.cancel()
-            await asyncio.gather(*serving.values(), return_exceptions=True)
+            await _cancel(serving.values())
         self.failures |= backlog.quarantine
 
     async def _present(self) -> Mapping[str, int]:
@@ -161,7 +175,6 @@ class ClusterRunner:
             raise PlannerError(message, code="cluster-gone", hint=RESUME) from None
         for gone in self._refusals.keys() - present.keys():
             del self._refusals[gone]
-        self._admitted &= present.keys()
         self._check_patience(bool(present.keys() - self._refusals.keys()))
         return present
 
@@ -249,6 +262,7 @@ class ClusterRunner:
             DifferenceError: if the worker differs from this process.
             WorkerError: if the task fails, or hrcplan cannot be imported there.
             ConnectionError: if the scheduler is gone.
+            UsageError: if the scheduler lacks hrcplan, or has another one.
         """
         submit: Any = self._client.submit  # its arguments may be futures: files that were sent
         future = submit(call, function, self._job, *args, workers=[worker], pure=False, **more)
@@ -260,6 +274,9 @@ class ClusterRunner:
             raise error
         if error is None:
             raise ConnectionError(future.status)
+        if "deserialization of the task graph" in str(error):
+            message = f"the scheduler at {self._address} cannot read tasks of hrcplan"
+            raise UsageError(message, code="scheduler-differs", hint=SAME)
         raise WorkerError(f"cannot run tasks of hrcplan: {type(error).__name__}: {error}")
 
     def _list_file_names(self) -> None:
@@ -284,5 +301,12 @@ class ClusterRunner:
 
     async def _end_tasks(self) -> None:
         """End the processes of this study on all workers, also those that run a batch now."""
-        workers = list(self._admitted)
+        workers = [worker for worker in await self._client.nthreads() if worker in self._admitted]
         await self._client.run(end_processes, self._job, workers=workers, on_error="ignore")
+
+
+async def _cancel(running: Iterable[asyncio.Task[Any]]) -> None:
+    """Cancel tasks, and wait for their ends."""
+    for task in running:
+        task.cancel()
+    await asyncio.gather(*running, return_exceptions=True)
