@@ -68,7 +68,7 @@ class ClusterRunner:
         self._refusals: dict[str, str] = {}
         self._admitted: set[str] = set()
         self._file_names: list[str] = []
-        self._last_seen = time.monotonic()
+        self._last_seen, self._is_waiting = time.monotonic(), False
 
     def __enter__(self) -> Self:
         """Return the runner, after all workers that are there were compared with this process."""
@@ -189,8 +189,6 @@ class ClusterRunner:
         if now - self._last_seen > PATIENCE_S:
             message = f"no worker of {self._address} for {PATIENCE_S / 60:.0f} minutes"
             raise LimitError(message, code="no-workers", hint=RESUME)
-
-    _is_waiting = False
 
     async def _serve(
         self,
