@@ -33,7 +33,7 @@ PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text())["project"]
 FOR_DEVELOPERS = {"docs", "test", "dev", "browser", "all"}
 SAMPLE = ["bank", "build", "kitchen", "--goal", "parfait-nut", "--sample", "20", "-o", "plans"]
 GANTT = ["plan", "transport/two-boxes", "--gantt", "plan.svg"]
-STUDY = ["study", "run", "failure-anticipation", "--runs", "1", "-o", "rows"]
+STUDY = ["study", "run", "failure-anticipation", "--limit", "12", "-o", "rows"]
 
 Talk = Callable[[Path, Path], None]
 """What uses a program that serves: it gets the folder of programs and a folder to work in."""
