@@ -49,7 +49,9 @@ def report_study(
         about = store.about()
         study = _study(about, folder, study_name)
         given_options = {
-            key: study.present_name(key, value) for key, value in about["options"].items()
+            key: study.present_name(key, value)
+            for key, value in about["options"].items()
+            if value is not None
         }
         options = {**study.options, **given_options}  # earlier versions had fewer
         rows = {t.name: study.present_rows(t, store.rows(t)) for t in study.tables}

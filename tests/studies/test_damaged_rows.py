@@ -61,6 +61,17 @@ def test_damaged_rows_are_an_input_error(folder: Path, tmp_path: Path, statement
     assert not (copy / "report.json").exists()
 
 
+def test_an_option_without_a_value_is_the_default(folder: Path, tmp_path: Path) -> None:
+    copy = tmp_path / "copy"
+    shutil.copytree(folder, copy)
+    with sqlite3.connect(copy / "rows.sqlite") as file:
+        (text,) = file.execute("select value from about where key = 'options'").fetchone()
+        nothing = json.dumps(dict.fromkeys(json.loads(text)))
+        file.execute("update about set value = ? where key = 'options'", (nothing,))
+    file.close()
+    assert report_study(copy)["n_rows"] == report_study(folder)["n_rows"]
+
+
 def test_workers_import_nothing_from_the_current_folder(tmp_path: Path) -> None:
     for name in ("joblib", "pickle", "numpy", "loky"):
         (tmp_path / f"{name}.py").write_text("raise SystemExit(f'{__name__} of the folder')")
