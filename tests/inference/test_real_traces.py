@@ -18,7 +18,7 @@ TOYS = {
     FIRST: "0,10,attach,chassis,wheel,correct,\n10,20,attach,cabin,chassis,mistake,wrong order\n"
     "20,30,detach,cabin,chassis,correction,\n30,40,attach,cabin,chassis,correct,\n",
     "nusar_9012-a01_9012_user_id.csv": "0,9,attach,wheel,chassis,correct,\n"
-    "9,20,attach,chassis,cabin,correct,\n",
+    "9,20,attach,chassis,cabin,correct\n",  # some lines have no remark
     "nusar_9013-b02_9013_user_id.csv": "0,9,inspect,wheel,chassis,correct,\n"
     "9,20,attach,wheel,chassis,correct,\n20,31,attach,crane arm,chassis,correct,\n",
     "readme.csv": "no,toy\n",
