@@ -12,7 +12,7 @@ labels such as ``peel-garlic``; recipes share them. A step needs those before it
 that have it agree on that.
 
 assembly101: the CSV files of its mistake annotations (CC BY-NC 4.0: not part of this repository),
-one per recording, with the columns start, end, verb, this, that, label, remark (which may be missing)
+one per recording, with the columns start, end, verb, this, that, label, remark (may be missing)
 and no head; the toy is the part such as a01 of the file's name. Lines with another verb than attach
 and detach are left out. A goal is what most recordings of a toy attach.
 
