@@ -69,7 +69,7 @@ def test_robots_meet_the_same_people(options: StudyOptions) -> None:
 def test_every_attempt_is_paid_and_so_is_a_question(options: StudyOptions) -> None:
     """A part that is bent is no longer cut: a goal may be lost, and then the episode is dear."""
     rows = [*rows_of(options, "joint"), *rows_of(options, "joint", "steady", 2)]
-    assert {row["ending"] for row in rows} == {"reached", "unfinished"}
+    assert {row["ending"] for row in rows} == {"reached", "stuck"}
     for row in rows:
         paid = 2 * (int(row["n_actions"] or 0) + int(row["questions"] or 0))
         least = 0 if row["ending"] == "reached" else PATIENCE * 2 * (2 + 4)
