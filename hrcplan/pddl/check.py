@@ -11,6 +11,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from types import MappingProxyType
 
+from hrcplan.core.garbage import no_garbage_search
 from hrcplan.core.records import record
 from hrcplan.core.text import nearest, quote
 from hrcplan.errors import Diagnostic, InputError, PddlError
@@ -66,6 +67,7 @@ class CheckReport:
             yield f"{path}: note: {note}"
 
 
+@no_garbage_search()
 def check(paths: Sequence[str | Path], texts: Mapping[str, str] | None = None) -> CheckReport:
     """Return every fault of the files; problems are checked against their domains.
 
@@ -110,6 +112,7 @@ def load_domain(path: str | Path) -> Domain:
     return domain_in(read_source(path))
 
 
+@no_garbage_search()
 def domain_in(source: SourceText) -> Domain:
     """Return the domain in a text.
 
@@ -134,6 +137,7 @@ def load_problem(domain: Domain, path: str | Path) -> Problem:
     return problem_in(domain, read_source(path))
 
 
+@no_garbage_search()
 def problem_in(domain: Domain, source: SourceText) -> Problem:
     """Return the problem in a text, read against its domain.
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from math import inf
 
+from hrcplan.core.garbage import no_garbage_search
 from hrcplan.core.numbers import Number
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, Constant, Expr, Fact, Problem
@@ -119,6 +120,7 @@ class Grounding:
         return any_of(alternatives)
 
 
+@no_garbage_search()
 def ground(problem: Problem, deadline: float = inf) -> Grounding:
     """Return the grounding of a problem by relaxed reachability.
 
