@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import os
 import re
 from collections.abc import Sequence
@@ -29,6 +30,9 @@ _COMPLETIONS = {
 _SECTION_KINDS = dict.fromkeys(
     (":action", ":durative-action", ":process", ":event"), lsp.SymbolKind.Method
 )
+LONG = 200_000
+"""Characters of a text whose check takes so long that it waits for a pause of the typing."""
+PAUSE_S = 0.4
 KEYWORDS = (
     ":requirements", ":types", ":constants", ":predicates", ":functions", ":derived", ":action",
     ":durative-action", ":parameters", ":precondition", ":condition", ":duration", ":effect",
@@ -65,9 +69,18 @@ def _add_documents(server: LanguageServer, files: PddlWorkspace) -> None:
     def opened(params: lsp.DidOpenTextDocumentParams) -> None:
         publish(params.text_document.uri, True)
 
+    def publish_last(document: lsp.VersionedTextDocumentIdentifier) -> None:
+        now = server.workspace.text_documents.get(document.uri)
+        if now is not None and now.version == document.version:
+            publish(document.uri, False)
+
     @server.feature(lsp.TEXT_DOCUMENT_DID_CHANGE)
     def changed(params: lsp.DidChangeTextDocumentParams) -> None:
-        publish(params.text_document.uri, False)
+        document = params.text_document
+        if len(server.workspace.get_text_document(document.uri).source) < LONG:
+            publish(document.uri, False)
+        else:  # checked once for several changes
+            asyncio.get_running_loop().call_later(PAUSE_S, publish_last, document)
 
     @server.feature(lsp.TEXT_DOCUMENT_DID_SAVE)
     def saved(params: lsp.DidSaveTextDocumentParams) -> None:

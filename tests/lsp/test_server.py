@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from hrcplan.lsp.server import LONG
+
 DOMAIN = """(define (domain boxes)
   (:requirements :typing)
   (:types box place)
@@ -32,6 +34,7 @@ class Editor:
             command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, cwd=folder
         )
         self.faults: dict[str, list[dict[str, object]]] = {}
+        self.n_published = 0
         self.n_sent = 0
         general = {"general": {"positionEncodings": encodings}}
         self.capabilities = self.ask(
@@ -55,6 +58,7 @@ class Editor:
         if message.get("method") == "textDocument/publishDiagnostics":
             params = message["params"]
             self.faults[Path(params["uri"]).name] = params["diagnostics"]
+            self.n_published += 1
         return message
 
     def tell(self, method: str, params: object) -> None:
@@ -72,8 +76,8 @@ class Editor:
         document = {"uri": path.as_uri(), "languageId": "pddl", "version": 1, "text": text}
         self.tell("textDocument/didOpen", {"textDocument": document})
 
-    def change(self, path: Path, text: str) -> None:
-        document = {"uri": path.as_uri(), "version": 2}
+    def change(self, path: Path, text: str, version: int = 2) -> None:
+        document = {"uri": path.as_uri(), "version": version}
         changes = [{"text": text}]
         self.tell("textDocument/didChange", {"textDocument": document, "contentChanges": changes})
 
@@ -255,3 +259,18 @@ def test_a_renamed_file_leaves_no_faults_behind(editor: Editor, folder: Path) ->
     editor.settle(problem)
     assert editor.faults["domain.pddl"] == []
     assert "no domain 'boxes' given" in str(editor.faults["one.pddl"])
+
+
+def test_a_long_file_is_checked_once_after_several_changes(editor: Editor, folder: Path) -> None:
+    domain, n_changes = folder / "domain.pddl", 8
+    long = DOMAIN.replace("cler", "clear") + ";" * LONG
+    editor.open(domain, long)
+    editor.settle(domain)
+    n_before = editor.n_published
+    for version in range(2, 2 + n_changes):
+        editor.change(domain, long, version)
+    editor.change(domain, DOMAIN + ";" * LONG, 2 + n_changes)
+    while not editor.faults["domain.pddl"]:
+        editor._receive()
+    assert [fault["code"] for fault in editor.faults["domain.pddl"]] == ["unknown-predicate"]
+    assert editor.n_published - n_before < n_changes
