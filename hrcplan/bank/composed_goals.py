@@ -6,7 +6,7 @@ all that has to be written down. Facts that every goal of the bank needs belong 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from itertools import combinations, islice
 
@@ -14,13 +14,15 @@ import numpy as np
 
 from hrcplan.bank.bank import Bank
 from hrcplan.bank.construct import empty_graph, optimal_graph
-from hrcplan.bank.cost_to_go import NEVER, TIMESTEP, cost_to_go_of
+from hrcplan.bank.cost_to_go import NEVER, cost_to_go_of
 from hrcplan.bank.goals import Goals
 from hrcplan.bank.graph import PlanGraph
 from hrcplan.bank.search import BuildLimits
 from hrcplan.core.arrays import Bools, Floats
 from hrcplan.errors import LimitError
 from hrcplan.pddl.model import And, Atom, Fact, Formula
+from hrcplan.search.relaxed_plans import RelaxedPlans
+from hrcplan.task.conditions import Test
 
 MOST_FACTS = 100  # goal facts of a bank that are looked at
 MOST_BEGUN = 6  # facts that were brought nearer most: composed goals have one of them
@@ -28,6 +30,7 @@ MOST_OF_FAMILY = 3  # facts of one predicate in a composed goal
 MOST_MOVES = 12  # of people's last steps that goals are to explain
 HALF_STEP = 0.5  # what brings a fact nearer by less does not serve it
 FACT_PRICE = 0.1  # the share of steps that one more fact has to explain
+MOST_LOOKED_AT = 500_000  # actions between states of a team, for goals composed at once
 GRAPH_MIB = 4  # of the plan graph of a composed goal
 PLUS = " + "
 
@@ -78,28 +81,18 @@ def _graph(bank: Bank, goals: Goals, goal: int) -> PlanGraph:
 
 
 def _has_plan(bank: Bank, goal: int) -> bool:
-    return bool(np.isfinite(_steps_left(bank, [goal], bank.initial)[0]))
-
-
-def _steps_left(bank: Bank, goals: Sequence[int], world: int) -> Floats:
-    """Return how far goals are from a state; infinite if not known, or they cannot be reached."""
     if bank.team:
         costs = cost_to_go_of(bank)
-        to_go = costs.of(costs.place(world), 0)[list(goals)]
-        return np.where(to_go < NEVER, to_go / TIMESTEP, np.inf)
-    return np.array([_steps_left_on_graph(bank, goal, world) for goal in goals])
-
-
-def _steps_left_on_graph(bank: Bank, goal: int, world: int) -> float:
-    if bank.goals.is_reached(goal, world):
-        return 0.0
-    graph = bank.graphs[goal]
-    node = graph.node_of(world) if graph.n_nodes else None
-    return np.inf if node is None else float(graph.steps_left[node])
+        return bool(costs.of(costs.place(bank.initial), 0)[goal] < NEVER)
+    is_there = bank.graphs[goal].n_nodes and bank.graphs[goal].node_of(bank.initial) is not None
+    return bank.goals.is_reached(goal, bank.initial) or bool(is_there)
 
 
 class GoalComposer:
     """Composes goals of the goal facts of a bank.
+
+    What a step brings nearer is measured by relaxed plans: a look at all states of a team would
+    take too long while people wait for an answer.
 
     Args:
         bank: The bank, of goals that people seem not to have.
@@ -114,14 +107,25 @@ class GoalComposer:
         self._shared = frozenset.intersection(*sets) if sets else FactSet()
         free = [fact for fact in dict.fromkeys(facts) if fact not in self._shared]
         self._free = free[:MOST_FACTS] if not bank.is_solo else []
-        names = {composed_name(self._with_shared(fact)): fact for fact in self._free}
-        self._single = with_composed(bank, list(names))
-        self._single_facts = [names[name] for name in self._single.names[len(bank.names) :]]
+        tests = [self._tests(self._with_shared(fact)) for fact in self._free]
+        self._plans = RelaxedPlans(bank.table.ops, tests)
+        self._steps_left: dict[int, Floats] = {}
 
     def _with_shared(self, *facts: Fact) -> FactSet:
         return self._shared | frozenset(facts)
 
-    def compose(self, moves: Sequence[tuple[int, int]], most: int) -> list[str]:
+    def _tests(self, facts: FactSet) -> tuple[Test, ...]:
+        formula = composed_formula(composed_name(facts))
+        return self.bank.goals.task.with_goal(formula).goal
+
+    @property
+    def n_at_once(self) -> int:
+        """How many goals are added to the bank while people wait for one answer; at least one."""
+        return 1 if self._costs is None else max(1, MOST_LOOKED_AT // self._costs.n_actions)
+
+    def compose(
+        self, moves: Sequence[tuple[int, int]], most: int, without: Collection[str] = ()
+    ) -> list[str]:
         """Return the names of goals that people may have by what they did, the best first.
 
         A goal explains a step that brings one of its facts nearer; it should explain many steps
@@ -130,6 +134,7 @@ class GoalComposer:
         Args:
             moves: The states before and after each step of people, as bits.
             most: How many goals at most.
+            without: Names of goals that are left out.
         """
         if not self._free or not moves:
             return []
@@ -143,24 +148,32 @@ class GoalComposer:
             for goal in sets if goal not in self._known
         }  # fmt: skip
         best = sorted(worth, key=lambda goal: -worth[goal])
-        return [composed_name(goal) for goal in islice(filter(self._can_hold, best), most)]
+        new = (goal for goal in best if composed_name(goal) not in without)
+        return [composed_name(goal) for goal in islice(filter(self._can_hold, new), most)]
 
     def _explained(self, moves: Sequence[tuple[int, int]]) -> dict[Fact, Bools]:
         """Return for each goal fact which steps have brought it nearer."""
-        goals = range(len(self.bank.names), len(self._single.names))
-        gains = np.zeros((len(moves), len(goals)))
+        gains = np.zeros((len(moves), len(self._free)))
         for place, (before, after) in enumerate(moves):
-            nearer, farther = (_steps_left(self._single, goals, w) for w in (after, before))
+            nearer, farther = self._left(after), self._left(before)
             is_known = np.isfinite(nearer)
             gains[place, is_known] = farther[is_known] - nearer[is_known]
-        return dict(zip(self._single_facts, (gains > HALF_STEP).T, strict=True))
+        return dict(zip(self._free, (gains > HALF_STEP).T, strict=True))
+
+    def _left(self, world: int) -> Floats:
+        """Return how many steps relaxed plans need to each free fact; infinite if there is none."""
+        steps = self._steps_left.get(world)
+        if steps is None:
+            shares = self._plans.shares(world)
+            steps = np.where(np.isfinite(shares.costs), shares.ops.sum(axis=0), np.inf)
+            self._steps_left[world] = steps
+        return steps
 
     def _can_hold(self, facts: FactSet) -> bool:
         """Return whether facts can hold together, as far as that is seen at once."""
         if self._costs is None:
             return True
-        formula = composed_formula(composed_name(facts))
-        return self._costs.can_hold(self.bank.goals.task.with_goal(formula).goal)
+        return self._costs.can_hold(self._tests(facts))
 
     def _candidates(self, begun: Sequence[Fact]) -> Iterator[FactSet]:
         """Yield facts that were brought nearer: several together, alone, and with their family."""
@@ -169,7 +182,7 @@ class GoalComposer:
                 yield self._with_shared(*facts)
         for fact in begun:
             yield self._with_shared(fact)
-            family = [other for other in self._single_facts
+            family = [other for other in self._free
                       if other[0] == fact[0] and other != fact]  # fmt: skip
             for n in range(1, MOST_OF_FAMILY):
                 for others in combinations(family, n):

@@ -69,7 +69,7 @@ class CostToGo:
     max_states: int = MAX_STATES
     _places: dict[int, int] = field(default_factory=dict)
     _priced: dict[tuple[int, bytes, float], Floats] = field(default_factory=dict)
-    _costs: dict[frozenset[int], Costs] = field(default_factory=dict)
+    _costs: dict[frozenset[int], tuple[Costs, ...]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         """Find the states, and the actions between them."""
@@ -102,8 +102,13 @@ class CostToGo:
         new = [rules.meets(self._rows, tests) for tests in bank.goals.tests[n_goals:]]
         other._is_goal = [*self._is_goal, *new]
         for acting, costs in self._costs.items():
-            other._costs[acting] = np.concatenate([costs, other._costs_from(n_goals, acting)])
+            other._costs[acting] = (*costs, other._costs_from(n_goals, acting))
         return other
+
+    @property
+    def n_actions(self) -> int:
+        """How many actions there are between the states: what is looked at for each goal."""
+        return len(self._ops)
 
     def can_hold(self, tests: tuple[Test, ...]) -> bool:
         """Return whether the team can get to a state that meets one of several tests."""
@@ -177,8 +182,9 @@ class CostToGo:
         acting = self._acting(with_robots, human)
         costs = self._costs.get(acting)
         if costs is None:
-            costs = self._costs[acting] = self._costs_from(0, acting)
-        return costs[:, turn, places]
+            costs = self._costs[acting] = (self._costs_from(0, acting),)
+        parts = [part[:, turn, places] for part in costs]  # large tables are never copied
+        return parts[0] if len(parts) == 1 else np.concatenate(parts)
 
     def _acting(self, with_robots: bool, human: str | None) -> frozenset[int]:
         """Return the agents that do not only wait, as indices of the team."""

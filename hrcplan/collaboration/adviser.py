@@ -43,8 +43,8 @@ from hrcplan.pddl.semantics import LiftedState
 from hrcplan.plans import PlannedAction
 
 N_HELPED = 3  # goals that are named as reasons for a step
-MOST_COMPOSED, MOST_AT_ONCE = 20, 6  # goals that are composed in all, and after one step
-N_BETWEEN = 6  # actions and waits before goals are composed again
+MOST_COMPOSED, MOST_AT_ONCE = 20, 6  # goals that are composed in all, and for the same reason
+N_BETWEEN = 6  # actions and waits before goals are composed for another reason
 
 
 class Adviser:
@@ -70,6 +70,7 @@ class Adviser:
         self.run: CompanionRun | None = None
         self._banks: dict[tuple[str, ...], Bank] = {(): bank}
         self._folds: dict[tuple[str, ...], BeliefFold] = {}
+        self._without_plan: set[str] = set()
         self._joint: tuple[BeliefFold, JointAdviser] | None = None
 
     @cached_property
@@ -185,23 +186,36 @@ class Adviser:
             history: What was seen.
             names: The goals that were composed before.
         """
-        state = self._fold_with(names).state(history)
-        robot = JOINT_ROBOTS.get(self.setup.method)
-        may_compose = robot is not None and not robot.knows_goal and robot.weighs_goal
-        if not may_compose or not isinstance(state, JointState) or state.none <= shared.HALF:
+        if not self._may_compose(history, names):
             return ()
-        since = tuple(takewhile(lambda mark: not isinstance(mark, ComposedGoals), history[::-1]))
-        if names and sum(isinstance(mark, BegunAction | PassedTurn) for mark in since) < N_BETWEEN:
-            return ()
-        most = min(MOST_AT_ONCE + len(names), MOST_COMPOSED)
+        most = min(MOST_AT_ONCE - len(names) % MOST_AT_ONCE, MOST_COMPOSED - len(names))
         moves = list(_moves_of_people(history, self.listed))
-        new = [name for name in self._composer.compose(moves, most) if name not in names]
+        left_out = {*names, *self._without_plan}
+        new = self._composer.compose(moves, min(most, self._composer.n_at_once), left_out)
         if not new:
             return ()
-        larger = with_composed(self._bank_with(names), new[: MOST_COMPOSED - len(names)])
+        larger = with_composed(self._bank_with(names), new)
         all_names = larger.names[len(self.listed.names) :]
-        self._banks[all_names] = larger
+        self._without_plan.update(set(new).difference(all_names))
+        # Of the tables of a large team no more than two are held.
+        self._banks = {(): self.listed, names: self._bank_with(names), all_names: larger}
+        self._folds = {names: self._fold_with(names)}
         return all_names[len(names) :]
+
+    def _may_compose(self, history: History, names: tuple[str, ...]) -> bool:
+        """Return whether goals are composed now: a few after one step, the rest after the next."""
+        robot = JOINT_ROBOTS.get(self.setup.method)
+        if robot is None or robot.knows_goal or not robot.weighs_goal:
+            return False
+        since = tuple(takewhile(lambda mark: not isinstance(mark, ComposedGoals), history[::-1]))
+        n_since = sum(isinstance(mark, BegunAction | PassedTurn) for mark in since)
+        if len(names) >= MOST_COMPOSED or (names and not n_since):
+            return False
+        if len(names) % MOST_AT_ONCE:
+            return True
+        state = self._fold_with(names).state(history)
+        is_none = isinstance(state, JointState) and state.none > shared.HALF
+        return is_none and (not names or n_since >= N_BETWEEN)
 
     def likeliest(self, state: BeliefState) -> tuple[tuple[str, float], ...]:
         """Return every goal with its probability, the likeliest first."""

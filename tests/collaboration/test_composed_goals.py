@@ -3,19 +3,20 @@
 import random
 from dataclasses import replace
 from functools import lru_cache
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
 
 from hrcplan.assistance.joint_help import NONE_PRIOR, JointHelp
-from hrcplan.bank import Bank, build, build_bank
+from hrcplan.bank import Bank, build, build_bank, composed_goals
 from hrcplan.bank.composed_goals import (
     GoalComposer,
     composed_formula,
     composed_name,
     with_composed,
 )
-from hrcplan.bank.cost_to_go import NEVER, cost_to_go_of
+from hrcplan.bank.cost_to_go import NEVER, CostToGo, cost_to_go_of
 from hrcplan.collaboration import events as shared
 from hrcplan.collaboration.adviser import MOST_COMPOSED, Adviser
 from hrcplan.collaboration.collaborate import (
@@ -28,6 +29,7 @@ from hrcplan.collaboration.collaborate import (
 )
 from hrcplan.collaboration.companion import Companion
 from hrcplan.collaboration.history import (
+    BegunAction,
     ComposedGoals,
     PassedTurn,
     SeenWait,
@@ -122,6 +124,28 @@ def test_a_journal_with_composed_goals_is_derived_again_and_resumed(tmp_path: Pa
         assert path.read_text() == "".join(lines)
 
 
+def test_goals_are_composed_a_few_at_a_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A prompt never waits for all of them; to rank them costs no look at all states."""
+    bank = transport()
+    cost_to_go_of(bank).of(0, 0)
+    monkeypatch.setattr(composed_goals, "MOST_LOOKED_AT", 1)
+    done = collaborate_outside("transport", 0, "free")
+    assert EXCHANGED in done.outcome.reached
+    history = done.run.history
+    places = [i for i, mark in enumerate(history) if isinstance(mark, ComposedGoals)]
+    assert len(composed_in(history)) == len(places) > 1
+    for first, second in pairwise(places):
+        assert any(isinstance(m, BegunAction | PassedTurn) for m in history[first:second])
+    passes: list[int] = []
+    monkeypatch.setattr(CostToGo, "_lower", lambda *args: passes.append(1))
+    composer = GoalComposer(bank)
+    states = [bank.initial, bank.table.successor(bank.initial, 0)]
+    composer.compose([(states[0], states[1] or states[0])], 3)
+    assert passes == []
+    with_composed(bank, [EXCHANGED])
+    assert 1 <= len(passes) <= len(cost_to_go_of(bank)._costs)
+
+
 def test_a_name_says_which_facts_a_goal_has() -> None:
     facts = frozenset({("on", "cup", "top"), ("on", "can", "low")})
     assert composed_name(facts) == OUTSIDE
@@ -144,6 +168,7 @@ def test_composed_goals_explain_what_people_did() -> None:
     names = GoalComposer(bank).compose(moves, 3)
     assert names[0] == OUTSIDE
     assert len(names) == 3
+    assert GoalComposer(bank).compose(moves, 2, names[:1]) == names[1:]
     assert GoalComposer(bank).compose([], 3) == []
 
 
