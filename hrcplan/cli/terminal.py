@@ -16,12 +16,14 @@ from hrcplan.collaboration.persons import NO_WORDS, YES_WORDS, idle_wait_s
 from hrcplan.collaboration.reading import ActionWords
 from hrcplan.collaboration.run import CompanionRun
 from hrcplan.core.numbers import number_text
+from hrcplan.core.steady_clock import SteadyClock
 from hrcplan.errors import UsageError
 from hrcplan.execution import events as ev
 from hrcplan.pddl.model import FluentKey, fact_text
 
 N_SHOWN = 6  # steps that are offered before each of the person's turns
 N_GOALS_LISTED = 12
+MOST_LOOK_S = 1.0  # between two looks at what is typed; more is a jump of the clock
 N_ALONE = 2  # words of an agent state that depends on its agent alone
 HELP = """Say what you do in your own words{step}, or give its number.
 Enter   do nothing now
@@ -44,11 +46,16 @@ class IdleAlarm:
     Args:
         wait_s: For how long.
         interrupt: Waits, and returns whether something has happened; None if nothing can.
+        real: The clock.
     """
 
-    def __init__(self, wait_s: float, interrupt: Callable[[float], bool] | None) -> None:
+    def __init__(
+        self, wait_s: float, interrupt: Callable[[float], bool] | None,
+        real: Callable[[], float] = time.monotonic,
+    ) -> None:  # fmt: skip
         self.wait_s, self._interrupt = wait_s, interrupt
-        self._end_s = time.monotonic() + wait_s
+        self._clock = SteadyClock(real, most_s=MOST_LOOK_S)
+        self._end_s = self._clock() + wait_s
         self.is_over = False
 
     def __call__(self, seconds: float) -> bool:
@@ -57,7 +64,7 @@ class IdleAlarm:
             time.sleep(seconds)
         elif self._interrupt(seconds):
             return True
-        self.is_over = time.monotonic() >= self._end_s
+        self.is_over = self._clock() >= self._end_s
         return self.is_over
 
 

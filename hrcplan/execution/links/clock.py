@@ -6,13 +6,15 @@ import math
 import time
 from collections.abc import Callable
 
+from hrcplan.core.steady_clock import SteadyClock
+
 
 class RunClock:
     """Seconds of a run since `begin`, from a clock that may jump; ``speed`` of them in a second."""
 
     def __init__(self, speed: float = 1.0, real: Callable[[], float] = time.monotonic) -> None:
         self.speed = speed
-        self._real = real
+        self._real = SteadyClock(real)
         self._last_s = self._begun_s = 0.0
         self._stopped_s: float | None = None
 
