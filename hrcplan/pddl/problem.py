@@ -199,19 +199,23 @@ class _Init:
         if time is None or time < 0 or not isinstance(change, GroupNode):
             source.error(word.at, "bad-number", "a time is not below zero")
         elif change.head == "=":
-            function = read_function(change[1], self.scope) if len(change) == 3 else None
-            value = self._number(change[2]) if len(change) == 3 else None
+            if len(change) != 3:
+                source.error(change.at, "not-a-fact", "(= (f a) NUMBER) is expected here")
+                return
+            function = read_function(change[1], self.scope)
+            value = self._number(change[2])
             if function is not None and value is not None:
                 key = (function.name, *function.args)
                 self.timed_changes.append(TimedChange(time, key, value=value))
         else:
             positive = change.head != "not"
             inner = change if positive else change[-1]
-            atom = self._base_atom(inner) if isinstance(inner, GroupNode) and inner else None
+            if not isinstance(inner, GroupNode) or not inner.head:
+                source.error(node.at, "not-a-fact", "(at TIME (p a b)) is expected here")
+                return
+            atom = self._base_atom(inner)
             if atom is not None:
                 self.timed_changes.append(TimedChange(time, (atom.name, *atom.args), positive))
-            elif not source.has_errors:
-                source.error(node.at, "not-a-fact", "(at TIME (p a b)) is expected here")
 
     def _base_atom(self, node: GroupNode) -> Atom | None:
         """Return a fact that a state can hold: no derived predicate."""
