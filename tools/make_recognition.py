@@ -129,7 +129,7 @@ class World:
     def graph(self, facts: frozenset[Fact], state: int) -> PlanGraph | None:
         """Return the optimal plans of a goal from a state; None if they are too many, or none."""
         try:
-            graph = optimal_graph(self.table, [self.test(facts)], state, limits=LIMITS)
+            graph = optimal_graph(self.table, (self.test(facts),), state, limits=LIMITS)
         except LimitError:
             return None
         return graph if graph.n_nodes else None

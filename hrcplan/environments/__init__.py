@@ -12,7 +12,7 @@ hrcplan.errors.UsageError: an environment has no option 'goal_changes'
 >>> env = hrcplan.environments.make("kitchen", changes=1)
 >>> observation, info = env.reset(seed=1)
 >>> int(observation.sum()), int(info["action_mask"].sum())
-(2, 3)
+(35, 39)
 """
 
 from __future__ import annotations
