@@ -32,6 +32,10 @@ def _print(line: str) -> None:
     output.result(output.fold(line))
 
 
+def _is_too_early(command: SharedCommand) -> bool:
+    return isinstance(command, ev.Tell) and command.code == "not-your-turn"
+
+
 class Narrator:
     """Prints what happens; as JSON one line for each event."""
 
@@ -49,6 +53,8 @@ class Narrator:
         self._event(event)
         for command in commands:
             self._command(command, event)
+        if run.question is not None and any(_is_too_early(command) for command in commands):
+            _print("· say no, and the robot goes on; then it is your turn")
         if isinstance(event, shared.Chosen):
             self._chosen(run, event, commands)
 

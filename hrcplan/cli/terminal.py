@@ -131,6 +131,8 @@ class Terminal:
             answer = self._answer(run, run.question, words)
             if answer is not None:
                 return answer
+        elif len(words) == 1 and words[0] in (YES_WORDS[0], NO_WORDS[0]):
+            return self._say("· nothing was asked; 'quit' ends")
         if words[0] in self._commands and (len(words) == 1 or words[0] == "state"):
             return self._commands[words[0]](run, words[1:])
         return self._step(run, text)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import takewhile
 from typing import Any
 
@@ -148,7 +148,10 @@ class Adviser:
     def _joint_with(self, fold: BeliefFold) -> JointAdviser:
         if self._joint is None or self._joint[0] is not fold:
             assert isinstance(fold.assistant, JointHelp)
-            self._joint = fold, JointAdviser(self.setup, fold, fold.assistant, self._explained)
+            self._joint = (
+                fold,
+                JointAdviser(self.setup, fold, fold.assistant, partial(self._explained, fold)),
+            )
         return self._joint[1]
 
     @property
@@ -176,7 +179,7 @@ class Adviser:
                 state = self.fold.in_turn_of(state, agents[0])
             action = self._action(state, frozenset(agents))
             if action is not None:
-                return self._explained(chosen, state, action)
+                return self._explained(fold, chosen, state, action)
         return chosen
 
     def _composed_now(self, history: History, names: tuple[str, ...]) -> tuple[str, ...]:
@@ -241,23 +244,17 @@ class Adviser:
         return PlannedAction(ground.name, ground.args)
 
     def _explained(
-        self, chosen: shared.Chosen, state: BeliefState, action: PlannedAction
+        self, fold: BeliefFold, chosen: shared.Chosen, state: BeliefState, action: PlannedAction
     ) -> shared.Chosen:
         """Return a choice with its action, and the likeliest goals that it helps."""
-        step = self.bank.table.find((action.name, *action.args))
-        following = self._following(state)
+        step = fold.bank.table.find((action.name, *action.args))
+        following = _following(fold, state)
         helps: tuple[str, ...] = ()
         if following is not None:
             goals = following.goals[following.steps == step].tolist()
-            names = {self.bank.names[goal] for goal in goals}
+            names = {fold.bank.names[goal] for goal in goals}
             helps = tuple(name for name, _ in chosen.goals if name in names)[:N_HELPED]
         return replace(chosen, action=action.name, args=action.args, helps=helps)
-
-    def _following(self, state: BeliefState) -> NextSteps | None:
-        """Return what each goal has next; None if the assistant does not follow plan graphs."""
-        if isinstance(self.assistant, BankAssistant) and isinstance(state, HasProgress):
-            return self.assistant.step_values.next_steps(state.progress)
-        return None
 
     def explain(self, state: BeliefState) -> Explanation | None:
         """Return what the assistant weighs in a state; None if it does not say."""
@@ -326,7 +323,8 @@ class Adviser:
         if not named:
             return ""
         obstacle = self._obstacle(named[0], self._state_for(ask.agents))
-        return f"{fact_text(named[0])} needs {obstacle}"
+        text = fact_text(named[0])
+        return f"{text} changes nothing now" if obstacle is None else f"{text} needs {obstacle}"
 
     def prior(self, steps: Sequence[ActionWords]) -> Mapping[ActionWords, float]:
         """Return how probable each of several next actions of a person is, as the belief says.
@@ -336,7 +334,7 @@ class Adviser:
         if self.setup.has_one_goal:
             return {}
         state = self.fold.state(self.history)
-        following = self._following(state)
+        following = _following(self.fold, state)
         if following is None or not len(following.steps):
             return {}
         posterior = self.assistant.posterior(state)
@@ -366,3 +364,10 @@ def _likeliest(fold: BeliefFold, state: BeliefState) -> tuple[tuple[str, float],
     posterior = fold.assistant.posterior(state)
     order = np.argsort(-np.asarray(posterior), kind="stable").tolist()
     return tuple((fold.bank.names[goal], float(posterior[goal])) for goal in order)
+
+
+def _following(fold: BeliefFold, state: BeliefState) -> NextSteps | None:
+    """Return what each goal has next; None if the assistant does not follow plan graphs."""
+    if isinstance(fold.assistant, BankAssistant) and isinstance(state, HasProgress):
+        return fold.assistant.step_values.next_steps(state.progress)
+    return None

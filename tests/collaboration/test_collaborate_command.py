@@ -4,11 +4,13 @@ import json
 import os
 import pty
 import re
+import resource
 import select
 import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -26,19 +28,21 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return written(tmp_path_factory.mktemp("shop"), PACKED)
 
 
-def written(folder: Path, problem: str) -> Path:
+def written(folder: Path, problem: str, goals: Mapping[str, str] = PARCELS) -> Path:
     (folder / "goals").mkdir()
     (folder / "domain.pddl").write_text(WORKSHOP)
-    for name, goal in PARCELS.items():
+    for name, goal in goals.items():
         (folder / "goals" / f"{name}.pddl").write_text(problem.format(name=name, goal=goal))
     return folder
 
 
-def collaborate(folder: Path, text: str | bytes, *words: str) -> subprocess.CompletedProcess[str]:
+def collaborate(
+    folder: Path, text: str | bytes, *words: str, before: Callable[[], None] | None = None
+) -> subprocess.CompletedProcess[str]:
     raw = text if isinstance(text, bytes) else text.encode()
     done = subprocess.run(
         [*COMMAND, "domain.pddl", "goals", *words], input=raw, capture_output=True, cwd=folder,
-        check=False, timeout=100,
+        check=False, timeout=100, preexec_fn=before,
     )  # fmt: skip
     out, err = done.stdout.decode(), done.stderr.decode()
     assert "Traceback" not in err
@@ -75,6 +79,25 @@ def test_lines_of_any_kind_harm_nothing(folder: Path) -> None:
     assert documents[-1]["error"]["code"] == "input-ended"
     assert any(d.get("event", {}).get("kind") == "begun" or
                d.get("event", {}).get("kind") == "read" for d in documents)  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("pace", "text", "code", "reached"),
+    [("turns", "cut rope\nyes\n", 0, "small"), ("free", "cut rope\nyes\n", 0, "small"),
+     ("turns", "cut rope\ncut pipe\nno\nyes\n", 0, "large"),
+     ("free", "cut rope\ncut pipe\nyes\n", 0, "large"),
+     ("turns", "cut rope\nquit\n", 1, ""), ("free", "cut rope\nquit\n", 1, "")],
+)  # fmt: skip
+def test_a_goal_within_another_ends_with_who_confirms_it(
+    tmp_path: Path, pace: str, text: str, code: int, reached: str
+) -> None:
+    """In turns the robot acts next, with what only the larger goal needs: it has to hear no."""
+    folder = written(tmp_path, PACKED, {"small": "(cut rope)", "large": "(cut rope) (cut pipe)"})
+    done = collaborate(folder, text, "--pace", pace)
+    assert done.returncode == code, done.stdout
+    assert "done: small. Was that all?" in done.stdout
+    assert f"goal reached ({reached})" in done.stdout or not reached
+    assert ("say no, and the robot goes on" in done.stdout) == ("no" in text)
 
 
 def test_every_event_is_one_line_of_json(folder: Path) -> None:
@@ -128,12 +151,36 @@ def test_a_killed_session_goes_on(folder: Path, tmp_path: Path) -> None:
     assert "other PDDL" in other.stderr
 
 
-def test_a_full_disk_is_said(folder: Path) -> None:
-    if not os.path.exists("/dev/full"):
-        return
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no /dev/full")
+def test_a_device_is_no_journal(folder: Path) -> None:
     done = collaborate(folder, "cut wire\n", "--journal", "/dev/full")
     assert done.returncode == 2
     assert "cannot write the journal" in done.stderr
+
+
+def test_a_session_goes_on_after_the_disk_was_full(folder: Path, tmp_path: Path) -> None:
+    """The disk is full in the middle of a line."""
+    path = tmp_path / "full.jsonl"
+    assert collaborate(folder, "quit\n", "--journal", str(path)).returncode == 1
+    n_bytes = path.stat().st_size + 1000
+    path.unlink()
+    full = collaborate(
+        folder, 9 * "cut wire\nundo\n", "--journal", str(path),
+        before=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (n_bytes, n_bytes)),
+    )  # fmt: skip
+    assert full.returncode == 2
+    assert "cannot write the journal" in full.stderr
+    assert "--resume" in full.stderr
+    whole = path.read_bytes()
+    assert not whole.endswith(b"\n")
+    again = collaborate(folder, "quit\n", "--journal", str(path), "--resume")
+    assert "stopped (quit)" in again.stdout
+    assert path.read_bytes().startswith(whole[: whole.rindex(b"\n") + 1])
+
+
+def test_input_that_is_closed_has_ended(folder: Path) -> None:
+    done = collaborate(folder, "", before=lambda: os.close(0))
+    assert (done.returncode, "the input has ended" in done.stderr) == (1, True)
 
 
 @pytest.mark.parametrize(
@@ -152,11 +199,12 @@ class Session:
 
     def __init__(
         self, folder: Path, *words: str, columns: int = 80,
-        goals: tuple[str, ...] = ("domain.pddl", "goals"),
+        goals: tuple[str, ...] = ("domain.pddl", "goals"), is_deaf: bool = False,
     ) -> None:  # fmt: skip
         self.pid, self.handle = pty.fork()
         if self.pid == 0:
-            signal.signal(signal.SIGHUP, signal.SIG_DFL)  # also where the tests run under nohup
+            # The default also where the tests run under nohup.
+            signal.signal(signal.SIGHUP, signal.SIG_IGN if is_deaf else signal.SIG_DFL)
             os.chdir(folder)
             os.environ["COLUMNS"] = str(columns)
             os.execv(sys.executable, [*COMMAND, *goals, *words])
@@ -226,3 +274,35 @@ def test_signals_end_a_session_and_leave_the_journal(
     lines: list[dict[str, Any]] = [json.loads(line) for line in path.read_text().splitlines()]
     assert lines[0]["journal"] == 2
     assert collaborate(folder, "quit\n", "--journal", str(path), "--resume").returncode == 1
+
+
+@pytest.mark.parametrize("pace", ["turns", "free"])
+def test_ctrl_c_ends_a_session(folder: Path, tmp_path: Path, pace: str) -> None:
+    path = tmp_path / "interrupted.jsonl"
+    session = Session(folder, "--journal", str(path), "--pace", pace)
+    session.expect("> $")
+    session.type("cut wire\n")
+    session.expect(r"cut wire[^>]*> $")
+    session.type("cut r\x03")  # a line that is not whole is no step
+    assert session.wait() == 130
+    assert "Traceback" not in session.text
+    assert "--resume" in session.text
+    again = collaborate(folder, "quit\n", "--journal", str(path), "--resume")
+    assert "1 human and" in again.stdout
+
+
+@pytest.mark.parametrize("is_deaf", [False, True])
+def test_a_terminal_that_is_closed_ends_a_session(
+    folder: Path, tmp_path: Path, is_deaf: bool
+) -> None:
+    """Also where nobody hears the signal, as under nohup: the input has ended then."""
+    path = tmp_path / "closed.jsonl"
+    session = Session(folder, "--journal", str(path), is_deaf=is_deaf)
+    session.expect("> $")
+    session.type("cut wire\n")
+    session.expect(r"cut wire[^>]*> $")
+    os.close(session.handle)
+    code = os.waitstatus_to_exitcode(os.waitpid(session.pid, 0)[1])
+    assert code in ((1, 2) if is_deaf else (129,))
+    again = collaborate(folder, "quit\n", "--journal", str(path), "--resume")
+    assert "1 human and" in again.stdout

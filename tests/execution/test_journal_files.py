@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import stat
 from pathlib import Path
@@ -22,6 +23,20 @@ def test_a_pipe_is_refused_and_stays(tmp_path: Path, resume: bool) -> None:
     with pytest.raises(UsageError, match="cannot write the journal: it is not an ordinary file"):
         execute(*TASK, journal=pipe, resume=resume)
     assert stat.S_ISFIFO(pipe.stat().st_mode)
+
+
+def test_a_disk_that_is_full_when_it_is_synced_is_said(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fsync(handle: int) -> None:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(os, "fsync", fsync)
+    with pytest.raises(UsageError, match="cannot write the journal: No space left") as error:
+        execute(*TASK, journal=tmp_path / "journal")
+    assert "--resume" in (error.value.hint or "")
+    monkeypatch.undo()
+    assert execute(*TASK, journal=tmp_path / "journal", resume=True).outcome.success
 
 
 @pytest.mark.parametrize("resume", [False, True])

@@ -12,6 +12,8 @@ from hrcplan.core.files import reason_of
 from hrcplan.errors import UsageError
 from hrcplan.execution.journal.reader import Journal, journal_in
 
+ROOM_HINT = "nothing before is lost: make room, then go on with --resume"
+
 
 class JournalFile:
     """The file of a journal, open and locked: no other process writes it until it is closed.
@@ -44,9 +46,9 @@ class JournalFile:
             self.close()
             raise self._refusal(error) from None
 
-    def _refusal(self, error: Exception) -> UsageError:
+    def _refusal(self, error: Exception, hint: str | None = None) -> UsageError:
         message = f"cannot write the journal: {reason_of(error)}"
-        return UsageError(message, path=str(self.path))
+        return UsageError(message, path=str(self.path), hint=hint)
 
     @property
     def n_bytes(self) -> int:
@@ -78,11 +80,18 @@ class JournalFile:
             while data:
                 data = data[os.write(self._handle, data) :]
         except OSError as error:
-            raise self._refusal(error) from None
+            raise self._refusal(error, ROOM_HINT) from None
 
     def sync(self) -> None:
-        """Return when everything is on disk."""
-        os.fsync(self._handle)
+        """Return when everything is on disk.
+
+        Raises:
+            UsageError: if there is no room left: some file systems look for it only now.
+        """
+        try:
+            os.fsync(self._handle)
+        except OSError as error:
+            raise self._refusal(error, ROOM_HINT) from None
 
     def close(self) -> None:
         """Let other processes in."""
