@@ -85,6 +85,10 @@ class Narrator:
                 _print(f"· {words} {'failed' if attempted else 'is taken back'}")
             case shared.Paused():
                 _print("· the robot waits until you say go")
+            case shared.Stopped():
+                _print("· the robot stops what it does, and waits until you say go")
+            case shared.Continued():
+                _print("· the robot goes on")
             case ev.Sensed(_, values) | shared.StateTold(_, values):
                 shown = ", ".join(f"{' '.join(key)} is {float(v):g}" for key, v in values.items())
                 _print(f"· {shown}")

@@ -25,6 +25,7 @@ N_SHOWN = 6  # steps that are offered before each of the person's turns
 N_GOALS_LISTED = 12
 MOST_LOOK_S = 1.0  # between two looks at what is typed; more is a jump of the clock
 N_ALONE = 2  # words of an agent state that depends on its agent alone
+GREETING = "· say what you do in your own words or by number; Enter to wait, help for more"
 HELP = """Say what you do in your own words{step}, or give its number.
 Enter   do nothing now
 NAME:   whose step it is, if several people are here
@@ -83,6 +84,7 @@ class Terminal:
         self.setup, self.adviser = narrator.setup, narrator.adviser
         self.interrupt: Callable[[float], bool] | None = None
         self._listed: list[ActionWords] = []
+        self._is_greeted = output.JSON
         self._offered: tuple[History, tuple[str, ...]] | None = None
         self._commands: Mapping[str, Callable[[CompanionRun, list[str]], PersonEvent | None]] = {
             "undo": self._undo, "failed": self._failed, "why": self._why, "goals": self._goals,
@@ -99,6 +101,9 @@ class Terminal:
         Raises:
             EndOfInputError: if there are no more lines.
         """
+        if self.lines.is_terminal and not self._is_greeted:
+            self._say(GREETING)
+        self._is_greeted = True
         if run.question is None and self._offered != (run.history, agents):
             self._offer(run, agents)
             self._offered = run.history, agents

@@ -100,6 +100,12 @@ def test_a_goal_within_another_ends_with_who_confirms_it(
     assert ("say no, and the robot goes on" in done.stdout) == ("no" in text)
 
 
+def test_stop_and_go_are_confirmed(folder: Path) -> None:
+    done = collaborate(folder, "stop\ngo\nquit\n")
+    stopped, goes_on = (done.stdout.index(words) for words in ("the robot stops", "robot goes on"))
+    assert stopped < goes_on
+
+
 def test_every_event_is_one_line_of_json(folder: Path) -> None:
     done = collaborate(folder, "cut wire\nundo\nstate\ngoals\nsteps\nwhy\nquit\n", "--json")
     documents = [json.loads(line) for line in done.stdout.splitlines()]
@@ -236,7 +242,7 @@ class Session:
 
 def test_a_session_at_a_terminal(folder: Path) -> None:
     session = Session(folder)
-    session.expect("> $")
+    session.expect(r"in your own words or by number[^>]*> $")
     session.type("cut pipe\n")
     session.expect(r"robo[^>]*> $")
     session.type("\n")
