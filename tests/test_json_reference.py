@@ -91,7 +91,7 @@ COMMANDS = {
 SESSIONS = {
     "collaborate": [
         "get yogurt\nnonsense\nundo\nstate motivation human 8\nwhy\ngoals\nsteps\nstate\nquit\n",
-        "get glass\nget yogurt\npour yogurt glass\n" + 9 * "\n1\n" + 9 * "yes\n",
+        "get glass\nget yogurt\npour yogurt glass\n" + 9 * "\nyes\n1\nyes\n",
     ],
 }  # fmt: skip
 
