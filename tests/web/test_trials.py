@@ -26,7 +26,7 @@ domain = "transport"
 goals = "transport-goals"
 conditions = ["hrcplan", "recursive"]
 trials = 2
-participants = 9
+participants = 30
 instructions = "Carry boxes together."
 [consent]
 text = "Ask <lab>."
@@ -238,7 +238,12 @@ def test_an_unknown_link_says_nothing(service: PageService, code: str) -> None:
 
 def test_a_participant_reaches_no_other_session(service: PageService) -> None:
     assert service.desk is not None
-    person = next(p for p in service.desk.participants.all() if p.sessions)
+    other = arrive(service)
+    for form in ({}, {"age": "old"}, {}):
+        ask(service, "POST", other, form)
+    ask(service, "GET", other)
+    person = service.desk.participants.get(other.rpartition("/")[2])
+    assert person is not None
     path = arrive(service)
     assert ask(service, "GET", f"{path}/stream?sessions={person.sessions[0]}")[0] == 404
     assert ask(service, "POST", f"{path}/sessions/{person.sessions[0]}/events", {})[0] == 404
@@ -249,7 +254,7 @@ def test_a_study_has_its_number_of_participants(study: TrialStudy, tmp_path: Pat
     participants = Participants(study, tmp_path)
     assert participants.invitation == participants.invitation
     numbers = [participants.arrive().number for _ in range(study.participants)]
-    assert numbers == list(range(9))
+    assert numbers == list(range(30))
     with pytest.raises(UsageError):
         participants.arrive()
 
