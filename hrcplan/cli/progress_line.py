@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import time
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from typing import TextIO
 
@@ -20,7 +21,7 @@ LOG_DELAY_S = 5.0
 LOG_EVERY_S = 10.0
 
 
-class _ProgressWriter:
+class _ProgressWriter(ABC):
     """Decides when progress is written; a copy of the process (a planner's worker) writes nothing.
 
     Args:
@@ -50,8 +51,9 @@ class _ProgressWriter:
             self._next_s = now + self.every_s
             self._write(f"{count:,} {what} …")
 
+    @abstractmethod
     def _write(self, text: str) -> None:
-        raise NotImplementedError
+        """Write how much there is, or nothing."""
 
     def _end(self) -> None:
         """Do what the end of some work needs."""

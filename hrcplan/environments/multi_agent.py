@@ -119,18 +119,8 @@ class _Team:
         return as_bits(self.rollout.turns.state, len(self.rollout.bank.goals.task.facts))
 
 
-class CollaborationAECEnv(AECEnv):  # type: ignore[misc]
-    """Humans and robots act one after the other, the humans first.
-
-    An observation holds ``observation`` and ``action_mask``. A human also observes its goal. All
-    agents get the same reward: minus a timestep for each turn, and if the episode is stuck, those
-    until its cap. An action that the mask does not allow is a wait.
-    """
-
-    metadata = {  # noqa: RUF012  (as in the base)
-        "name": "collaboration_v0", "render_modes": list(MODES), "render_fps": 1,
-        "is_parallelizable": False,
-    }  # fmt: skip
+class _Spaces:
+    """What both classes of PettingZoo are made of: the agents and their spaces."""
 
     def __init__(
         self, domain: str | Bank = "kitchen", goals: str | None = None, *,
@@ -151,6 +141,20 @@ class CollaborationAECEnv(AECEnv):  # type: ignore[misc]
     def action_space(self, agent: str) -> spaces.Space[Any]:
         """Return the space of an agent's actions."""
         return self.action_spaces[agent]
+
+
+class CollaborationAECEnv(_Spaces, AECEnv):  # type: ignore[misc]
+    """Humans and robots act one after the other, the humans first.
+
+    An observation holds ``observation`` and ``action_mask``. A human also observes its goal. All
+    agents get the same reward: minus a timestep for each turn, and if the episode is stuck, those
+    until its cap. An action that the mask does not allow is a wait.
+    """
+
+    metadata = {  # noqa: RUF012  (as in the base)
+        "name": "collaboration_v0", "render_modes": list(MODES), "render_fps": 1,
+        "is_parallelizable": False,
+    }  # fmt: skip
 
     def reset(self, seed: int | None = None, options: dict[str, Any] | None = None) -> None:
         """Start an episode; options as of ``CollaborationEnv.reset``."""
@@ -196,7 +200,7 @@ class CollaborationAECEnv(AECEnv):  # type: ignore[misc]
         return None if self.render_mode is None else render(self.team.rollout)
 
 
-class CollaborationParallelEnv(ParallelEnv):  # type: ignore[misc]
+class CollaborationParallelEnv(_Spaces, ParallelEnv):  # type: ignore[misc]
     """Humans and robots choose at the same time; a step is a round in which each acts once.
 
     The actions of a round are carried out in the order of the turns, the humans first; one that
@@ -207,25 +211,6 @@ class CollaborationParallelEnv(ParallelEnv):  # type: ignore[misc]
     metadata = {  # noqa: RUF012  (as in the base)
         "name": "collaboration_v0", "render_modes": list(MODES), "render_fps": 1,
     }  # fmt: skip
-
-    def __init__(
-        self, domain: str | Bank = "kitchen", goals: str | None = None, *,
-        render_mode: str | None = None, **scenery: Unpack[SceneryOptions],
-    ) -> None:  # fmt: skip
-        self.team = _Team(domain, goals, render_mode, scenery)
-        self.render_mode = render_mode
-        self.possible_agents = list(self.team.names)
-        self.agents: list[str] = []
-        self.observation_spaces = self.team.observation_spaces
-        self.action_spaces = self.team.action_spaces
-
-    def observation_space(self, agent: str) -> spaces.Space[Any]:
-        """Return the space of an agent's observations."""
-        return self.observation_spaces[agent]
-
-    def action_space(self, agent: str) -> spaces.Space[Any]:
-        """Return the space of an agent's actions."""
-        return self.action_spaces[agent]
 
     def reset(
         self, seed: int | None = None, options: dict[str, Any] | None = None

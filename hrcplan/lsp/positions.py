@@ -59,7 +59,7 @@ def path_of(uri: str) -> str:
 def uri_of(path: str) -> str:
     """Return the address of a file.
 
-    >>> uri_of("/tmp/a b.pddl")
-    'file:///tmp/a%20b.pddl'
+    >>> uri_of("/a b.pddl")
+    'file:///a%20b.pddl'
     """
     return f"file://{quote(path)}"
