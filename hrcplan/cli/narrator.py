@@ -72,6 +72,13 @@ class Narrator:
             return "you"
         return agent or "robot"
 
+    def _who_waits(self, run: CompanionRun) -> str:
+        """Return that the robots that were asked for a step wait; the only one is not named."""
+        robots = run.step_request[0] if run.step_request else ()
+        if len(self.setup.robots) == 1 or not robots:
+            return "robot waits"
+        return f"{' and '.join(robots)} {'waits' if len(robots) == 1 else 'wait'}"
+
     def _event(self, event: SharedEvent) -> None:
         match event:
             case ev.Ended(t, number, outcome) if number in self._words:
@@ -143,7 +150,7 @@ class Narrator:
             if self._is_in_turns() and event.asks:
                 return
             if self._is_in_turns():
-                _print(f"robot waits · {goals}")
+                _print(f"{self._who_waits(run)} · {goals}")
             return
         words = self.words((dispatch.action, *dispatch.args))
         helps = f", for {', '.join(event.helps)}" if event.helps else ""

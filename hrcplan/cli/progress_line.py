@@ -55,6 +55,7 @@ class _ProgressWriter(ABC):
     def _write(self, text: str) -> None:
         """Write how much there is, or nothing."""
 
+    @abstractmethod
     def _end(self) -> None:
         """Do what the end of some work needs."""
 
@@ -93,6 +94,9 @@ class ProgressLog(_ProgressWriter):
     def _write(self, text: str) -> None:
         self._stream.write(f"{text}\n")
         self._stream.flush()
+
+    def _end(self) -> None:
+        """Write nothing: the lines stay."""
 
 
 def show_progress(stream: TextIO | None) -> None:

@@ -106,6 +106,15 @@ def test_stop_and_go_are_confirmed(folder: Path) -> None:
     assert stopped < goes_on
 
 
+def test_of_several_robots_those_that_wait_are_named(tmp_path: Path) -> None:
+    problem = PACKED.replace("ann robo", "ann robo helper").replace(
+        "(controllable robo)", "(controllable robo) (controllable helper)"
+    )
+    out = collaborate(written(tmp_path, problem), "cut wire\n\n\n\n\n\nquit\n").stdout
+    assert "robo and helper wait · " in out
+    assert "robot waits" not in out
+
+
 def test_every_event_is_one_line_of_json(folder: Path) -> None:
     done = collaborate(folder, "cut wire\nundo\nstate\ngoals\nsteps\nwhy\nquit\n", "--json")
     documents = [json.loads(line) for line in done.stdout.splitlines()]
