@@ -142,6 +142,14 @@ class _Spaces:
         """Return the space of an agent's actions."""
         return self.action_spaces[agent]
 
+    def state(self) -> NDArray[Any]:
+        """Return the facts as bits."""
+        return self.team.state()
+
+    def render(self) -> str | None:
+        """Return the episode so far as text, if the render mode is ``ansi``."""
+        return None if self.render_mode is None else render(self.team.rollout)
+
 
 class CollaborationAECEnv(_Spaces, AECEnv):  # type: ignore[misc]
     """Humans and robots act one after the other, the humans first.
@@ -190,14 +198,6 @@ class CollaborationAECEnv(_Spaces, AECEnv):  # type: ignore[misc]
         turns = self.team.rollout.turns
         acts = turns.ending is None and turns.mover.name == agent
         return self.team.observation(agent, acts=acts)
-
-    def state(self) -> NDArray[Any]:
-        """Return the facts as bits."""
-        return self.team.state()
-
-    def render(self) -> str | None:
-        """Return the episode so far as text, if the render mode is ``ansi``."""
-        return None if self.render_mode is None else render(self.team.rollout)
 
 
 class CollaborationParallelEnv(_Spaces, ParallelEnv):  # type: ignore[misc]
@@ -251,11 +251,3 @@ class CollaborationParallelEnv(_Spaces, ParallelEnv):  # type: ignore[misc]
     def _observations(self) -> dict[str, AgentObservation]:
         acts = self.team.rollout.turns.ending is None
         return {name: self.team.observation(name, acts=acts) for name in self.agents}
-
-    def state(self) -> NDArray[Any]:
-        """Return the facts as bits."""
-        return self.team.state()
-
-    def render(self) -> str | None:
-        """Return the episode so far as text, if the render mode is ``ansi``."""
-        return None if self.render_mode is None else render(self.team.rollout)
