@@ -49,12 +49,16 @@ MAX_VALUES = 20_000
 _SPECIAL = frozenset([CONTINUOUS, DURATION, TOTAL_COST, TOTAL_TIME, VIOLATED])
 
 
-def guarded(problem: Problem) -> Problem:
+def guarded(problem: Problem, *, fills: bool = True) -> Problem:
     """Return a problem with the same plans in which nothing reads a function without a value.
 
-    Nothing divides by zero either. It is the same object if there is nothing to guard.
+    Nothing divides by zero either. It is the same object if there is nothing to guard. Values that
+    are missing are written as 0; with ``fills=False`` only where an action may set them, which is
+    enough for planners that first look at conditions that never change.
     """
-    missing = {name: _missing(name, problem) for name in problem.domain.functions}
+    assigned = _assigned(problem)
+    most = {f: MAX_VALUES if fills or f in assigned else 0 for f in problem.domain.functions}
+    missing = {name: _missing(name, problem, most[name]) for name in problem.domain.functions}
     partial = [name for name, keys in missing.items() if keys and name not in _SPECIAL]
     never_zero = _never_zero(problem, partial)
     every = _Guards(_predicates(problem.domain, partial), never_zero)
@@ -63,7 +67,7 @@ def guarded(problem: Problem) -> Problem:
         return problem
     names = {name: guard for name, guard in every.names.items() if name in every.reads}
     result = _Guards(names, never_zero).problem(problem)
-    keys = [key for name in names if len(missing[name]) <= MAX_VALUES for key in missing[name]]
+    keys = [key for name in names if len(missing[name]) <= most[name] for key in missing[name]]
     facts = {(names[key[0]], *key[1:]) for key in problem.values if key[0] in names}
     signatures = {
         guard: Signature(guard, problem.domain.functions[name].params)
@@ -77,11 +81,20 @@ def guarded(problem: Problem) -> Problem:
     )
 
 
-def _missing(name: str, problem: Problem) -> Sequence[FluentKey]:
-    """Return instances of a function without a value: all, or one more than ``MAX_VALUES``."""
+def _assigned(problem: Problem) -> frozenset[str]:
+    """Return the functions to which an action, an event or the time gives values."""
+    domain = problem.domain
+    actions = (*domain.actions, *domain.processes, *domain.events)
+    effects = (effect for action in actions for effect in action.effects)
+    names = (effect.target.name for effect in effects if effect.kind == "assign")
+    return frozenset([*names, *(change.key[0] for change in problem.timed)])
+
+
+def _missing(name: str, problem: Problem, most: int) -> Sequence[FluentKey]:
+    """Return instances of a function without a value: all, or one more than ``most``."""
     choices = (problem.objects_of(param.types) for param in problem.domain.functions[name].params)
     keys = ((name, *args) for args in product(*choices))
-    return list(islice((key for key in keys if key not in problem.values), MAX_VALUES + 1))
+    return list(islice((key for key in keys if key not in problem.values), most + 1))
 
 
 def _predicates(domain: Domain, names: Sequence[str]) -> dict[str, str]:

@@ -134,7 +134,8 @@ class Request:
 
     ``improves`` asks for plans that get better until the deadline, where any plan is enough at
     first. ``on_plan`` is called with plans that a planner will improve, so that they are not lost
-    if it is stopped. ``replays`` replays plans of the problem.
+    if it is stopped. ``replays`` replays plans of the problem. ``n_threads`` is how many threads a
+    planner may search with: with more than one, the clock decides which plan it has first.
     """
 
     problem: Problem
@@ -143,6 +144,7 @@ class Request:
     memory_bytes: int = MEMORY_BYTES
     lazy_task: LazyTask = field(default_factory=LazyTask, repr=False, compare=False)
     improves: bool = False
+    n_threads: int = 1
     replays: Replays = field(default_factory=Replays, repr=False, compare=False)
     on_plan: Callable[[Plan], None] = field(default=ignore_plan, repr=False, compare=False)
 

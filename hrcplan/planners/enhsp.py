@@ -43,6 +43,8 @@ _PROOF = ("-s", "WAStar", "-h", "hrmax")
 _FIRST = ("-s", "gbfs", "-h", "hadd")
 _RESERVE_S = 5.0  # kept for a plan without proof, but never more than half of the time
 _FLOAT_BITS = 24
+PROOF_SHARE, ANY_SHARE = 1 / 4, 1 / 20
+"""The part of the time in which it is looked whether an action may undo itself."""
 _JVM_BYTES = 200 << 20  # what a Java runtime needs besides its heap
 
 
@@ -135,7 +137,10 @@ def _input(request: Request) -> _Input:
     clash = _may_undo_itself(request)
     counts = exact or request.any_plan  # rounding is no matter where nothing is proven
     varies = any(map(_is_varying_cost, _effects(problem)))
-    if domain.is_temporal or numeric or not plain_metric or not counts or clash or varies:
+    lowers = domain.is_temporal or clash or not request.any_plan or request.ground_quickly()
+    if lowers and (
+        domain.is_temporal or numeric or not plain_metric or not counts or clash or varies
+    ):
         with contextlib.suppress(*(() if domain.is_temporal else (UnsupportedError, LimitError))):
             lowering = lower(request.task)
             texts = lowering.domain_text, lowering.problem_text
@@ -146,7 +151,8 @@ def _input(request: Request) -> _Input:
         problem = replace(problem, domain=plain_domain, metric=None, maximize=False)
     simple = all(_is_simple(problem, effect) for effect in _effects(problem))
     simple = simple and exact and not clash
-    handover = Handover.of(with_binary_sums(with_ground_sums(problem)), single_types=True)
+    binary = with_binary_sums(with_ground_sums(problem))
+    handover = Handover.of(binary, single_types=True, fills=False)
     return _Input(*handover.texts, None, handover, plain_metric and not moving, simple)
 
 
@@ -159,7 +165,7 @@ def _continuous_input(problem: Problem) -> _Input:
     if problem.domain.is_temporal:
         raise UnsupportedError("enhsp knows processes and events, but no durative actions")
     binary = with_binary_sums(replace(problem, metric=None, maximize=False))
-    handover = Handover.of(binary, single_types=True)
+    handover = Handover.of(binary, single_types=True, fills=False)
     return _Input(*handover.texts, None, handover, costs=False, whole=False)
 
 
@@ -178,10 +184,11 @@ def _may_undo_itself(request: Request) -> bool:
     domain = request.problem.domain
     if not any(_names(a, "add") & _names(a, "delete") for a in domain.actions):
         return False
+    part = ANY_SHARE if request.any_plan else PROOF_SHARE
     try:
-        instances, _ = reachable(request.problem, time.monotonic() + request.time_left_s / 4)
+        instances, _ = reachable(request.problem, time.monotonic() + part * request.time_left_s)
     except LimitError:
-        return True
+        return not request.any_plan  # an invalid plan is noticed
     return any(
         not _targets(i, "add", request.problem).isdisjoint(_targets(i, "delete", request.problem))
         for i in instances

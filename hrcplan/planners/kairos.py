@@ -33,6 +33,7 @@ from hrcplan.planners.contract import Answer, Capabilities, Request, Status
 from hrcplan.planners.handover import Handover
 from hrcplan.planners.lowering import Lowering, lower
 from hrcplan.planners.number_range import decides_exactly, never_lowers_cost, prices_exactly
+from hrcplan.planners.rounding import valid_form
 from hrcplan.plans import Plan
 from hrcplan.validation import Report, objective
 
@@ -101,7 +102,7 @@ class _Portfolio:
     def __init__(self, request: Request) -> None:
         self.request = request
         self.lowering = _lowering(request)
-        self.handover = Handover.of(request.problem, memory_facts=True)
+        self.handover = Handover.of(request.problem, memory_facts=True, fills=False)
         self.best: tuple[Number, Plan, Number | None] | None = None
         self.invalid: Report | None = None
         self.is_proven = False
@@ -194,6 +195,7 @@ class _Portfolio:
             anytime=not self.request.any_plan,
             stop_after_no_improvement=max(0.5, PATIENCE * slice_s),
             memory_limit_mb=max(64, self.request.memory_bytes >> 20),
+            threads=self.request.n_threads,
         )
         try:
             while search.running():  # in short steps, so that Ctrl-C gets through
@@ -219,7 +221,7 @@ class _Portfolio:
 
     def _keep(self, plan: Plan, figure: Number | None) -> None:
         """Keep a plan if it is valid and the best so far; ``figure`` is what kairos says of it."""
-        report = self.request.replays(self.request.problem, plan)
+        plan, report = valid_form(self.request.problem, plan, self.request.replays)
         if not report.valid:
             self.invalid = report
             return
@@ -300,9 +302,12 @@ class _Portfolio:
 
 
 def _lowering(request: Request) -> Lowering | None:
-    """Return the lowered task where actions change costs: kairos' search ignores such metrics."""
+    """Return the lowered task where actions change costs: kairos' search ignores such metrics.
+
+    Where any plan is enough it gets the lifted files, which are smaller.
+    """
     domain = request.problem.domain
-    if domain.is_temporal or domain.changed_functions <= {TOTAL_COST}:
+    if request.any_plan or domain.is_temporal or domain.changed_functions <= {TOTAL_COST}:
         return None
     with contextlib.suppress(UnsupportedError, LimitError):
         return lower(request.task)

@@ -157,6 +157,7 @@ class _Race:
                 memory_bytes=self._share,
                 any_plan=job.any_plan or self.request.any_plan,
                 improves=not self.request.any_plan,
+                n_threads=cores(),
             )
             niceness = LATE_NICENESS if len(self._lanes) >= self._slots else 0
             work = _work(job, request, self._in_lanes, niceness)

@@ -33,6 +33,7 @@ from hrcplan.planners.contract import (
     Status,
 )
 from hrcplan.planners.lanes import schedule, with_durations
+from hrcplan.planners.rounding import valid_form
 from hrcplan.plans import EPSILON_S, Plan
 from hrcplan.validation import Report, objective, validate
 
@@ -224,8 +225,7 @@ def check_answer(
     if problem.domain.is_continuous:
         note = "hrcplan cannot judge plans where numbers change while time passes"
         return replace(result, plan=answer.plan, status=Status.SOLVED, bound=None, mismatch=note)
-    plan = with_durations(problem, answer.plan)
-    report = replay(problem, plan)
+    plan, report = valid_form(problem, with_durations(problem, answer.plan), replay)
     _demand_valid(card, report)
     mismatch = _mismatch(card, answer.objective, objective(problem, report))
     shortest = None

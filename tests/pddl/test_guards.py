@@ -90,6 +90,23 @@ def test_durations_and_timed_values_have_guards(name: str, valid: bool) -> None:
     assert validate(safe, late).valid == (name == "b")
 
 
+def test_values_that_never_come_can_stay_missing() -> None:
+    domain = """(define (domain roads) (:requirements :fluents)
+      (:predicates (at ?x)) (:functions (length ?x ?y) (level ?x) (driven))
+      (:action go :parameters (?x ?y) :precondition (and (at ?x) (> (level ?x) 0))
+        :effect (and (at ?y) (increase (driven) (length ?x ?y))))
+      (:action fill :parameters (?x) :effect (assign (level ?x) 1)))"""
+    problem = problem_of(domain, """(define (problem p) (:domain roads) (:objects a b c)
+      (:init (at a) (= (driven) 0) (= (length a b) 2)) (:goal (at b)))""")  # fmt: skip
+    full, sparse = guarded(problem), guarded(problem, fills=False)
+    assert sparse.domain == full.domain
+    assert sparse.facts == full.facts
+    assert set(full.values) - set(sparse.values) == {
+        ("length", x, y) for x in "abc" for y in "abc" if (x, y) != ("a", "b")
+    }
+    assert sparse.values["level", "c"] == 0
+
+
 def test_a_problem_without_gaps_stays_as_it_is() -> None:
     problem = read("transport", "two-boxes")
     assert guarded(problem) is problem

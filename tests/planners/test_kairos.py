@@ -121,6 +121,19 @@ def test_costs_that_actions_change_are_minimized(tmp_path: Path) -> None:
     assert (answer.status, answer.objective) == (Status.OPTIMAL, 3 + Fraction(13, 2))
 
 
+def test_for_any_plan_nothing_is_grounded_first(monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(task: object) -> None:
+        raise AssertionError
+
+    monkeypatch.setattr("hrcplan.planners.kairos.lower", refuse)
+    domain = """(define (domain fill) (:requirements :fluents) (:predicates) (:functions (level))
+      (:action pour :parameters () :effect (increase (level) 1)))"""
+    text = "(define (problem p) (:domain fill) (:init (= (level) 0)) (:goal (>= (level) 2)))"
+    answer = solve(problem_of(domain, text), any_plan=True)
+    assert answer.plan is not None
+    assert len(answer.plan.actions) == 2
+
+
 def test_it_keeps_its_time_and_lets_other_threads_run() -> None:
     problem = read("transport", "boxes-6")
     ticks = []

@@ -16,6 +16,7 @@ from hrcplan.errors import LimitError, PlannerError, UnsupportedError
 from hrcplan.pddl.inputs import read
 from hrcplan.planners.choice import fixed_order
 from hrcplan.planners.contract import Answer, Request, Status
+from hrcplan.planners.race import cores
 from hrcplan.planners.solve import Result, solve
 from hrcplan.plans import Plan, parse_plan
 from tests.planners.actors import LONG, SHORT, Actor, only, walk
@@ -117,6 +118,16 @@ def test_plans_on_the_way_are_kept_when_time_is_up(cast: Callable[..., None]) ->
     assert time.monotonic() - begun < 30
     assert (found.objective, found.planner) == (2, "one")
     assert [result.objective for result in told] == [2]
+
+
+def test_only_planners_that_race_search_with_several_threads(cast: Callable[..., None]) -> None:
+    def act(request: Request) -> Answer:
+        return Answer(Status.UNSOLVED, note=f"{request.n_threads} threads")
+
+    cast(one=act)
+    notes = [solve(walk(), name, timeout_s=10).attempts[0].outcome for name in ("auto", "one")]
+    assert all(note.endswith(f"{cores()} threads") for note in notes)
+    assert solve(walk(), Actor("one", act), timeout_s=10).attempts[0].outcome == "1 threads"
 
 
 def test_an_invalid_plan_on_the_way_counts_for_nothing(cast: Callable[..., None]) -> None:

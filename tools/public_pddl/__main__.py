@@ -22,6 +22,8 @@ from public_pddl.reading import (
 )
 from public_pddl.reading import verdicts as read_all
 
+RACE_S, QUALITY_S = 60.0, 20.0
+
 
 def main() -> None:
     """Print the tables that were asked for as Markdown."""
@@ -49,9 +51,9 @@ def main() -> None:
         if options.plans:
             judging.report(readable, options.plans, options.seed)
         if options.tasks:
-            racing.report(readable, options.tasks, options.seed)
+            racing.report(readable, options.tasks, options.seed, options.time or RACE_S)
         if options.qualities:
-            comparing.report(readable, options.qualities, options.seed, options.time)
+            comparing.report(readable, options.qualities, options.seed, options.time or QUALITY_S)
 
 
 def _totals(table: list[Verdicts]) -> None:
@@ -97,7 +99,7 @@ def _options() -> argparse.Namespace:
     parser.add_argument("--tasks", type=int, default=0, help="tasks to plan beside planners")
     words = "tasks whose plans of auto are compared with those of each planner alone"
     parser.add_argument("--qualities", type=int, default=0, help=words)
-    parser.add_argument("--time", type=float, default=20, help="seconds of auto for one of them")
+    parser.add_argument("--time", type=float, help="seconds for a task: 60 to plan, 20 to compare")
     return parser.parse_args()
 
 

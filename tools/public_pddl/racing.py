@@ -21,11 +21,13 @@ from hrcplan.planners.fast_downward import _FIRST as DOWNWARD_SEARCH
 from hrcplan.planners.fast_downward import _SCRIPT, find_binary
 from public_pddl.archive import Pair
 
-TIMEOUT_S = 60
 OVERRUN_S = 1
+LATE_S = 15
+"""How long after its limit a call is ended."""
 REPEATS = 2
 """Rounds of all calls of a task, one after the other; the quickest of each counts."""
 OURS = "hrcplan"
+KINDS = ("STRIPS", "ADL", "numeric", "temporal", "derived", "timed")
 
 
 @dataclass(frozen=True)
@@ -40,8 +42,12 @@ class Run:
 def language(problem: Problem) -> str:
     """Return the part of PDDL that decides which planners can be called."""
     domain = problem.domain
+    if problem.timed:
+        return "timed"
     if domain.is_temporal:
         return "temporal"
+    if domain.axioms:
+        return "derived"
     if domain.changed_functions - {TOTAL_COST}:
         return "numeric"
     text = Path(domain.path).read_text(errors="replace").lower()
@@ -50,16 +56,16 @@ def language(problem: Problem) -> str:
     )
 
 
-def commands(pair: Pair, kind: str) -> dict[str, list[str]]:
+def commands(pair: Pair, kind: str, limit_s: float) -> dict[str, list[str]]:
     """Return the calls of the planners that take a task of this kind."""
     files = [str(pair.domain), str(pair.problem)]
     python = Path(sys.executable)
-    limit = ["--timeout", str(TIMEOUT_S)]
+    limit = ["--timeout", f"{limit_s:g}"]
     calls = {
         OURS: [str(python.with_name("hrcplan")), "plan", "--any", *limit, *files],
         "kairos": [str(python.with_name("kairos")), "solve", *files, "--no-anytime", *limit],
     }
-    if kind in ("ADL", "STRIPS"):
+    if kind in ("ADL", "STRIPS", "derived"):
         script = _SCRIPT.replace("domain.pddl problem.pddl", '"$3" "$4"')
         program = ["/bin/sh", "-c", script, str(python), str(find_binary()), DOWNWARD_SEARCH]
         calls["fast-downward"] = [*program, *files]
@@ -69,11 +75,11 @@ def commands(pair: Pair, kind: str) -> dict[str, list[str]]:
     return calls
 
 
-def call(argv: Sequence[str], folder: Path) -> Run:
-    """Return what one call did; a planner's own limit is ours, and a second later it is killed."""
+def call(argv: Sequence[str], folder: Path, limit_s: float) -> Run:
+    """Return what one call did; a planner without a limit of its own is ended some time later."""
     start, worked = time.perf_counter(), _processor_s()
     try:
-        done = subprocess.run(argv, cwd=folder, capture_output=True, timeout=TIMEOUT_S + 15)
+        done = subprocess.run(argv, cwd=folder, capture_output=True, timeout=limit_s + LATE_S)
         solved = done.returncode == 0
         solved &= b"Problem unsolvable" not in done.stdout
     except subprocess.TimeoutExpired:
@@ -88,7 +94,7 @@ def _processor_s() -> float:
 
 def tasks(readable: Sequence[Pair], n: int, seed: int) -> list[tuple[str, Pair]]:
     """Return ``n`` tasks, as many of each kind as there are."""
-    kinds: dict[str, list[Pair]] = {"STRIPS": [], "ADL": [], "numeric": [], "temporal": []}
+    kinds: dict[str, list[Pair]] = {kind: [] for kind in KINDS}
     for pair in random.Random(seed).sample(readable, len(readable)):
         part = kinds[language(read(pair.domain, pair.problem))]
         if len(part) <= n // len(kinds):
@@ -97,24 +103,24 @@ def tasks(readable: Sequence[Pair], n: int, seed: int) -> list[tuple[str, Pair]]
     return rows[:n]
 
 
-def report(readable: Sequence[Pair], n: int, seed: int) -> None:
+def report(readable: Sequence[Pair], n: int, seed: int, limit_s: float) -> None:
     """Print each task's seconds, then who solves how many, and what hrcplan adds."""
     print("\n| task | kind | hrcplan | best planner alone |\n|---|---|---|---|")
     results = list[tuple[Run, Run]]()
     for kind, pair in tasks(readable, n, seed):
         with TemporaryDirectory() as folder:
-            calls = commands(pair, kind)
+            calls = commands(pair, kind, limit_s)
             rounds = [
-                {name: call(argv, Path(folder)) for name, argv in calls.items()}
+                {name: call(argv, Path(folder), limit_s) for name, argv in calls.items()}
                 for _ in range(REPEATS)
             ]
         runs = {name: _quickest([runs[name] for runs in rounds]) for name in calls}
         ours = runs.pop(OURS)
-        name = min(runs, key=lambda name: (not runs[name].solved, runs[name].cpu_s))
+        name = min(runs, key=lambda name: (not runs[name].solved, runs[name].elapsed_s))
         results.append((ours, runs[name]))
         print(f"| {pair.domain.parent.name}/{pair.problem.stem} | {kind} | {_cell(ours)} ", end="")
         print(f"| {name} {_cell(runs[name])} |", flush=True)
-    _summary(results)
+    _summary(results, limit_s)
 
 
 def _quickest(runs: Sequence[Run]) -> Run:
@@ -128,10 +134,10 @@ def _cell(run: Run) -> str:
     return times if run.solved else f"none in {times}"
 
 
-def _summary(results: Sequence[tuple[Run, Run]]) -> None:
+def _summary(results: Sequence[tuple[Run, Run]], limit_s: float) -> None:
     ours, best = (sum(runs[i].solved for runs in results) for i in range(2))
     both = [(a, b) for a, b in results if a.solved and b.solved]
-    late = [a.elapsed_s for a, _ in results if a.elapsed_s > TIMEOUT_S + OVERRUN_S]
+    late = [a.elapsed_s for a, _ in results if a.elapsed_s > limit_s + OVERRUN_S]
     print(
         f"\nsolved: hrcplan {ours}, the best planner of each task {best}, both {len(both)} ", end=""
     )
