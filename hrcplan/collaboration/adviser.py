@@ -270,7 +270,7 @@ class Adviser:
         return [
             words
             for words in self._actions(agents)
-            if self._obstacle(words, state) is None and self._changes(words, state)
+            if not self._obstacles(words, state) and self._changes(words, state)
         ]
 
     def _changes(self, words: ActionWords, state: LiftedState) -> bool:
@@ -300,31 +300,42 @@ class Adviser:
                 if action.agent is None or action.agent in agents:
                     yield action.name, *action.args
 
-    def _obstacle(self, words: ActionWords, state: LiftedState) -> str | None:
+    def _obstacles(self, words: ActionWords, state: LiftedState) -> Sequence[str]:
         """Return what keeps an action from beginning in a state."""
         model = self.setup.model.actions
         step = model.step(PlannedAction(words[0], words[1:]))
-        return "an action of the domain" if step is None else model.obstacle(state, step)
+        return ["an action of the domain"] if step is None else list(model.obstacles(state, step))
 
     def read(self, ask: shared.AskReading) -> shared.Read:
         """Return what a person means; of an action that cannot begin, what it needs."""
         steps = self.possible(ask.agents)
         reading = self.reader(ask.text, steps, self.prior(steps))
         options = tuple(map(fact_text, reading.options))
-        note = self._why_not(ask) if reading.outcome == shared.NONE else ""
-        return shared.Read(ask.t, reading.outcome, options, note)
+        if reading.outcome != shared.ACT and (note := self._why_not(ask, reading.options)):
+            return shared.Read(ask.t, shared.NONE, (), note)
+        return shared.Read(ask.t, reading.outcome, options, "")
 
-    def _why_not(self, ask: shared.AskReading) -> str:
+    def _why_not(self, ask: shared.AskReading, options: Sequence[ActionWords]) -> str:
+        """Return what an action needs that the words say better than any of the ``options``.
+
+        Where the words leave objects open, the action is the one that lacks the fewest conditions.
+        """
         actions = list(self._actions(ask.agents))
         named = read_exactly(ask.text, actions, {}).options
         if not named:
-            reading = self.reader(ask.text, actions, {})
-            named = reading.options if reading.outcome == shared.ACT else ()
-        if not named:
+            named = self.reader(ask.text, actions, {}).options
+        if not named or set(named) & set(options):
             return ""
-        obstacle = self._obstacle(named[0], self._state_for(ask.agents))
-        text = fact_text(named[0])
-        return f"{text} changes nothing now" if obstacle is None else f"{text} needs {obstacle}"
+        objects = frozenset(named[0]).intersection(*named)
+        state = self._state_for(ask.agents)
+        obstacles = {
+            words: self._obstacles(words, state)
+            for words in actions
+            if words[0] == named[0][0] and objects <= set(words)
+        }
+        words = min(obstacles, key=lambda words: len(obstacles[words]))
+        needs = f"needs {obstacles[words][0]}" if obstacles[words] else "changes nothing now"
+        return f"{fact_text(words)} {needs}"
 
     def prior(self, steps: Sequence[ActionWords]) -> Mapping[ActionWords, float]:
         """Return how probable each of several next actions of a person is, as the belief says.

@@ -7,7 +7,7 @@ domains which the bit task cannot hold are executed too.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from hrcplan.core.numbers import Number
@@ -19,7 +19,6 @@ from hrcplan.pddl.model import (
     Effect,
     Fact,
     FluentKey,
-    Formula,
     Problem,
 )
 from hrcplan.pddl.semantics import (
@@ -30,7 +29,7 @@ from hrcplan.pddl.semantics import (
     bind,
     changes,
     holds,
-    unmet,
+    unmet_parts,
 )
 from hrcplan.pddl.walks import formula_functions
 from hrcplan.plans import PlannedAction, lane, occupied
@@ -128,23 +127,23 @@ class ActionModel:
 
         ``agent_state``: what conditions on agent state are held against; else the problem's values.
         """
+        return next(self.obstacles(state, step, agent_state), None)
+
+    def obstacles(
+        self, state: LiftedState, step: BoundAction, agent_state: Values | None = None
+    ) -> Iterator[str]:
+        """Yield the conditions that keep a step from beginning; arguments as of ``obstacle``."""
         state = LiftedState(state.facts, {**state.values, **(agent_state or {})})
         full = self._full(state)
         for condition in step.schema.conditions:
             if condition.when == "start" or not step.schema.durative:
-                missing = self._unmet(condition.formula, full, step)
-                if missing is not None:
-                    return missing
+                yield from unmet_parts(condition.formula, full, step.binding, self.problem)
         state_after_start = self._full(self._state_after(state, step, step.at_start, 0))
         for condition in step.schema.conditions:
             if condition.when == "all":
-                missing = self._unmet(condition.formula, state_after_start, step)
-                if missing is not None:
-                    return missing
-        return None
-
-    def _unmet(self, formula: Formula, state: LiftedState, step: BoundAction) -> str | None:
-        return unmet(formula, state, step.binding, self.problem)
+                yield from unmet_parts(
+                    condition.formula, state_after_start, step.binding, self.problem
+                )
 
     def influence(self, step: BoundAction, values: Values) -> dict[FluentKey, Number]:
         """Return the agent-state values after an interaction that has its effect."""

@@ -150,19 +150,22 @@ def holds(
 
 def unmet(formula: Formula, state: LiftedState, binding: Binding, problem: Problem) -> str | None:
     """Return the first part of a condition that is false, as ground PDDL; None if all hold."""
+    return next(unmet_parts(formula, state, binding, problem), None)
+
+
+def unmet_parts(
+    formula: Formula, state: LiftedState, binding: Binding, problem: Problem
+) -> Iterator[str]:
+    """Yield the parts of a condition that are false, as ground PDDL."""
     if isinstance(formula, And):
-        parts = (unmet(part, state, binding, problem) for part in formula.parts)
-        return next((part for part in parts if part is not None), None)
-    if isinstance(formula, Quantified) and formula.universal:
-        false_parts = (
-            unmet(formula.body, state, inner, problem)
-            for inner in instances(formula.params, binding, problem)
-        )
-        return next((part for part in false_parts if part is not None), None)
-    if holds(formula, state, binding, problem):
-        return None
-    missing = _without_value(formula, state.values, binding)
-    return ground_text(formula, binding) + ("" if missing is None else f", but {missing}")
+        for part in formula.parts:
+            yield from unmet_parts(part, state, binding, problem)
+    elif isinstance(formula, Quantified) and formula.universal:
+        for inner in instances(formula.params, binding, problem):
+            yield from unmet_parts(formula.body, state, inner, problem)
+    elif not holds(formula, state, binding, problem):
+        missing = _without_value(formula, state.values, binding)
+        yield ground_text(formula, binding) + ("" if missing is None else f", but {missing}")
 
 
 def _without_value(formula: Formula, values: Values, binding: Binding) -> str | None:

@@ -9,7 +9,7 @@ from enum import StrEnum
 
 from hrcplan.reading.lexicon import Lexicon
 from hrcplan.reading.mentions import Mention, Mentions, find_mentions
-from hrcplan.reading.negations import REVERSALS, denies
+from hrcplan.reading.negations import GRAMMAR, REVERSALS, denies
 from hrcplan.reading.tokens import split
 
 MAX_OPTIONS = 4
@@ -166,12 +166,12 @@ class _Scorer:
             return False
         if any(self.tokens[i] in REVERSALS for i in rest):
             return False
-        unread = [len(self.tokens[i]) for i in rest]
+        unread = [self.tokens[i] for i in rest]
         if action is None or self._explained_by_objects(step).issuperset(action.explains):
             return bool(named) and not unread
         if self.lexicon.slots[step[0]] and not named and self.objects:
             return False
-        is_open = not named and max(unread, default=0) >= _CONTENT
+        is_open = not named and any(len(w) >= _CONTENT or w not in GRAMMAR for w in unread)
         return action.share >= _SURE and not (is_open and self.lexicon.slots[step[0]])
 
     def _fits(self, name: str, step: Sequence[str]) -> bool:

@@ -111,7 +111,7 @@ def report_document(
 
 
 def _study(about: dict[str, Any], folder: Path, name: str | None) -> Study:
-    if not {"study", "options"} <= about.keys():
+    if not {"study", "options", "seed", "version"} <= about.keys():
         raise InputError("not the rows of a study", code="bad-rows", path=str(folder / FILE))
     own = about["study"]
     if name is None:

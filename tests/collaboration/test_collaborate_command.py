@@ -227,7 +227,7 @@ class Session:
 
     def expect(self, pattern: str) -> None:
         """Read until a pattern is there, behind what was read before."""
-        start, until = len(self.text), time.monotonic() + 30
+        start, until = len(self.text), time.monotonic() + 120
         while not re.search(pattern, self.text[start:]):
             assert time.monotonic() < until, self.text
             if select.select([self.handle], [], [], 1.0)[0]:

@@ -127,3 +127,12 @@ def test_of_words_for_an_action_that_cannot_be_done_now_it_is_said_what_it_needs
     read = adviser.read(shared.AskReading(0.0, ("human",), "i boil the pasta in the pan"))
     assert read.outcome == shared.NONE
     assert read.note == "(cook human pasta pan stove) needs (in pasta pan)"
+
+
+def test_of_open_words_the_action_that_lacks_least_is_explained(kitchen: Bank) -> None:
+    setup = make_setup(kitchen, method="joint")
+    adviser = Adviser(setup, kitchen, assistant_of(setup))
+    read = adviser.read(shared.AskReading(0.0, ("human",), "cook it"))
+    assert (read.outcome, read.options) == (shared.NONE, ())
+    assert read.note.startswith("(cook human")
+    assert " needs (in " in read.note

@@ -86,6 +86,13 @@ def test_a_step_that_is_not_possible_is_not_replaced_by_another(lexicon: Lexicon
     assert read_words(lexicon, "swap tulip and olive", swaps).step is None
 
 
+@pytest.mark.parametrize("word", ["ivy", "fig"])
+def test_a_short_word_that_is_no_grammar_may_be_an_object(lexicon: Lexicon, word: str) -> None:
+    beds = [("water", "ann", "bed-2")]
+    assert read_words(lexicon, "I'll water it now", beds).outcome is ReadingOutcome.ACT
+    assert read_words(lexicon, f"water the {word}", beds).outcome is ReadingOutcome.ASK
+
+
 def test_the_prior_decides_between_equals_and_overrules_no_word(lexicon: Lexicon) -> None:
     likely = [0.9 if step[1:] == ("ann", "bed-1") else 0.01 for step in STEPS]
     assert step_of(read_words(lexicon, "water it", STEPS, likely)) == ("water", "ann", "bed-1")

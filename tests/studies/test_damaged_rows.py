@@ -38,6 +38,8 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
         f"update about set value = '{'[' * 100_000}' where key = 'seed'",
         "update about set value = '[]' where key = 'version'",
         "delete from about where key = 'study'",
+        "delete from about where key = 'seed'",
+        "delete from about where key = 'version'",
         "drop table about",
         "alter table about rename column value to other",
         "update rows set total_steps = 'x'",
