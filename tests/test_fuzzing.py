@@ -22,6 +22,8 @@ N = {
     "journal": 40,
     "observations": 40,
     "arguments": 25,
+    "requests": 60,
+    "links": 40,
 }
 
 

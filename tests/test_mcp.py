@@ -2,6 +2,7 @@
 
 import asyncio
 import json
+import re
 import sys
 from collections.abc import Mapping
 from pathlib import Path
@@ -9,6 +10,9 @@ from typing import Any
 
 import pytest
 from mcp import ClientSession, StdioServerParameters, stdio_client
+
+from hrcplan.errors import UsageError
+from hrcplan.mcp.commands import FolderCommands
 
 DOMAIN = """(define (domain lamp) (:predicates (on))
   (:action press :parameters () :precondition (not (on)) :effect (on)))"""
@@ -78,3 +82,21 @@ def test_nothing_outside_of_the_folder_is_read_or_run(tmp_path: Path, kind: str)
     assert failed
     assert "lamp" not in message
     assert not (folder / "x").exists()
+
+
+@pytest.mark.parametrize("text", ["--help", "-o", "a\0b", "x" * 300, "../x", "a/-o", "\ud800"])
+def test_a_word_is_a_file_a_name_or_refused(tmp_path: Path, text: str) -> None:
+    commands = FolderCommands([tmp_path])
+    if re.fullmatch(r"x+", text):  # a name that no file can have is for the command to refuse
+        with commands.files(text) as names:
+            assert names == [text]
+        return
+    with pytest.raises(UsageError, match="no file of the folders"), commands.files(text):
+        pass
+
+
+def test_a_command_that_cannot_be_called_is_named(tmp_path: Path) -> None:
+    commands = FolderCommands([tmp_path])
+    for word in ("a\0", "x" * (1 << 22)):
+        with pytest.raises(UsageError, match="cannot be called"):
+            commands.run("check", word)

@@ -12,7 +12,8 @@ import math
 from collections.abc import Mapping
 from functools import cached_property
 
-from hrcplan.core.numbers import Number, exact, number_text
+from hrcplan.core.numbers import Number, exact, int_text, number_text
+from hrcplan.core.text import MAX_QUOTE, cut
 from hrcplan.errors import UsageError
 from hrcplan.pddl.conventions import agent_state_functions, robots
 from hrcplan.pddl.model import TOTAL_COST, Action, FluentKey, Function, Problem
@@ -34,11 +35,16 @@ def sensed_value(
     >>> sensed_value(2.5)
     Fraction(5, 2)
     """
-    number = float(value)
-    if not math.isfinite(number) or not least <= number <= most:
+    if not _is_finite(value) or not least <= value <= most:
         limits = f"[{number_text(least)}, {number_text(most)}]"
-        raise UsageError(f"{value} is no value in {limits}", code="bad-sensed-value", hint=hint)
-    return exact(f"{number:.{_PLACES}f}")
+        shown = cut(int_text(value) if isinstance(value, int) else f"{value}", MAX_QUOTE)
+        raise UsageError(f"{shown} is no value in {limits}", code="bad-sensed-value", hint=hint)
+    return exact(f"{float(value):.{_PLACES}f}")
+
+
+def _is_finite(value: float | Number) -> bool:
+    """Return whether a value is a finite number; a whole one may be too large for a float."""
+    return not isinstance(value, float) or math.isfinite(value)
 
 
 def failure_probability(value: Number, low: Number) -> float:
@@ -140,7 +146,7 @@ class AgentModel:
     def _range_hint(self, key: FluentKey, value: float | Number) -> str:
         """Return how the range of an element could be changed so that it holds a value."""
         least, most = self.value_range(key)
-        if math.isfinite(value):
+        if _is_finite(value):
             bound = exact(value)
             least, most = min(least, bound), max(most, bound)
         note = f";; hrcplan: range {key[0]} {number_text(least)} {number_text(most)}"

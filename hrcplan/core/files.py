@@ -96,6 +96,19 @@ def write_atomically(path: Path, data: str | bytes) -> None:
         ) from None
 
 
+def make_folder(path: Path) -> None:
+    """Make a folder and those above it; nothing happens if it is there.
+
+    Raises:
+        UsageError: if it cannot be made.
+    """
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except (OSError, ValueError) as error:
+        name = harmless(str(path))
+        raise UsageError(f"cannot make {name}: {reason_of(error)}", path=name) from None
+
+
 def check_target(path: Path | None, *inputs: str | Path) -> None:
     """Refuse an output that cannot be written, or would replace a file that is read.
 

@@ -153,8 +153,8 @@ def environment(problem: Problem) -> _Environment:
     with TemporaryDirectory(prefix="hrcplan-") as folder, _silence():
         problems = Path(folder, "problems")
         problems.mkdir()
-        Path(folder, "domain.pddl").write_text(domain)
-        (problems / "problem.pddl").write_text(text)
+        Path(folder, "domain.pddl").write_text(domain, encoding="utf-8")
+        (problems / "problem.pddl").write_text(text, encoding="utf-8")
         try:
             env: _Environment = core.PDDLEnv(
                 str(Path(folder, "domain.pddl")), str(problems),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import re
 import subprocess
@@ -13,11 +12,14 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from hrcplan.core.files import reason_of
+from hrcplan.core.json_values import json_of
+from hrcplan.core.text import quote
 from hrcplan.errors import UsageError
 
 MAX_SECONDS = 300.0
 _MARGIN_S = 30.0  # what a command may take besides its own limit
-_NAME = re.compile(r"[\w-]+(/[\w-]+)?")
+_NAME = re.compile(r"\w[\w-]*(/\w[\w-]*)?")  # never an option
 _TEXT = re.compile(r"\s*[(;]|\s*[\d.]+\s*:")
 
 
@@ -35,17 +37,24 @@ class FolderCommands:
         """Return the document that a command prints with ``--json``; errors are documents, too.
 
         Raises:
-            UsageError: if the command takes too long.
+            UsageError: if the command takes too long, cannot be called with these words, or ends
+                without an answer.
         """
         command = [sys.executable, "-P", "-m", "hrcplan", *words, "--json"]
         try:
             done = subprocess.run(
                 command, cwd=self.folders[0], stdin=subprocess.DEVNULL, capture_output=True,
-                text=True, timeout=timeout_s + _MARGIN_S, check=False,
+                timeout=timeout_s + _MARGIN_S, check=False,
             )  # fmt: skip
         except subprocess.TimeoutExpired:
             raise UsageError(f"'{words[0]}' was stopped after {timeout_s:g} s") from None
-        document: dict[str, Any] = json.loads(done.stdout)
+        except (OSError, ValueError) as error:  # too many words, or a NUL in one of them
+            raise UsageError(f"'{words[0]}' cannot be called: {reason_of(error)}") from None
+        try:
+            document: dict[str, Any] = json_of(done.stdout)
+        except ValueError:  # it was killed
+            message = f"'{words[0]}' ended with exit code {done.returncode} and without an answer"
+            raise UsageError(message) from None
         return document | {"exit_code": done.returncode}
 
     @contextmanager
@@ -61,11 +70,16 @@ class FolderCommands:
 
     def _file(self, text: str, target: Path) -> str:
         if _TEXT.match(text):
-            target.write_text(text)
+            target.write_text(text, encoding="utf-8", errors="replace")
             return str(target)
-        path = Path(os.path.realpath(self.folders[0] / text))
+        path = self.folders[0] / text
+        if "\0" not in text:
+            path = Path(os.path.realpath(path))
         is_inside = any(path.is_relative_to(folder) for folder in self.folders)
-        if (is_inside and path.exists()) or (_NAME.fullmatch(text) and not path.exists()):
-            return str(path) if is_inside and path.exists() else text
-        message = f"'{text}' is no file of the folders, no shipped name, and no PDDL text"
+        is_there = os.path.exists(path)
+        if is_inside and is_there:
+            return str(path)
+        if _NAME.fullmatch(text) and not is_there:
+            return text
+        message = f"{quote(text)} is no file of the folders, no shipped name, and no PDDL text"
         raise UsageError(message, hint=f"folders: {', '.join(map(str, self.folders))}")

@@ -16,7 +16,7 @@ from hrcplan.errors import UsageError
 from hrcplan.mcp.commands import MAX_SECONDS, FolderCommands
 from hrcplan.planners.registry import names
 
-_ELEMENT = re.compile(r"[\w-]+( [\w-]+)*")
+_ELEMENT = re.compile(r"\w[\w-]*( \w[\w-]*)*")  # never an option
 DomainInput = Annotated[
     str, Field(description="A PDDL domain: its text, a file, or a shipped name such as transport")
 ]
@@ -100,7 +100,7 @@ def _add_people_tools(server: MCPServer, commands: FolderCommands) -> None:
         inputs = [domain] if goals is None else [domain, goals]
         with tempfile.TemporaryDirectory(prefix="hrcplan-mcp-") as folder:
             bank, seen = Path(folder) / "goals.bank", Path(folder) / "seen.txt"
-            seen.write_text("\n".join(actions) + "\n")
+            seen.write_text("\n".join(actions) + "\n", encoding="utf-8", errors="replace")
             with commands.files(*inputs) as paths:
                 built = commands.run("bank", "build", *paths, "-o", str(bank))
             return commands.run("infer", str(bank), str(seen)) if bank.exists() else built

@@ -73,7 +73,7 @@ class CommandPlanner:
         with TemporaryDirectory(prefix="hrcplan-") as folder:
             cwd = Path(folder)
             for name, text in zip(("domain", "problem"), handover.texts, strict=True):
-                (cwd / f"{name}.pddl").write_text(text)
+                (cwd / f"{name}.pddl").write_text(text, encoding="utf-8")
             limits = ProcessLimits(request.time_left_s, request.memory_bytes)
             process = run(list(self._argv(cwd, limits.time_s)), cwd=cwd, limits=limits)
             texts = [process.stdout, *_plan_files(cwd, limits.output_bytes)]

@@ -231,8 +231,8 @@ def _attempt(request: Request, texts: _Input, search: tuple[str, ...], time_s: f
     heap = max(64 << 20, request.memory_bytes - _JVM_BYTES)
     with TemporaryDirectory(prefix="hrcplan-") as folder:
         cwd = Path(folder)
-        (cwd / "domain.pddl").write_text(texts.domain)
-        (cwd / "problem.pddl").write_text(texts.problem)
+        (cwd / "domain.pddl").write_text(texts.domain, encoding="utf-8")
+        (cwd / "problem.pddl").write_text(texts.problem, encoding="utf-8")
         argv = [str(java), "-XX:+UseSerialGC", f"-Xmx{heap >> 20}m", "-jar", str(jar)]
         argv += ["-o", "domain.pddl", "-f", "problem.pddl", "-sp", "plan", "-npm", *search]
         process = run(argv, cwd=cwd, limits=ProcessLimits(time_s, request.memory_bytes))

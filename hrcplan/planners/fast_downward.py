@@ -113,8 +113,8 @@ class _DownwardSearch:
         search = quick if request.any_plan else texts.proof
         with TemporaryDirectory(prefix="hrcplan-") as folder:
             self._folder = Path(folder)
-            (self._folder / "domain.pddl").write_text(texts.domain)
-            (self._folder / "problem.pddl").write_text(texts.problem)
+            (self._folder / "domain.pddl").write_text(texts.domain, encoding="utf-8")
+            (self._folder / "problem.pddl").write_text(texts.problem, encoding="utf-8")
             limits = ProcessLimits(request.time_left_s, request.memory_bytes)
             argv = ["/bin/sh", "-c", _SCRIPT, sys.executable, str(binary), search]
             process = run(argv, cwd=self._folder, limits=limits, on_tick=self._look)

@@ -5,7 +5,6 @@ Its wheel is under the GPL, so it is looked up and run, never imported.
 
 from __future__ import annotations
 
-import json
 import sys
 from collections.abc import Iterator
 from importlib.util import find_spec
@@ -13,6 +12,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from hrcplan.core.extras import missing as missing_package
+from hrcplan.core.json_values import json_of
 from hrcplan.core.records import record
 from hrcplan.errors import LimitError, MissingPlannerError, PlannerError, UnsupportedError
 from hrcplan.planners.lowering import Lowering
@@ -79,8 +79,8 @@ def list_plans(
     build = Path(spec.origin).parent / "builds" / "release" / "bin"
     with TemporaryDirectory(prefix="hrcplan-") as folder:
         cwd = Path(folder)
-        (cwd / "domain.pddl").write_text(lowering.domain_text)
-        (cwd / "problem.pddl").write_text(lowering.problem_text)
+        (cwd / "domain.pddl").write_text(lowering.domain_text, encoding="utf-8")
+        (cwd / "problem.pddl").write_text(lowering.problem_text, encoding="utf-8")
         argv = [sys.executable, "-P", "-m", "kstar_planner.driver.main", "--build", str(build),
                 "domain.pddl", "problem.pddl",
                 "--translate-options", "--invariant-generation-max-time", "0",
@@ -102,7 +102,7 @@ def _plans(
         last = (process.stderr or process.stdout).strip().splitlines()[-1:]
         raise PlannerError(f"K* gave no answer (exit code {process.code}): {' '.join(last)}")
     try:
-        for plan in json.loads(path.read_text())["plans"]:
+        for plan in json_of(path.read_bytes())["plans"]:
             yield tuple(lowering.actions[word.split()[0]] for word in plan["actions"])
-    except (KeyError, ValueError) as error:
+    except (LookupError, TypeError, AttributeError, ValueError) as error:
         raise PlannerError(f"K* answered what cannot be read: {error!r}") from None

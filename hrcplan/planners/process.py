@@ -67,7 +67,7 @@ def text_of(path: Path, most_bytes: int = ProcessLimits.output_bytes) -> str | N
         return None
     if not S_ISREG(stat.st_mode) or stat.st_size > most_bytes:
         return None
-    return path.read_text(errors="replace")
+    return path.read_text("utf-8", "replace")
 
 
 class ProcessEnd(enum.Enum):

@@ -163,11 +163,11 @@ def _call(
     path = os.pathsep.join(filter(None, [package, os.environ.get("PYTHONPATH")]))
     with TemporaryDirectory(prefix="hrcplan-") as folder:
         cwd = Path(folder)
-        (cwd / "job.json").write_text(json.dumps(job))
+        (cwd / "job.json").write_text(json.dumps(job), encoding="utf-8")
         argv = [sys.executable, "-P", "-W", "ignore", "-c", _CODE]
         process = run(argv, cwd=cwd, limits=limits, env={**os.environ, "PYTHONPATH": path})
         reply = cwd / "reply.json"
-        return process, json.loads(reply.read_text()) if reply.exists() else None
+        return process, json.loads(reply.read_text("utf-8")) if reply.exists() else None
 
 
 def engines(timeout_s: float = 30) -> Mapping[str, str | None]:
@@ -238,7 +238,7 @@ def child() -> None:
     """Do the job in ``job.json`` and write ``reply.json``, both in the current folder."""
     job = json.loads(Path("job.json").read_text())
     reply = _survey() if "list" in job else _solve(job)
-    Path("reply.part").write_text(json.dumps(reply))
+    Path("reply.part").write_text(json.dumps(reply), encoding="utf-8")
     Path("reply.part").rename("reply.json")
 
 

@@ -8,8 +8,7 @@ import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from hrcplan.core.files import write_atomically
-from hrcplan.errors import UsageError
+from hrcplan.core.files import make_folder, write_atomically
 from hrcplan.plots.style import FigureCopies
 from hrcplan.studies.page import anchor
 from hrcplan.studies.study import Findings, StudyRow
@@ -47,10 +46,7 @@ def write_figures(
                 files[folder / f"{name}.{form}"] = data
     for table, lines in rows.items():
         files[folder / f"{table}.csv"] = _csv(lines)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise UsageError(f"cannot make {folder}: {error.strerror}", path=str(folder)) from None
+    make_folder(folder)
     for path, content in files.items():
         write_atomically(path, content)
     return tuple(files)

@@ -17,6 +17,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
+from hrcplan.core.files import make_folder
 from hrcplan.core.json_values import JsonValue
 from hrcplan.core.text import cut, harmless
 from hrcplan.errors import InputError, UsageError
@@ -49,10 +50,7 @@ class Store:
                 or it holds rows that depend on something else.
             InputError: if its files are damaged.
         """
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise UsageError(f"cannot make {folder}: {error.strerror}", path=str(folder)) from None
+        make_folder(folder)
         lock = _lock(folder)
         with _explain_errors(folder):
             store = cls(folder, sqlite3.connect(folder / FILE))

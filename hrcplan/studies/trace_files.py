@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from urllib.parse import quote
 
-from hrcplan.core.files import reason_of, write_atomically
+from hrcplan.core.files import make_folder, write_atomically
 from hrcplan.errors import UsageError
 from hrcplan.inference.traces import ActionTrace
 from hrcplan.studies.study import Episode, Study, StudyOptions, StudyRow
@@ -101,9 +101,5 @@ class TraceFiles:
 
 
 def _write(path: Path, text: str) -> None:
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        message = f"cannot make {path.parent}: {reason_of(error)}"
-        raise UsageError(message, path=str(path.parent)) from None
+    make_folder(path.parent)
     write_atomically(path, text)

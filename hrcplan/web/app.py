@@ -63,7 +63,7 @@ class PageApp:
             Route("/api/sessions/{name}/events", self._answered(self._event), methods=["POST"]),
             Route("/api/sessions/{name}/why", self._answered(self._why)),
             Route("/api/stream", self._answered(self._stream)),
-            Route("/look/{number:int}", self._answered(self._look)),
+            Route("/look/{number}", self._answered(self._look)),
             *(self.trials.routes(self._answered) if self.trials is not None else ()),
         ]
         return Guard(
@@ -106,10 +106,11 @@ class PageApp:
         return Response(FRONTEND[name], media_type=kind)
 
     async def _look(self, request: Request) -> Response:
-        number = request.path_params["number"]
-        if number >= len(self.files):
+        file = dict(zip(map(str, range(len(self.files))), self.files, strict=True)).get(
+            request.path_params["number"]
+        )
+        if file is None:
             raise UsageError("there is no such file", code="not-found")
-        file = self.files[number]
         page = await asyncio.to_thread(look_page, file, request.query_params.get("goal"))
         answer = HTMLResponse(page)
         if file.kind == STUDY:  # one file with its own style and pictures, and no script

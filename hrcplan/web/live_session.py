@@ -126,7 +126,7 @@ class LiveSession:
         if self._setup is None or self.is_over:
             raise UsageError("the collaboration is over, or has not begun", code="over")
         after = document.get("after")
-        if after is not None and not isinstance(after, int):
+        if after is not None and type(after) is not int:
             raise UsageError("'after' is no number", code="bad-request")
         return self._person.ask(PageRequest(after, event_of(document, self._setup)))
 

@@ -13,6 +13,7 @@ from hrcplan.bank import Bank, load
 from hrcplan.bank.htn import decompose
 from hrcplan.bank.htn_view import as_text
 from hrcplan.core.files import read_bytes
+from hrcplan.core.json_values import json_of
 from hrcplan.core.numbers import int_text, number_text
 from hrcplan.errors import HrcplanError, InputError, UsageError
 from hrcplan.execution.journal import read_journal
@@ -71,7 +72,7 @@ def _kind(path: Path) -> str:
     if path.name == REPORT:
         return STUDY
     try:
-        head = json.loads(data.split(b"\n", 1)[0])
+        head = json_of(data.partition(b"\n")[0])
         if isinstance(head, dict) and "journal" in head:
             return JOURNAL
     except ValueError:
@@ -104,7 +105,7 @@ def look_page(file: LookFile, goal: str | None = None) -> str:
         case "allocation":
             return diagram_page(file.title, read_diagram(file.path))
         case "study":
-            return file.path.read_text(encoding="utf-8")
+            return read_bytes(file.path).decode("utf-8", "replace")
     return plan_page(file)
 
 

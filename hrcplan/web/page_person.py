@@ -13,6 +13,7 @@ from hrcplan.collaboration.adviser import Adviser
 from hrcplan.collaboration.events import PersonEvent
 from hrcplan.collaboration.run import CompanionRun
 from hrcplan.collaboration.setup import CollaborationSetup
+from hrcplan.core.text import harmless
 from hrcplan.errors import UsageError
 from hrcplan.execution import events as ev
 
@@ -157,9 +158,9 @@ def event_of(
         case "state":
             key = tuple(_words(document, "key"))
             number = document.get("value")
-            if not isinstance(number, int | float):
+            if isinstance(number, bool) or not isinstance(number, int | float):
                 raise UsageError("a state has a number", code="bad-request")
-            setup.model.agents.check(key, float(number))
+            setup.model.agents.check(key, number)
             return lambda run: shared.StateTold(run.t, {key: float(number)})
         case "paused":
             return lambda run: shared.Paused(run.t)
@@ -189,7 +190,7 @@ def _text(document: dict[str, Any], key: str, default: str | None = None) -> str
     if len(value) > MAX_LINE:
         message = f"a line has at most {MAX_LINE} characters"
         raise UsageError(message, code="too-long")
-    return value
+    return harmless(value)  # it is shown to all pages
 
 
 def _words(document: dict[str, Any], key: str) -> list[str]:

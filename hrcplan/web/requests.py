@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import json
 from collections.abc import Awaitable, Callable
 from concurrent.futures import Future
 from typing import Any
@@ -12,6 +11,7 @@ from urllib.parse import parse_qs
 from starlette.requests import Request
 from starlette.responses import Response
 
+from hrcplan.core.json_values import json_of
 from hrcplan.errors import InputError, UsageError
 
 ANSWER_S = 30.0  # how long a page waits for an answer before it asks again
@@ -31,8 +31,8 @@ async def document_of(request: Request) -> dict[str, Any]:
         InputError: if it has none.
     """
     try:
-        document = json.loads(await request.body())
-    except (ValueError, RecursionError):
+        document = json_of(await request.body())
+    except ValueError:
         document = None
     if not isinstance(document, dict):
         raise InputError("a JSON object is needed", code="bad-request")

@@ -13,7 +13,8 @@ from types import FrameType, TracebackType
 
 import uvicorn
 
-from hrcplan.core.files import reason_of
+from hrcplan.core.files import make_folder, reason_of
+from hrcplan.core.text import harmless
 from hrcplan.errors import UsageError
 from hrcplan.web.app import PageApp
 from hrcplan.web.banks import Banks
@@ -28,7 +29,7 @@ from hrcplan.web.trials.trial_desk import TrialDesk
 from hrcplan.web.trials.trial_routes import TrialRoutes
 
 LOOPBACK, PORT, HTTP_PORT = "127.0.0.1", 8765, 80
-_TOKEN_FILE = "serve-token"
+_TOKEN_FILE, _TOKEN_LENGTH = "serve-token", 24
 _HEADER_BYTES = 16 << 10
 
 
@@ -166,16 +167,18 @@ def _listener(options: ServerOptions) -> socket.socket:
     ports = [PORT, 0] if options.port is None else [options.port]
     family = socket.AF_INET6 if ":" in options.host else socket.AF_INET
     for port in ports:
-        listener = socket.socket(family, socket.SOCK_STREAM)
+        listener: socket.socket | None = None
         try:
+            listener = socket.socket(family, socket.SOCK_STREAM)
             listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
             listener.bind((options.host, port))
             listener.listen(128)
-        except OSError as error:
-            listener.close()
+        except (OSError, ValueError, TypeError) as error:  # also a name of strange characters
+            if listener is not None:
+                listener.close()
             if port != ports[-1]:
                 continue
-            message = f"cannot listen at {options.host}:{port}: {reason_of(error)}"
+            message = f"cannot listen at {harmless(options.host)}:{port}: {reason_of(error)}"
             raise UsageError(message, code="port", hint="another --port N") from None
         return listener
     raise AssertionError("there is always a last port")
@@ -189,10 +192,13 @@ def _token(folder: Path) -> str:
     """
     path = folder / _TOKEN_FILE
     try:
-        folder.mkdir(parents=True, exist_ok=True)
+        make_folder(folder)
         if path.is_file():
-            return path.read_text(encoding="ascii").strip()
-        token = secrets.token_urlsafe(24)
+            token = path.read_text(encoding="ascii").strip()
+            if len(token) < _TOKEN_LENGTH:  # cut, or empty: anybody could guess it
+                raise ValueError(f"{_TOKEN_FILE} holds no secret; remove it, and a new one is made")
+            return token
+        token = secrets.token_urlsafe(_TOKEN_LENGTH)
         handle = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
         with open(handle, "w", encoding="ascii") as file:
             file.write(f"{token}\n")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 import secrets
 import threading
@@ -10,7 +11,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from hrcplan.core.files import write_atomically
+from hrcplan.core.files import make_folder, write_atomically
+from hrcplan.core.json_values import json_of
 from hrcplan.errors import InputError, UsageError
 from hrcplan.web.banks import Banks
 from hrcplan.web.live_session import LiveSession, SessionSpec
@@ -69,7 +71,7 @@ class Sessions:
         name = name or secrets.token_hex(5)
         with self._lock:
             self._check_room()
-            self.folder.mkdir(parents=True, exist_ok=True)
+            make_folder(self.folder)
             write_atomically(self._path(name, "json"), json.dumps(spec.to_json()) + "\n")
             return self._start(name, spec)
 
@@ -81,7 +83,7 @@ class Sessions:
             if name in self._live:
                 return self._live[name]
             path = self._path(name, "json")
-            if not path.is_file():
+            if not os.path.isfile(path):
                 return None
             self._check_room()
             return self._start(name, spec_in(path))
@@ -104,17 +106,24 @@ class Sessions:
         return self.folder / f"{name}.{kind}"
 
     def overview(self) -> list[dict[str, Any]]:
-        """Return every session's name, what it is of, and whether it goes on; the newest first."""
-        if not self.folder.is_dir():
+        """Return every session's name, what it is of, and whether it goes on; the newest first.
+
+        Of one whose file is damaged the phase says so, and what it is of is its name.
+        """
+        if not os.path.isdir(self.folder):
             return []
         paths = [p for p in self.folder.glob("*.json") if _NAME.fullmatch(p.stem)]
-        paths.sort(key=lambda path: -path.stat().st_mtime)
-        rows = []
-        for path in paths[:MAX_KNOWN]:
-            session = self._live.get(path.stem)
-            phase = session.now["phase"] if session is not None else "stopped"
-            rows.append({"name": path.stem, "phase": phase, **spec_in(path).to_json()})
-        return rows
+        paths.sort(key=lambda path: -_modified_s(path))
+        return [self._row(path) for path in paths[:MAX_KNOWN]]
+
+    def _row(self, path: Path) -> dict[str, Any]:
+        session = self._live.get(path.stem)
+        phase = session.now["phase"] if session is not None else "stopped"
+        try:
+            spec = spec_in(path)
+        except InputError:
+            phase, spec = "damaged", SessionSpec(path.stem)
+        return {"name": path.stem, "phase": phase, **spec.to_json()}
 
     def delete(self, name: str) -> None:
         """Stop a session and remove its files."""
@@ -133,6 +142,14 @@ class Sessions:
             session.stop(wait_s=0)
 
 
+def _modified_s(path: Path) -> float:
+    """Return when a file was changed last; 0 if it is gone meanwhile."""
+    try:
+        return path.stat().st_mtime
+    except OSError:
+        return 0.0
+
+
 def spec_in(path: Path) -> SessionSpec:
     """Return what a stored session is made of.
 
@@ -140,7 +157,7 @@ def spec_in(path: Path) -> SessionSpec:
         InputError: if the file is damaged.
     """
     try:
-        return spec_of(json.loads(path.read_text(encoding="utf-8")))
+        return spec_of(json_of(path.read_text(encoding="utf-8")))
     except (OSError, ValueError, AttributeError, UsageError) as error:
         message = f"this does not say what a session is of: {error}"
         raise InputError(message, code="bad-session", path=str(path)) from None

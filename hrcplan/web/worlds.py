@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import re
+from contextlib import suppress
 from pathlib import Path
 
 from hrcplan.pddl import library
@@ -24,8 +26,8 @@ def _folders() -> list[Path]:
     """Return the folders of problems here, then those that are shipped."""
     folders: dict[str, Path] = {}
     for root in (Path("problems"), library.root() / "problems"):
-        if root.is_dir():
-            for folder in sorted(path for path in root.iterdir() if path.is_dir()):
+        with suppress(OSError):  # a folder that is missing, or may not be read, has no problems
+            for folder in sorted(path for path in root.iterdir() if os.path.isdir(path)):
                 folders.setdefault(folder.name, folder)
     return list(folders.values())
 
@@ -45,6 +47,8 @@ def _rows(folder: Path) -> list[dict[str, str]]:
 
 
 def _domain_of(path: Path) -> str | None:
+    if not os.path.isfile(path):  # the reading of a pipe would not end
+        return None
     try:
         with path.open(encoding="utf-8", errors="replace") as file:
             match = _DOMAIN_OF.search(file.read(_HEADING))

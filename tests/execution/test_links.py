@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import shlex
 import signal
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
-from hrcplan.errors import MissingPlannerError, PlannerError, UsageError
+from hrcplan.errors import InputError, MissingPlannerError, PlannerError, UsageError
 from hrcplan.execution import events as ev
 from hrcplan.execution.execute import Execution, execute
 from hrcplan.execution.journal import read_journal
-from hrcplan.execution.links import LINKS, RobotLink, session
+from hrcplan.execution.links import LINKS, RobotLink, session, simulated_robot
 from hrcplan.execution.links import messages as msg
 from hrcplan.execution.links import world as link_world
 from hrcplan.execution.links.process import FLOOD, ProcessLink
@@ -370,6 +372,10 @@ def test_a_clock_that_jumps_does_no_harm() -> None:
         ('{"event": "observed", "facts": [3]}', "a fact is a text"),
         ('{"event": "sensed", "values": {"motivation human": "x"}}', "is no number"),
         ('{"event": "sensed", "values": {"motivation human": NaN}}', "is not finite"),
+        ('{"event": "sensed", "values": {"motivation human": 1%s}}' % (400 * "0"), "too large"),
+        ('{"event": "sensed", "values": [["motivation human", 1]]}', "no JSON object"),
+        ('{"event": "begun", "action": ["move"]}', "str instance"),
+        ("[" * 100_000, "no JSON"),
         (None, "too long"),
     ],
 )
@@ -377,6 +383,45 @@ def test_bad_lines(line: str | None, reason: str) -> None:
     message = msg.message_of(line)
     assert isinstance(message, msg.BadLine)
     assert reason in message.reason
+
+
+def test_what_people_say_to_an_execution_does_not_end_it() -> None:
+    class Talks(Scripted):
+        n_silent = 3
+
+        def receive(self, timeout_s: float) -> list[msg.LinkMessage]:
+            if self.replies and not isinstance(self.replies[0], msg.LinkReady):
+                self.n_silent -= 1
+                if self.n_silent > 0:
+                    return [msg.PersonSaid("human", "hello")] if self.n_silent == 2 else []
+            return super().receive(timeout_s)
+
+    done = execute("transport/two-boxes", robot=Talks(), speed=1000)
+    assert done.outcome.ending == ev.GOAL
+    assert "collaborate hears people" in messages(done)
+
+
+@pytest.mark.parametrize(
+    "line",
+    [b"hello", b"[]", b"{}", b'{"do": "dispatch"}', b"[" * 100_000, b"\xff", b"1" * 5000, b"x" * (1 << 21)],
+    ids=lambda line: str(line[:20]),
+)  # fmt: skip
+def test_the_simulated_robot_refuses_what_is_no_command(
+    line: bytes, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    read_end, write_end = os.pipe()
+    thread = threading.Thread(target=_written, args=[write_end, line + b"\n"])
+    thread.start()
+    monkeypatch.setattr(simulated_robot, "STDIN", read_end)
+    with pytest.raises(InputError):
+        simulated_robot.SimulatedRobotProgram().run()
+    os.close(read_end)
+    thread.join()
+
+
+def _written(handle: int, data: bytes) -> None:
+    with contextlib.suppress(BrokenPipeError), os.fdopen(handle, "wb") as file:
+        file.write(data)
 
 
 def test_files_cannot_name_programs_as_robots() -> None:

@@ -18,7 +18,9 @@ from click.testing import CliRunner
 
 from fuzzing import mutate
 from fuzzing.files import PAIRS, pddl, public, texts, tree
+from fuzzing.pages import requests, served
 from fuzzing.plans import log, plan, planned
+from fuzzing.robots import links
 from hrcplan.agents import load_profile
 from hrcplan.bank import build_bank, find_fault, load, save
 from hrcplan.cli import main
@@ -238,7 +240,8 @@ def arguments(rng: random.Random, folder: Path) -> None:
 TARGETS: dict[str, Target] = {
     "pddl": pddl, "public": public, "tree": tree, "plan": plan, "log": log, "toml": toml,
     "bank": bank, "rows": rows, "journal": journal, "observations": observations,
-    "arguments": arguments,
+    "arguments": arguments, "requests": requests,
+    "links": links,
 }  # fmt: skip
 
 
@@ -254,6 +257,8 @@ def warm(kind: str, folder: Path) -> None:
             _bank(folder)
             _small_bank(folder)
             _loaded(folder / "origin.bank")
+        case "requests":
+            served(folder).names()
         case "rows":
             report_study(_rows(folder))
         case "journal":

@@ -16,13 +16,12 @@ the number ``n`` of the dispatch where one is meant::
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from hrcplan.core.json_values import JsonValue
+from hrcplan.core.json_values import JsonValue, json_of
 from hrcplan.core.text import cut, harmless
 from hrcplan.execution import events as ev
 from hrcplan.pddl.model import Fact, FluentKey
@@ -146,8 +145,8 @@ def message_of(line: str | None) -> LinkMessage:
         return BadLine("a line is too long")
     quoted = repr(cut(harmless(line), _SHOWN))
     try:
-        document = json.loads(line)
-    except (ValueError, RecursionError):
+        document = json_of(line)
+    except ValueError:
         return BadLine(f"no JSON: {quoted}")
     if not isinstance(document, dict):
         return BadLine(f"no JSON object: {quoted}")
@@ -156,7 +155,7 @@ def message_of(line: str | None) -> LinkMessage:
         return BadLine(f"no event of a link: {quoted}")
     try:
         return read(document)
-    except (KeyError, TypeError, ValueError) as error:
+    except (KeyError, TypeError, ValueError, ArithmeticError, RecursionError) as error:
         return BadLine(f"{_fault(error)}: {quoted}")
 
 
@@ -194,7 +193,9 @@ def _facts(document: Mapping[str, Any], key: str) -> frozenset[Fact]:
 
 
 def _values(document: Mapping[str, Any]) -> ValuesSensed:
-    values = {}
+    values: dict[FluentKey, float | int] = {}
+    if not isinstance(document["values"], dict):
+        raise TypeError("'values' is no JSON object")
     for text, value in document["values"].items():
         if isinstance(value, bool) or not isinstance(value, (int, float)):
             raise TypeError(f"the value of '{text}' is no number")
@@ -210,7 +211,7 @@ def _begun(document: Mapping[str, Any]) -> PersonBegun:
 
 
 _READERS: Mapping[str, Callable[[Mapping[str, Any]], LinkMessage]] = {
-    "ready": lambda d: LinkReady(tuple(map(str, d.get("agents", ())))),
+    "ready": lambda d: LinkReady(tuple(cut(harmless(str(a)), _SHOWN) for a in d.get("agents", ()))),
     "accepted": lambda d: Accepted(_number(d)),
     "rejected": lambda d: Rejected(_number(d), _text(d, "why")),
     "feedback": lambda d: Feedback(_number(d), _text(d, "text")),

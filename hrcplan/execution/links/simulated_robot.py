@@ -15,9 +15,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from hrcplan.core.json_values import JsonValue
+from hrcplan.core.json_values import JsonValue, json_of
+from hrcplan.core.text import quote
+from hrcplan.errors import InputError
 
+MAX_LINE = 1 << 20  # bytes
+LONGEST_S = 1e9  # more than a clock can wait for
 _CHUNK = 1 << 16
+STDIN = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,34 +55,58 @@ class SimulatedRobotProgram:
     agents: tuple[str, ...] = ()
 
     def run(self) -> None:
-        """Serve until standard input ends or the end is commanded."""
+        """Serve until standard input ends or the end is commanded.
+
+        Raises:
+            InputError: if a line is no command.
+        """
         self._ends_s: dict[int, float] = {}
         self._outcomes: dict[int, str] = {}
         self._n_actions = 0
         self._actions: list[str] = []
         self._chance = random.Random(self.faults.seed)
-        part = b""
+        part = bytearray()
         while True:
             self._finish_due()
             wait_s = min(self._ends_s.values(), default=None)
             timeout_s = None if wait_s is None else max(0.0, wait_s - time.monotonic())
-            if not select.select([0], [], [], timeout_s)[0]:
+            if not select.select([STDIN], [], [], timeout_s)[0]:
                 continue
-            piece = os.read(0, _CHUNK)
+            piece = os.read(STDIN, _CHUNK)
             if not piece:
                 return
-            *lines, part = (part + piece).split(b"\n")
+            *lines, rest = piece.split(b"\n")
             for line in lines:
-                command = json.loads(line)
-                if command["do"] == "end":
+                if not self._obey(part + line):
                     return
-                self._take(command)
+                part.clear()
+            part += rest
+            if len(part) > MAX_LINE:
+                raise InputError("a line of the master is too long", code="bad-line")
+
+    def _obey(self, line: bytes | bytearray) -> bool:
+        """Carry a command out; return whether others may follow.
+
+        Raises:
+            InputError: if the line is no command.
+        """
+        try:
+            command = json_of(bytes(line))
+            if command["do"] == "end":
+                return False
+            self._take(command)
+        except (LookupError, TypeError, ValueError, ArithmeticError) as error:
+            shown = quote(line.decode("utf-8", "replace"))
+            message = f"this line is no command of a robot link: {shown} ({error!r})"
+            raise InputError(message, code="bad-line") from None
+        return True
 
     def _say(self, event: str, **values: JsonValue) -> None:
         if event != "ready" and self._chance.random() < self.faults.lost:
             return
-        sys.stdout.write(json.dumps({"event": event, **values}) + "\n")
-        sys.stdout.flush()
+        if sys.stdout is not None:  # it was closed from the start
+            sys.stdout.write(json.dumps({"event": event, **values}) + "\n")
+            sys.stdout.flush()
 
     def _is_deaf(self) -> bool:
         after = self.faults.deaf_after
@@ -105,7 +134,7 @@ class SimulatedRobotProgram:
             self._n_actions += 1
             if self._is_deaf():
                 return
-            lasts_s = command["duration_s"] * self.faults.slow / self.speed
+            lasts_s = min(LONGEST_S, command["duration_s"] * self.faults.slow / self.speed)
             if self._n_actions == self.faults.die_after:
                 time.sleep(lasts_s / 2)
                 os._exit(1)

@@ -268,9 +268,11 @@ class LinkWorld:
                 return self._fault(reason)
             case msg.LinkReady():
                 return ()
-            case msg.PersonSaid() | msg.PersonBegun():
+            case msg.PersonSaid() | msg.PersonBegun() if self.hears_people:
                 self.reports.append(message)
-                return () if self.hears_people else self._fault("hrcplan collaborate hears people")
+                return ()
+            case msg.PersonSaid() | msg.PersonBegun():
+                return self._fault("hrcplan collaborate hears people")
         return self._answer(message)
 
     def _answer(

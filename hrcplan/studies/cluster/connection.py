@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import asyncio
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from hrcplan.core.extras import require
 from hrcplan.core.files import read_bytes
+from hrcplan.core.json_values import json_of
 from hrcplan.errors import InputError, PlannerError, UsageError
 
 if TYPE_CHECKING:
@@ -86,7 +86,7 @@ def _address_in(path: str) -> str:
         InputError: if the file is missing or names none.
     """
     try:
-        return str(json.loads(read_bytes(Path(path)))["address"])
+        return str(json_of(read_bytes(Path(path)))["address"])
     except (ValueError, TypeError, KeyError) as error:
         message = f"{path} names no address of a scheduler: {error!r}"
         raise InputError(message, code="bad-address", path=path) from None

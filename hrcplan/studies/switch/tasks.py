@@ -14,9 +14,8 @@ from hrcplan.bank.team_moves import TeamMoves
 from hrcplan.bank.turn_moves import team_moves
 from hrcplan.bank.variants import vary
 from hrcplan.bank.walked_goals import GoalRules, walked_goals
-from hrcplan.core.files import cache_folder, write_atomically
+from hrcplan.core.files import cache_folder, make_folder, write_atomically
 from hrcplan.core.toml import read_toml
-from hrcplan.errors import UsageError
 from hrcplan.inference.traces import text_sha256, world_sha256
 from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import TRUE
@@ -110,11 +109,7 @@ def write_pddl(task: str, folder: Path) -> None:
     Raises:
         UsageError: if that is not possible.
     """
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        message = f"cannot make {folder}: {error.strerror}"
-        raise UsageError(message, path=str(folder)) from None
+    make_folder(folder)
     for name, text in pddl_files(task).items():
         path = folder / name
         if not path.is_file() or path.read_text("utf-8") != text:

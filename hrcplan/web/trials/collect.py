@@ -12,7 +12,7 @@ from hrcplan import __version__
 from hrcplan.collaboration.companion import Companion
 from hrcplan.collaboration.events import KINDS, Undone
 from hrcplan.collaboration.journal import setup_of
-from hrcplan.core.files import write_atomically
+from hrcplan.core.files import make_folder, write_atomically
 from hrcplan.execution.journal import Journal, read_journal
 from hrcplan.execution.journal.reader import event_in
 from hrcplan.execution.traces import trace_of
@@ -45,7 +45,7 @@ def collect(desk: TrialDesk, output: Path) -> Collected:
     """
     people = desk.participants.all()
     trials = [(person, *trial) for person in people for trial in _trials(desk, person)]
-    output.joinpath("traces").mkdir(parents=True, exist_ok=True)
+    make_folder(output / "traces")
     rows: list[tuple[Episode, StudyRow]] = []
     for person, number, journal in trials:
         name = f"p{person.number + 1:03}-t{number + 1}"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 import secrets
 import threading
@@ -11,11 +12,13 @@ from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from hrcplan.core.files import write_atomically
+from hrcplan.core.files import make_folder, read_bytes, write_atomically
+from hrcplan.core.json_values import json_of
 from hrcplan.errors import InputError, UsageError
 from hrcplan.web.trials.study_file import AFTER, BEFORE, TRIAL, TrialStudy
 
 CONSENT, INSTRUCTIONS, RUN, END = "consent", "instructions", "run", "end"
+STAGES = (CONSENT, BEFORE, INSTRUCTIONS, RUN, TRIAL, AFTER, END)
 _CODE = re.compile(r"[A-Za-z0-9_-]{20,40}")
 
 
@@ -55,8 +58,8 @@ class Participant:
             case "trial":
                 return replace(self, stage=AFTER)
             case _:
-                order = (CONSENT, BEFORE, INSTRUCTIONS, RUN, TRIAL, AFTER, END)
-                return replace(self, stage=order[min(order.index(self.stage) + 1, 6)])
+                place = STAGES.index(self.stage) + 1
+                return replace(self, stage=STAGES[min(place, len(STAGES) - 1)])
 
     @property
     def session(self) -> str | None:
@@ -84,13 +87,13 @@ class Participants:
             UsageError: if the folder is that of another study, or cannot be written.
         """
         path = self.folder / "study.json"
-        if path.is_file():
-            about = _read(path)
+        if os.path.isfile(path):
+            about = _about(path)
             if about.get("sha256") != self.study.sha256:
                 message = f"{self.folder} holds participants of another version of the study file"
                 raise UsageError(message, code="other-study", hint="take a new --folder")
             return str(about["invitation"])
-        self.folder.mkdir(parents=True, exist_ok=True)
+        make_folder(self.folder)
         about = {"sha256": self.study.sha256, "invitation": secrets.token_urlsafe(18), "n": 0}
         write_atomically(path, json.dumps(about) + "\n")
         return str(about["invitation"])
@@ -103,7 +106,7 @@ class Participants:
         """
         with self._lock:
             path = self.folder / "study.json"
-            about = _read(path)
+            about = _about(path)
             if about["n"] >= self.study.participants:
                 raise UsageError("this study has all its participants", code="study-full")
             person = Participant(secrets.token_urlsafe(18), about["n"])
@@ -113,11 +116,10 @@ class Participants:
 
     def get(self, code: str) -> Participant | None:
         """Return a participant by their code; None if there is none."""
-        path = self._path(code)
-        if not _CODE.fullmatch(code) or not path.is_file():
+        if not _CODE.fullmatch(code) or not os.path.isfile(self._path(code)):
             return None
-        table = _read(path)
-        return Participant(**{**table, "sessions": tuple(table["sessions"])})
+        path = self._path(code)
+        return _participant(_read(path), path, self.study)
 
     def save(self, person: Participant) -> None:
         """Write a participant down."""
@@ -144,9 +146,52 @@ class Participants:
 
 def _read(path: Path) -> dict[str, Any]:
     try:
-        table = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise InputError(f"{path} is damaged: {error}", code="bad-session") from None
+        table = json_of(read_bytes(path))
+    except ValueError as error:
+        raise _damage(path, str(error)) from None
     if not isinstance(table, dict):
-        raise InputError(f"{path} is damaged", code="bad-session")
+        raise _damage(path, "it is no JSON object")
     return table
+
+
+def _damage(path: Path, why: str) -> InputError:
+    return InputError(f"{path} is damaged: {why}", code="bad-session", path=str(path))
+
+
+def _about(path: Path) -> dict[str, Any]:
+    """Return what is stored of the study itself.
+
+    Raises:
+        InputError: if the file is damaged.
+    """
+    about = _read(path)
+    if not isinstance(about.get("invitation"), str) or type(about.get("n")) is not int:
+        raise _damage(path, "it has no invitation, or no number of participants")
+    return about
+
+
+def _participant(table: dict[str, Any], path: Path, study: TrialStudy) -> Participant:
+    """Return what a file holds of a participant.
+
+    Raises:
+        InputError: if the file is damaged.
+    """
+    try:
+        person = Participant(**{**table, "sessions": tuple(table["sessions"])})
+    except (KeyError, TypeError) as error:
+        raise _damage(path, str(error)) from None
+    answers = person.answers
+    is_whole = (
+        person.code == path.stem
+        and type(person.number) is int
+        and type(person.trial) is int
+        and min(person.number, person.trial) >= 0
+        and person.trial < study.trials
+        and person.stage in STAGES
+        and all(isinstance(name, str) for name in person.sessions)
+        and isinstance(answers, dict)
+        and all(isinstance(answer, str) for answer in answers.values())
+    )
+    if not is_whole:
+        raise _damage(path, "a value makes no sense")
+    return person

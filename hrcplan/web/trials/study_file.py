@@ -11,9 +11,11 @@ from typing import Any
 
 from hrcplan.assistance.assistant import KnowsGoal
 from hrcplan.assistance.registry import ASSISTANTS
+from hrcplan.core.files import read_bytes
+from hrcplan.core.json_values import JsonValue
 from hrcplan.core.text import nearest
 from hrcplan.core.toml import read_toml
-from hrcplan.errors import InputError, UsageError
+from hrcplan.errors import HrcplanError, InputError
 
 BEFORE, TRIAL, AFTER = "before", "trial", "after"
 WHEN = (BEFORE, TRIAL, AFTER)
@@ -136,8 +138,8 @@ def read_study_file(path: Path) -> TrialStudy:
     """
     table = read_toml(path, _CODE)
     try:
-        return _study(table, hashlib.sha256(path.read_bytes()).hexdigest())
-    except (KeyError, TypeError, ValueError, UsageError) as error:
+        return _study(table, hashlib.sha256(read_bytes(path)).hexdigest())
+    except (KeyError, TypeError, ValueError, HrcplanError) as error:
         what = f"'{error.args[0]}' is missing" if isinstance(error, KeyError) else str(error)
         raise InputError(f"{path}: {what}", code=_CODE, path=str(path)) from None
 
@@ -146,7 +148,8 @@ def _study(table: Mapping[str, Any], sha256: str) -> TrialStudy:
     _check(table, _KEYS, "the study")
     conditions = tuple(map(str, table["conditions"]))
     for method in conditions:
-        if isinstance(ASSISTANTS.find(method), KnowsGoal):
+        # A file must not choose which code runs.
+        if isinstance(ASSISTANTS.find_listed(method), KnowsGoal):
             raise ValueError(f"the robot '{method}' has to know the goal")
     tasks = tuple(_task(one) for one in table["tasks"])
     questions = tuple(_question(one) for one in table.get("questions", []))
@@ -170,7 +173,7 @@ def _study(table: Mapping[str, Any], sha256: str) -> TrialStudy:
 def _task(table: Mapping[str, Any]) -> TrialTask:
     _check(table, {"goal": (str,), "change_to": (str,), "after": (int,)}, "a task")
     task = TrialTask(table["goal"], table.get("change_to", ""), table.get("after", 0))
-    if bool(task.change_to) != (task.after > 0):
+    if bool(task.change_to) != (task.after > 0) or task.after < 0:
         raise ValueError("'change_to' and 'after' (at least 1) belong together")
     return task
 
@@ -195,12 +198,14 @@ def _question(table: Mapping[str, Any]) -> FormQuestion:
     return question
 
 
-def _check(table: Mapping[str, Any], known: Mapping[str, Sequence[type]], what: str) -> None:
+def _check(table: JsonValue, known: Mapping[str, Sequence[type]], what: str) -> None:
     """Check the keys and types of a table.
 
     Raises:
-        ValueError: if one is unknown, or of another type.
+        ValueError: if it is no table, or one of them is unknown, or of another type.
     """
+    if not isinstance(table, Mapping):
+        raise ValueError(f"{what} is a table of keys and values")
     for key, value in table.items():
         if key not in known:
             raise ValueError(f"{what} has no '{key}'; {nearest(key, known) or ', '.join(known)}")
