@@ -8,7 +8,7 @@ import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -73,7 +73,7 @@ class FolderCommands:
             target.write_text(text, encoding="utf-8", errors="replace")
             return str(target)
         path = self.folders[0] / text
-        if "\0" not in text:
+        with suppress(ValueError):  # a name that no file can have
             path = Path(os.path.realpath(path))
         is_inside = any(path.is_relative_to(folder) for folder in self.folders)
         is_there = os.path.exists(path)

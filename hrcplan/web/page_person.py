@@ -151,7 +151,7 @@ def event_of(
         case "passed":
             return lambda run: shared.Passed(run.t, agent)
         case "answered":
-            choice = _text(document, "choice")
+            choice = harmless(_text(document, "choice"))
             return lambda run: shared.Answered(run.t, choice)
         case "undone" | "failed":
             return lambda run: _undone(run, attempted=kind == "failed")
@@ -190,7 +190,7 @@ def _text(document: dict[str, Any], key: str, default: str | None = None) -> str
     if len(value) > MAX_LINE:
         message = f"a line has at most {MAX_LINE} characters"
         raise UsageError(message, code="too-long")
-    return harmless(value)  # it is shown to all pages
+    return value
 
 
 def _words(document: dict[str, Any], key: str) -> list[str]:
@@ -202,7 +202,7 @@ def _words(document: dict[str, Any], key: str) -> list[str]:
     words = document.get(key)
     if not isinstance(words, list) or not 1 <= len(words) <= MAX_WORDS:
         raise UsageError(f"'{key}' is no list of words", code="bad-request")
-    return [_text({"word": word}, "word") for word in words]
+    return [harmless(_text({"word": word}, "word")) for word in words]  # all pages show them
 
 
 def adviser_offer(

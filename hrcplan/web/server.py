@@ -195,7 +195,7 @@ def _token(folder: Path) -> str:
         make_folder(folder)
         if path.is_file():
             token = path.read_text(encoding="ascii").strip()
-            if len(token) < _TOKEN_LENGTH:  # cut, or empty: anybody could guess it
+            if len(token) < _TOKEN_LENGTH:  # cut, or empty: easy to guess
                 raise ValueError(f"{_TOKEN_FILE} holds no secret; remove it, and a new one is made")
             return token
         token = secrets.token_urlsafe(_TOKEN_LENGTH)

@@ -403,7 +403,8 @@ def test_what_people_say_to_an_execution_does_not_end_it() -> None:
 
 @pytest.mark.parametrize(
     "line",
-    [b"hello", b"[]", b"{}", b'{"do": "dispatch"}', b"[" * 100_000, b"\xff", b"1" * 5000, b"x" * (1 << 21)],
+    [b"hello", b"[]", b"{}", b'{"do": "dispatch"}', b"[" * 100_000, b"\xff", b"1" * 5000,
+     b"x" * (1 << 21)],
     ids=lambda line: str(line[:20]),
 )  # fmt: skip
 def test_the_simulated_robot_refuses_what_is_no_command(
