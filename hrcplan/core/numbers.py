@@ -16,7 +16,7 @@ Number = int | Fraction
 _TEXT_DECIMALS = 12
 _FRACTION = re.compile(r"[+-]?\d{1,9999}(/\d{1,9999}|(\.\d{1,999})?(e[+-]?\d{1,3})?)", re.ASCII)
 
-
+_MAX_DIGITS = 150  # of a whole number
 _NUMBER = re.compile(
     r"[+-]?(([0-9]{1,150}(\.[0-9]{0,30})?|\.[0-9]{1,30})(e[+-]?[0-9]{1,2})?"
     r"|[0-9]{0,150}\.[0-9]{31,129})"  # as the writer spells out small numbers
@@ -56,6 +56,8 @@ def to_number(word: str) -> Number | None:
     >>> to_number("0.5"), to_number("10"), to_number("5."), to_number("1.2.3")
     (Fraction(1, 2), 10, 5, None)
     """
+    if word.isdecimal() and word.isascii() and len(word) <= _MAX_DIGITS:
+        return int(word)
     return exact(word) if _NUMBER.fullmatch(word) else None
 
 

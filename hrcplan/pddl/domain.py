@@ -14,12 +14,19 @@ from hrcplan.pddl.foreign import is_comment
 from hrcplan.pddl.formulas import OBJECT_FLUENTS
 from hrcplan.pddl.model import OBJECT, Domain, Signature
 from hrcplan.pddl.parentheses import ACTIONS
-from hrcplan.pddl.reader import GroupNode, ParseNode, WordNode
+from hrcplan.pddl.reader import FlatNode, GroupNode, ParseNode, WordNode
 from hrcplan.pddl.requirements import check_requirements, read_requirements
 from hrcplan.pddl.scope import Scope
 from hrcplan.pddl.source import SECTION_SIMILARITY, SourceText
 from hrcplan.pddl.trajectories import SECTION, read_constraints
-from hrcplan.pddl.typed_lists import Entry, params_of, read_typed, report_types, with_dashes
+from hrcplan.pddl.typed_lists import (
+    Entry,
+    params_of,
+    plain_params,
+    read_typed,
+    report_types,
+    with_dashes,
+)
 
 _HIERARCHICAL = "tasks and methods of HDDL (hierarchical planning)"
 _UNSUPPORTED = {
@@ -257,6 +264,12 @@ def _signatures(
 ) -> dict[str, Signature]:
     signatures: dict[str, Signature] = {}
     for node in _without_result_types(section, source):
+        if isinstance(node, FlatNode):
+            word, *words = node.words()
+            plain = plain_params(words, source, types)
+            if plain is not None and word not in _KEYWORDS and word not in signatures:
+                signatures[word] = Signature(word, plain)
+                continue
         if isinstance(node, GroupNode) and node.head == ":private":
             hint = "declare its predicates with the others: hrcplan has no private facts"
             source.error(node.at, "unsupported", "(:private …) of MA-PDDL is not supported", hint)
@@ -287,7 +300,7 @@ def _without_result_types(section: GroupNode | None, source: SourceText) -> Iter
     """Yield declarations, skipping the ``- number`` that may follow functions."""
     nodes = iter(with_dashes(section[1:] if section else (), source))
     for node in nodes:
-        if node != "-":
+        if isinstance(node, GroupNode) or node != "-":
             yield node
         elif next(nodes, None) != "number":
             source.error(node.at, "unsupported", "functions have numbers as values", OBJECT_FLUENTS)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
 from hrcplan.core.text import quote
@@ -28,45 +28,44 @@ _LOGIC = frozenset(["and", "forall", "when"])
 _NO_EFFECTS = COMPARISONS | {"or", "imply", "exists", "not", "over"}
 
 
-def read_effects(node: ParseNode, scope: Scope, when: str | None) -> Iterator[Effect]:
-    """Yield the effects of an action; ``when`` is None where a durative one must still say it."""
-    if when is not None and isinstance(node, GroupNode):
-        atom = scope.plain_atom(node)
-        if atom is not None and when != "all" and atom.name not in scope.derived:
-            yield Effect(when, "add", atom)
-            return
+def read_effects(node: ParseNode, scope: Scope, when: str | None) -> Iterable[Effect]:
+    """Return the effects of an action; ``when`` is None where a durative one must still say it."""
+    atom = scope.plain_atom(node)
+    if atom is not None and when in ("start", "end") and atom.name not in scope.derived:
+        return (Effect(when, "add", atom),)
     if not isinstance(node, GroupNode) or (node and not node.head):
         message = "an effect such as (p ?x) is expected here"
         scope.source.error(node.at, "not-an-effect", message, loose_cure(node, "effects"))
-        return
+        return ()
     pair = time_of(node) if when is None else None
     if pair is not None and pair[0] != "all":
-        yield from read_effects(pair[1], scope, pair[0])
-        return
+        return read_effects(pair[1], scope, pair[0])
     match node.head:
         case "":
-            return
+            return ()
         case _ if scope.is_atom(node) and when is not None:
-            yield from _literal(node, scope, when)
+            return _literal(node, scope, when)
         case "and":
-            for part in node[1:]:
-                yield from read_effects(part, scope, when)
+            return [effect for part in node[1:] for effect in read_effects(part, scope, when)]
+        case "not" if when is not None:
+            return _literal(node, scope, when)
         case "forall":
-            yield from _for_all(node, scope, when)
+            return _for_all(node, scope, when)
         case "when":
-            yield from _conditional(node, scope, when)
+            return _conditional(node, scope, when)
         case _ if is_unsupported(node, scope):
-            return
+            return ()
         case head if when is None and head in ASSIGNMENTS and _mentions(node, CONTINUOUS):
             scope.source.use(":continuous-effects", node.at)
-            yield from _assignment(node, scope.knowing(CONTINUOUS), "all")
+            return _assignment(node, scope.knowing(CONTINUOUS), "all")
         case _ if when is None:
             message = "a durative effect needs (at start …) or (at end …)"
             scope.source.error(node.at, "no-time", message)
+            return ()
         case head if head in ASSIGNMENTS:
-            yield from _assignment(node, scope, when)
+            return _assignment(node, scope, when)
         case _:
-            yield from _literal(node, scope, when)
+            return _literal(node, scope, when)
 
 
 def _mentions(node: ParseNode, word: str) -> bool:
@@ -132,13 +131,15 @@ def _literal(node: GroupNode, scope: Scope, when: str) -> Iterator[Effect]:
     inner: ParseNode = node
     if node.head == "not" and len(node) == 2 and not scope.is_atom(node):
         inner = node[1]
-    if not isinstance(inner, GroupNode) or not inner.head or _is_no_effect(inner, scope):
-        message = "'not' takes one predicate in an effect"
-        if isinstance(inner, GroupNode):
-            message = f"{quote(inner.head)} cannot be an effect"
-        scope.source.error(inner.at, "not-an-effect", message, _cure(node, inner))
-        return
-    atom = scope.plain_atom(inner) or read_atom(inner, scope)
+    atom = scope.plain_atom(inner)
+    if atom is None:
+        if not isinstance(inner, GroupNode) or not inner.head or _is_no_effect(inner, scope):
+            message = "'not' takes one predicate in an effect"
+            if isinstance(inner, GroupNode):
+                message = f"{quote(inner.head)} cannot be an effect"
+            scope.source.error(inner.at, "not-an-effect", message, _cure(node, inner))
+            return
+        atom = read_atom(inner, scope)
     if when == "all":
         message = "a process changes numbers only, such as (increase (f) (* #t 2))"
         scope.source.error(inner.at, "not-an-effect", message, "an event can change facts")

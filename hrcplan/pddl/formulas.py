@@ -56,7 +56,7 @@ _TIMES = {("at", "start"): "start", ("at", "end"): "end", ("over", "all"): "all"
 
 def read_formula(node: ParseNode, scope: Scope) -> Formula:
     """Return the condition that a tree stands for; a faulty part becomes ``TRUE``."""
-    atom = None if isinstance(node, WordNode) else scope.plain_atom(node)
+    atom = scope.plain_atom(node)
     if atom is not None:
         return atom
     if isinstance(node, WordNode) or (node and not node.head):
@@ -190,6 +190,9 @@ def read_expression(node: ParseNode, scope: Scope) -> Expr:
     """Return a numeric expression; a faulty part becomes 0."""
     if isinstance(node, WordNode):
         return _number_or_name(node, scope)
+    function = scope.plain_function(node)
+    if function is not None:
+        return function
     if node.head in ARITHMETIC and node.head:
         return _arithmetic(node, scope)
     if node.head in scope.numbers and len(node) == 1:
@@ -219,6 +222,9 @@ def read_function(node: ParseNode, scope: Scope) -> Function | None:
 
     A bare word stands for a function without arguments.
     """
+    function = scope.plain_function(node)
+    if function is not None:
+        return function
     if isinstance(node, WordNode):
         alone = GroupNode(node.at)
         alone.append(node)

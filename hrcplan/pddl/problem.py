@@ -33,7 +33,7 @@ from hrcplan.pddl.model import (
     fact_text,
 )
 from hrcplan.pddl.preferences import read_preferences, with_names
-from hrcplan.pddl.reader import FactNode, GroupNode, ParseNode, WordNode
+from hrcplan.pddl.reader import FlatNode, GroupNode, ParseNode, WordNode
 from hrcplan.pddl.requirements import check_requirements, read_requirements
 from hrcplan.pddl.scope import Scope, decimal_cure, looks_numeric
 from hrcplan.pddl.source import SourceText
@@ -129,19 +129,15 @@ class _Init:
 
     def take(self, node: ParseNode) -> None:
         source = self.scope.source
-        if isinstance(node, FactNode):
+        if isinstance(node, FlatNode):
             fact = self._plain_fact(node)
             if fact is not None:
                 self._add(fact, node)
                 return
-            node = node.group()
         if isinstance(node, WordNode):
             self._loose_word(node)
             return
-        atom = self.scope.plain_atom(node)
-        if atom is not None and atom.name not in self.scope.domain.derived:
-            self._add((atom.name, *atom.args), node)
-        elif self.scope.is_atom(node):
+        if self.scope.is_atom(node):
             self._fact(node)
         elif node.head == "and":
             message = "facts of :init are listed one after the other"
@@ -162,7 +158,7 @@ class _Init:
         else:
             self._fact(node)
 
-    def _plain_fact(self, node: FactNode) -> Fact | None:
+    def _plain_fact(self, node: FlatNode) -> Fact | None:
         """Return the fact that a node is; None if anything about it needs a second look."""
         words = node.words()
         predicate, kinds = self._predicates.get(words[0], ("", ())) if words else ("", ())
@@ -259,17 +255,22 @@ class _Init:
         if len(node) != 3:
             source.error(node.at, "not-a-fact", "(= (f a) NUMBER) is expected here")
             return
-        if isinstance(node[2], GroupNode) and isinstance(node[1], WordNode):
-            message, hint = "the function stands before its value", "write (= (f a) NUMBER)"
-            source.error(node[1].at, "not-a-fact", message, hint)
-            return
-        if isinstance(node[1], GroupNode) and node[1].head in self.scope.domain.predicates:
-            read_function(node[1], self.scope)
-            return
-        function = read_function(node[1], self.scope)
+        function = self.scope.plain_function(node[1])
+        if function is None:
+            if isinstance(node[2], GroupNode) and isinstance(node[1], WordNode):
+                message, hint = "the function stands before its value", "write (= (f a) NUMBER)"
+                source.error(node[1].at, "not-a-fact", message, hint)
+                return
+            function = read_function(node[1], self.scope)
+            if function is None and self._is_predicate(node[1]):
+                return
         value = self._number(node[2])
         if value is not None and function is not None:
             self._set((function.name, *function.args), value, node.at)
+
+    def _is_predicate(self, node: ParseNode) -> bool:
+        domain = self.scope.domain
+        return isinstance(node, GroupNode) and node.head in domain.predicates
 
     def _number(self, node: ParseNode) -> Number | None:
         value = to_number(node) if isinstance(node, WordNode) else None

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 from hrcplan.pddl.parentheses import PARTS, SECTIONS, Token, mend
 from hrcplan.pddl.source import MAX_FAULTS, SourceText
@@ -19,7 +19,7 @@ _PLAIN_DEPTH = 100  # deeper trees need more of Python's stack than it allows by
 _FRAMES = 12  # that one level of a formula may take
 _SECTION_DEPTH = 3  # groups around the head of a section: everything, define, the section
 # A group of words without a keyword is one token of a text whose parentheses match.
-_FLAT = r"\(\s*+[^\s();:?][^\s();?]*+(?:\s++\??[^\s();?:][^\s();?]*+)*+\s*+\)"
+_FLAT = r"\(\s*+\??[^\s();:?][^\s();?]*+(?:\s++\??[^\s();?:][^\s();?]*+)*+\s*+\)"
 _GROUP_OR_TOKEN = re.compile(_FLAT + r"|[()]|\?*:*[^\s();?:]+|[?:]+|;[^\r\n]*")
 _TOKEN = re.compile(r"[()]|\?*[^\s();?]+|\?+|;[^\r\n]*")
 _DEFINE = re.compile(r"\((?:\s|;[^\r\n]*+)*+define\b", re.IGNORECASE)
@@ -45,7 +45,9 @@ class WordNode(str):
 class GroupNode(list["ParseNode"]):
     """A parenthesised list and the offset of its opening parenthesis."""
 
-    __slots__ = ("at",)
+    __slots__ = ("at", "text")
+    at: int
+    text: str  # of a `FlatNode`
 
     def __init__(self, at: int) -> None:
         self.at = at
@@ -56,31 +58,50 @@ class GroupNode(list["ParseNode"]):
         return self[0] if self and isinstance(self[0], WordNode) else ""
 
 
-class FactNode(GroupNode):
-    """A group of words in ``:init``, of which there may be a million: kept as text.
+class FlatNode(GroupNode):
+    """A group of words, kept as text until its words are asked for; then it is a `GroupNode`.
 
-    As a list it is empty; ``group`` returns it with its words.
+    Most groups of a file are plain facts and atoms: `words` says all about them, without places.
     """
 
-    __slots__ = ("text",)
+    __slots__ = ()
 
     def __init__(self, at: int, text: str) -> None:
-        super().__init__(at)
+        self.at = at
         self.text = text
-
-    def __eq__(self, other: object) -> bool:
-        return self.group() == (other.group() if isinstance(other, FactNode) else other)
-
-    __hash__ = None  # type: ignore[assignment]  # as of any list
 
     def words(self) -> list[str]:
         """Return its words without their places."""
         return self.text[1:-1].split()
 
-    def group(self) -> GroupNode:
-        """Return it as a group of words that know their places."""
-        return _flat_group(self.at, self.text)
+    def spell_out(self) -> None:
+        """Become a group of words that know their places."""
+        words, at = self.words(), 1
+        self.__class__ = GroupNode  # type: ignore[assignment]
+        for part in words:
+            word = WordNode(part)
+            at = self.text.find(part, at)
+            word.at = self.at + at
+            at += len(part)
+            self.append(word)
 
+
+def _spelling_out(method: Callable[..., object]) -> Callable[..., object]:
+    """Return a method of lists for a group whose words are not in it yet."""
+
+    def call(node: FlatNode, *args: object, **options: object) -> object:
+        for group in (node, *args):  # the other one of a comparison, too
+            if isinstance(group, FlatNode):
+                group.spell_out()
+        return method(node, *args, **options)
+
+    return call
+
+
+_NOT_INSIDE = frozenset(["__new__", "__init__", "__getattribute__", "__class_getitem__"])
+for _name, _method in vars(list).items():
+    if callable(_method) and _name not in _NOT_INSIDE:
+        setattr(FlatNode, _name, _spelling_out(_method))
 
 ParseNode = WordNode | GroupNode
 
@@ -186,26 +207,24 @@ def _read_even(text: str, source: SourceText) -> list[ParseNode]:
     if len(lower) != len(text):  # a few letters become two: then the places would be wrong
         lower = text
     group = GroupNode(0)
-    init: GroupNode | None = None
     stack = [group]
     deepest = 0
     for match in _GROUP_OR_TOKEN.finditer(lower):
         token = match[0]
-        if token[0] == "(" and len(token) > 1:
-            node = FactNode if group is init else _flat_group
-            flat = node(match.start(), token)
-            group.append(flat)
-            if len(stack) >= deepest:
-                deepest = len(stack) + 1
-                if deepest > MAX_DEPTH:
-                    raise _UnevenError(flat.at)
-        elif token == "(":
-            inner = GroupNode(match.start())
-            group.append(inner)
-            stack.append(inner)
-            group = inner
-            if len(stack) > deepest:
-                deepest = len(stack)
+        if token[0] == "(":
+            inner: GroupNode
+            if len(token) > 1:
+                inner = FlatNode(match.start(), token)
+                group.append(inner)
+                depth = len(stack) + 1
+            else:
+                inner = GroupNode(match.start())
+                group.append(inner)
+                stack.append(inner)
+                group = inner
+                depth = len(stack)
+            if depth > deepest:
+                deepest = depth
                 if deepest > MAX_DEPTH:
                     raise _UnevenError(inner.at)
         elif token == ")":
@@ -230,8 +249,6 @@ def _read_even(text: str, source: SourceText) -> list[ParseNode]:
                     _report_gap(word, source)
                 if not _is_in_place(word, group, len(stack)):
                     raise _UnevenError(word.at)
-                if token == ":init" and not group:
-                    init = group
             group.append(word)
     if len(stack) != 1:
         raise _UnevenError(group.at)
@@ -245,19 +262,6 @@ def _joined(start: ParseNode, rest: WordNode) -> WordNode:
     word = WordNode(start + rest)
     word.at = start.at
     return word
-
-
-def _flat_group(start: int, token: str) -> GroupNode:
-    """Return the group of words that begins at ``start``."""
-    group = GroupNode(start)
-    at = 1
-    for part in token[1:-1].split():
-        word = WordNode(part)
-        at = token.find(part, at)
-        word.at = start + at
-        at += len(part)
-        group.append(word)
-    return group
 
 
 def _is_in_place(word: WordNode, group: GroupNode, depth: int) -> bool:

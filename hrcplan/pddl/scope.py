@@ -7,13 +7,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass, field, replace
-from itertools import count, islice
+from itertools import count
 
 from hrcplan.core.numbers import fraction_of, number_text, to_number
 from hrcplan.core.text import plural, quote
 from hrcplan.pddl.foreign import FOREIGN
-from hrcplan.pddl.model import OBJECT, TOTAL_TIME, Atom, Domain, Param, Signature
-from hrcplan.pddl.reader import GroupNode, WordNode
+from hrcplan.pddl.model import OBJECT, TOTAL_TIME, Atom, Domain, Function, Param, Signature
+from hrcplan.pddl.reader import FlatNode, GroupNode, ParseNode, WordNode
 from hrcplan.pddl.source import SourceText
 
 
@@ -36,11 +36,19 @@ class Scope:
     renames: Mapping[str, str] = field(default_factory=dict)
     preferences: Set[str] | None = None
     derived: Set[str] = frozenset()
+    _atoms: dict[str, Atom | None] = field(default_factory=dict, init=False)
 
     def binding(self, params: Sequence[Param]) -> Scope:
         """Return this scope with further variables."""
         bound = {**self.variables, **{p.name: p.types for p in params}}
-        return replace(self, variables=bound)
+        return self._with(bound, self.renames)
+
+    def _with(
+        self, variables: Mapping[str, tuple[str, ...]], renames: Mapping[str, str]
+    ) -> Scope:
+        """Return a copy: `replace` does the same, but it takes a fourth of a plain action's time."""
+        return Scope(self.source, self.domain, self.objects, variables, self.numbers, renames,
+                     self.preferences, self.derived)  # fmt: skip
 
     def quantifying(self, params: Sequence[Param], at: int) -> tuple[tuple[Param, ...], Scope]:
         """Return the variables of a quantifier and the scope in it.
@@ -61,8 +69,7 @@ class Scope:
             names.add(name)
             inner.append(Param(name, param.types))
         bound = {p.name: p.types for p in (*params, *inner)}
-        scope = replace(self, variables={**self.variables, **bound}, renames=renames)
-        return tuple(inner), scope
+        return tuple(inner), self._with({**self.variables, **bound}, renames)
 
     def term(self, word: str) -> str:
         """Return the name of a variable or object in the model."""
@@ -83,23 +90,33 @@ class Scope:
         words = all(isinstance(part, WordNode) for part in node)
         return words and (len(node) > 1 or head not in ("and", "or"))
 
-    def plain_atom(self, node: GroupNode) -> Atom | None:
+    def plain_atom(self, node: ParseNode) -> Atom | None:
         """Return the atom that a group is; None if anything about it needs a second look.
 
-        Most groups of a file are atoms without a fault, so they take this short way.
+        Most groups of a file are atoms without a fault, so they take this short way; an action
+        says most of its atoms twice.
         """
-        head = node[0] if node else None
-        if type(head) is not WordNode or self.renames:
+        if not isinstance(node, FlatNode):
             return None
-        signature = self.domain.predicates.get(head)
-        if signature is None or len(node) != len(signature.params) + 1:
+        text, atoms = node.text, self._atoms
+        if text not in atoms:
+            term = self._plain(node, self.domain.predicates)
+            is_plain = term is not None and (len(term) > 1 or term[0] not in ("and", "or"))
+            atoms[text] = Atom(term[0], term[1:]) if term and is_plain else None
+        return atoms[text]
+
+    def plain_function(self, node: ParseNode) -> Function | None:
+        """Return the function that a group is; None if anything about it needs a second look."""
+        term = self._plain(node, self.domain.functions) if isinstance(node, FlatNode) else None
+        return None if term is None else Function(term[0], term[1:])
+
+    def _plain(self, node: FlatNode, signatures: Mapping[str, Signature]) -> tuple[str, ...] | None:
+        """Return the words of a group if they are declared and fit each other."""
+        name, *args = words = node.words()
+        signature = signatures.get(name)
+        if signature is None or len(args) != len(signature.params) or self.renames:
             return None
-        if len(node) == 1 and head in ("and", "or"):
-            return None
-        names: list[str] = []
-        for term, param in zip(islice(node, 1, None), signature.params, strict=True):
-            if type(term) is not WordNode:
-                return None
+        for term, param in zip(args, signature.params, strict=True):
             types: tuple[str, ...] | None
             if term[0] == "?":
                 types = self.variables.get(term)
@@ -111,8 +128,7 @@ class Scope:
                 and not (len(types) == 1 and self.domain.is_a(types[0], param.types))
             ):
                 return None
-            names.append(str(term))
-        return Atom(signature.name, tuple(names))
+        return tuple(words)
 
     def types_of(self, term: WordNode) -> tuple[str, ...] | None:
         """Return the types of a variable or object; None, with an error, if it is unknown."""

@@ -7,7 +7,7 @@ from itertools import count, pairwise
 
 from hrcplan.core.text import quote
 from hrcplan.pddl.model import OBJECT, Param
-from hrcplan.pddl.reader import GroupNode, ParseNode, WordNode
+from hrcplan.pddl.reader import FlatNode, GroupNode, ParseNode, WordNode
 from hrcplan.pddl.scope import Scope
 from hrcplan.pddl.source import SourceText
 
@@ -23,7 +23,7 @@ def read_typed(
     A type that is not among ``types`` is an error, unless ``types`` is None.
     """
     waiting: list[WordNode] = []
-    if any(type(node) is GroupNode or node == ":" for node in nodes):
+    if any(isinstance(node, GroupNode) or node == ":" for node in nodes):
         nodes = list(_flat(nodes, source))
     rest = iter(with_dashes(nodes, source, types))
     for node in rest:
@@ -155,7 +155,33 @@ def read_params(node: ParseNode, scope: Scope) -> tuple[Param, ...]:
         message = "a parameter list in parentheses is expected"
         scope.source.error(node.at, "not-a-list", message, hint)
         return params_of([node], scope.source, scope.domain.types) if node[0] == "?" else ()
+    if isinstance(node, FlatNode):
+        params = plain_params(node.words(), scope.source, scope.domain.types)
+        if params is not None:
+            return params
     return params_of(node, scope.source, scope.domain.types)
+
+
+def plain_params(
+    words: Sequence[str], source: SourceText, types: Collection[str]
+) -> tuple[Param, ...] | None:
+    """Return the parameters that words declare; None if anything about them needs a second look."""
+    params: list[Param] = []
+    names: list[str] = []
+    rest = iter(words)
+    for word in rest:
+        if word[0] == "?" and word[-1] not in "?-":
+            names.append(word)
+            continue
+        kind = next(rest, "-")
+        if word != "-" or kind[0] == "-" or kind[-1] == "-" or len(params) == len(names):
+            return None
+        if (kind not in types and kind != OBJECT) or ":typing" not in source.uses:
+            return None
+        kinds = (kind,)
+        params += [Param(name, kinds) for name in names[len(params) :]]
+    params += [Param(name) for name in names[len(params) :]]
+    return tuple(params) if len(set(names)) == len(names) else None
 
 
 def params_of(

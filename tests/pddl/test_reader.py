@@ -10,7 +10,7 @@ from hrcplan.pddl.check import check_files, load_domain, load_problem
 from hrcplan.pddl.model import Domain, Problem
 from hrcplan.pddl.reader import (
     MAX_DEPTH,
-    FactNode,
+    FlatNode,
     GroupNode,
     ParseNode,
     WordNode,
@@ -214,9 +214,9 @@ def test_facts_of_an_initial_state_know_their_words_and_places() -> None:
     assert root is not None
     init = root[3]
     assert isinstance(init, GroupNode)
-    facts = [node for node in init if isinstance(node, FactNode)]
+    facts = [node for node in init if isinstance(node, FlatNode)]
     assert [fact.words() for fact in facts] == [["at", "bob", "home"], ["q"]]
-    group = facts[0].group()
+    (group, *_) = facts
     assert group == ["at", "bob", "home"]
     assert [text[word.at :].split()[0] for word in group] == ["at", "bob", "home)"]
 
