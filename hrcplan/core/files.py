@@ -11,6 +11,8 @@ from hrcplan.errors import InputError, UsageError
 
 MAX_BYTES = 64 << 20  # of a text that is read: also ends the reading of what never ends
 
+_SHORT = 1 << 16
+
 
 def read_bytes(path: str | Path, limit: int | None = MAX_BYTES) -> bytes:
     """Return the content of a file.
@@ -21,8 +23,10 @@ def read_bytes(path: str | Path, limit: int | None = MAX_BYTES) -> bytes:
     """
     name = harmless(str(path))
     try:
-        with Path(path).open("rb") as file:
-            data = file.read() if limit is None else file.read(limit + 1)
+        with open(path, "rb") as file:
+            data = file.read(_SHORT)  # asking for much at once takes a while, however short it is
+            if len(data) == _SHORT:
+                data += file.read(-1 if limit is None else limit + 1 - _SHORT)
     except IsADirectoryError:
         message, hint = f"{name} is a folder, not a file", "name one file inside it"
         raise InputError(message, code="is-folder", path=name, hint=hint) from None

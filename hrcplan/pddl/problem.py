@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from itertools import islice
+from collections.abc import Mapping, Sequence
 
 from hrcplan.core.numbers import Number, to_number
 from hrcplan.core.text import nearest, quote
@@ -115,17 +115,25 @@ class _Init:
         self.has_loose_word = False
         self.timed_changes: list[TimedChange] = []
         self.negative_facts: set[FluentKey] = set()
-        self._objects = {str(name): (str(name), kind) for name, kind in scope.objects.items()}
-        self._predicates = {
-            name: (signature.name, [self._kinds_below(param.types) for param in signature.params])
-            for name, signature in scope.domain.predicates.items()
-            if name not in scope.domain.derived
-        }
+        self._terms: dict[tuple[str, ...], dict[str, str]] = {}
+        self._predicates: dict[str, Sequence[Mapping[str, str]]] = {}
 
-    def _kinds_below(self, types: tuple[str, ...]) -> frozenset[str]:
-        """Return the types of the objects that a parameter takes."""
-        kinds = set(self.scope.objects.values())
-        return frozenset(kind for kind in kinds if self.scope.domain.is_a(kind, types))
+    def _words_of(self, predicate: str) -> Sequence[Mapping[str, str]]:
+        """Return what the words of a fact can be: its name, then the objects of each parameter."""
+        domain = self.scope.domain
+        signature = domain.predicates.get(predicate)
+        if signature is None or predicate in domain.derived or predicate in _LOGIC:
+            return ()
+        terms = (self._objects_of(param.types) for param in signature.params)
+        return ({signature.name: signature.name}, *terms)
+
+    def _objects_of(self, types: tuple[str, ...]) -> Mapping[str, str]:
+        """Return the objects that a parameter takes, as keys and values."""
+        if types not in self._terms:
+            objects, is_a = self.scope.objects, self.scope.domain.is_a
+            kinds = {kind for kind in set(objects.values()) if is_a(kind, types)}
+            self._terms[types] = {name: name for name, kind in objects.items() if kind in kinds}
+        return self._terms[types]
 
     def take(self, node: ParseNode) -> None:
         source = self.scope.source
@@ -161,16 +169,14 @@ class _Init:
     def _plain_fact(self, node: FlatNode) -> Fact | None:
         """Return the fact that a node is; None if anything about it needs a second look."""
         words = node.words()
-        predicate, kinds = self._predicates.get(words[0], ("", ())) if words else ("", ())
-        if not predicate or len(words) != len(kinds) + 1 or predicate in _LOGIC:
+        options = self._predicates.get(words[0])
+        if options is None:
+            options = self._predicates[words[0]] = self._words_of(words[0])
+        try:
+            pairs = zip(options, words, strict=True)
+            return tuple([names[word] for names, word in pairs])  # one string for each name
+        except (KeyError, ValueError):
             return None
-        fact = [predicate]
-        for word, kinds_of_param in zip(islice(words, 1, None), kinds, strict=True):
-            name, kind = self._objects.get(word, ("", ""))
-            if kind not in kinds_of_param:
-                return None
-            fact.append(name)
-        return tuple(fact)
 
     def _loose_word(self, word: WordNode) -> None:
         """Report a word between the facts, once."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 import sys
 from collections.abc import Callable, Iterable, Iterator
+from typing import Concatenate, ParamSpec, TypeVar
 
 from hrcplan.pddl.parentheses import PARTS, SECTIONS, Token, mend
 from hrcplan.pddl.source import MAX_FAULTS, SourceText
@@ -27,12 +28,15 @@ _COMMENT_OR_COMMA = re.compile(r";[^\r\n]*|(?<![0-9]),|,(?![0-9])")  # 1,5 is me
 _NOTE = re.compile(r"(?<!;);++[ \t]*+hrcplan:[ \t]*+([^\r\n;]*)", re.IGNORECASE)
 # Control characters, marks that hide or reverse text, and halves of characters.
 _HIDDEN = (
-    r"[\x00-\x08\x0e-\x1f\x7f-\x84\x86-\x9f\xad\u200b-\u200f\u202a-\u202e\u2060-\u206f"
-    r"\ufeff\ufff9-\ufffb\ud800-\udfff]"
+    r"\x00-\x08\x0e-\x1f\x7f-\x84\x86-\x9f\xad\u200b-\u200f\u202a-\u202e\u2060-\u206f"
+    r"\ufeff\ufff9-\ufffb\ud800-\udfff"
 )
-_HIDDEN_CHARACTER = re.compile(_HIDDEN)
-_COMMENT_OR_HIDDEN = re.compile(r";[^\r\n]*|" + _HIDDEN)
+_COMMENT_OR_HIDDEN = re.compile(rf";[^\r\n]*|[{_HIDDEN}]")
+_PLAIN = re.compile(rf"(?:[^;,{_HIDDEN}]++|;[^\r\n]*+)*+")  # neither comma nor hidden character
 _BEFORE_A_WORD = frozenset(" \t\r\n\f\v()")
+
+P = ParamSpec("P")
+T = TypeVar("T")
 
 
 class WordNode(str):
@@ -55,7 +59,8 @@ class GroupNode(list["ParseNode"]):
     @property
     def head(self) -> str:
         """The first element if it is a word, else the empty string."""
-        return self[0] if self and isinstance(self[0], WordNode) else ""
+        first = self[0] if self else ""
+        return first if isinstance(first, WordNode) else ""
 
 
 class FlatNode(GroupNode):
@@ -86,10 +91,10 @@ class FlatNode(GroupNode):
             self.append(word)
 
 
-def _spelling_out(method: Callable[..., object]) -> Callable[..., object]:
+def _spelling_out(method: Callable[Concatenate[GroupNode, P], T]) -> Callable[..., T]:
     """Return a method of lists for a group whose words are not in it yet."""
 
-    def call(node: FlatNode, *args: object, **options: object) -> object:
+    def call(node: FlatNode, *args: P.args, **options: P.kwargs) -> T:
         for group in (node, *args):  # the other one of a comparison, too
             if isinstance(group, FlatNode):
                 group.spell_out()
@@ -159,8 +164,10 @@ def _outside(text: str, has_define: bool) -> tuple[str, str | None]:
 
 def read_nodes(source: SourceText) -> list[ParseNode]:
     """Return everything that a text holds side by side; faults go into ``source``."""
-    text = _without_commas(source)
-    _report_hidden(text, source)
+    text = source.text
+    if not _PLAIN.fullmatch(text):
+        text = _without_commas(source)
+        _report_hidden(text, source)
     try:
         return _read_even(text, source)
     except _UnevenError as uneven:
@@ -177,8 +184,6 @@ def _report_hidden(text: str, source: SourceText) -> None:
 
     Names with such characters look like others, and could steer a terminal.
     """
-    if not _HIDDEN_CHARACTER.search(text):
-        return
     characters: set[str] = set()
     for match in _COMMENT_OR_HIDDEN.finditer(text):
         character = match[0]
@@ -285,8 +290,6 @@ def _allow_depth(depth: int) -> None:
 def _without_commas(source: SourceText) -> str:
     """Return the text with a space for every comma, which is one error."""
     text = source.text
-    if "," not in text:
-        return text
     commas = (m.start() for m in _COMMENT_OR_COMMA.finditer(text) if m.group() == ",")
     first = next(commas, None)
     if first is None:

@@ -43,10 +43,8 @@ class Scope:
         bound = {**self.variables, **{p.name: p.types for p in params}}
         return self._with(bound, self.renames)
 
-    def _with(
-        self, variables: Mapping[str, tuple[str, ...]], renames: Mapping[str, str]
-    ) -> Scope:
-        """Return a copy: `replace` does the same, but it takes a fourth of a plain action's time."""
+    def _with(self, variables: Mapping[str, tuple[str, ...]], renames: Mapping[str, str]) -> Scope:
+        """Return a copy; `replace` would do, but takes a fourth of the time of a plain action."""
         return Scope(self.source, self.domain, self.objects, variables, self.numbers, renames,
                      self.preferences, self.derived)  # fmt: skip
 

@@ -24,6 +24,8 @@ def warn_alike(
     parameter of an action. Words that are shared otherwise do no harm: the rest of a phrase tells.
     ``above`` are notes of another file, which mean what they mean without a warning here.
     """
+    if not read:
+        return
     actions = {name: {_plain(name)} for name in domain.schemas}
     names = {name: {_plain(name)} for name in objects}
     phrases_of = {"say": actions, "call": names}

@@ -234,3 +234,28 @@ def test_a_fault_in_one_fact_of_many_stands_at_its_word(tmp_path: Path) -> None:
         (3, 7, "unknown-object"),
         (4, 1, "wrong-arity"),
     ]
+
+
+def test_a_group_of_words_is_a_list_whatever_is_asked_first() -> None:
+    """Its words are made when the first method of lists is called, whichever that is."""
+
+    def node(text: str = "(p ?x  b)") -> GroupNode:
+        (group,) = read_nodes(SourceText("x", text))
+        assert isinstance(group, FlatNode)
+        return group
+
+    plain = ["p", "?x", "b"]
+    answers = [
+        (node() == plain, True), (plain == node(), True), (node() == node(), True),
+        (node() != ["p"], True), (node() < ["q"], True), ([node()] == [plain], True),
+        (len(node()), 3), (bool(node()), True), (list(node()), plain), ([*node()], plain),
+        (node()[1:], ["?x", "b"]), (node().index(WordNode("b")), 2), ("b" in node(), True),
+        (repr(node()), repr(plain)), (node() + node(), plain + plain), (node().head, "p"),
+        (next(reversed(node())), "b"), (node().count(WordNode("p")), 1),
+    ]  # fmt: skip
+    for number, (answer, right) in enumerate(answers):
+        assert answer == right, number
+    longer = node()
+    longer.append(longer[0])
+    assert longer == [*plain, "p"]
+    assert not isinstance(longer, FlatNode)
