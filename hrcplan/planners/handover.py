@@ -44,20 +44,21 @@ class Handover:
         *,
         single_types: bool = False,
         memory_facts: bool = False,
+        guards: bool = True,
         fills: bool = True,
     ) -> Handover:
         """Return the form of a problem for planners; most problems stay as they are.
 
         ``single_types`` is for planners that read no ``(either …)``, ``memory_facts`` for those
-        whose effects at the end read no condition at the start. ``fills`` writes a value for every
-        function, see `guarded`.
+        whose effects at the end read no condition at the start. ``guards`` and ``fills`` say what
+        is done about functions without a value, see `guarded`.
 
         >>> from hrcplan.pddl.inputs import read
         >>> problem = read("transport", "two-boxes")
         >>> Handover.of(problem).problem is problem
         True
         """
-        problem = guarded(problem, fills=fills)
+        problem = guarded(problem, fills=fills) if guards else problem
         problem = with_memory_facts(problem) if memory_facts else problem
         problem = with_single_types(problem) if single_types else problem
         words = set(_names(problem))

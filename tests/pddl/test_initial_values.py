@@ -6,6 +6,8 @@ from pathlib import Path
 import pytest
 
 from hrcplan.pddl.check import check_files
+from hrcplan.planners.solve import solve
+from tests.texts import problem_of
 
 DOMAIN = """
 (define (domain d)
@@ -158,3 +160,16 @@ def test_no_duration_that_can_occur_is_below_zero(
 ) -> None:
     body = DURATION.format(duration)
     assert faults(tmp_path, body, init, kind="durative-") == expected
+
+
+def test_a_function_may_be_called_like_a_predicate() -> None:
+    domain = """(define (domain mill) (:requirements :fluents) (:predicates (sugar ?m) (done))
+      (:functions (sugar ?m))
+      (:action press :parameters (?m) :precondition (and (sugar ?m) (> (sugar ?m) 0))
+        :effect (and (decrease (sugar ?m) 1) (done))))"""
+    problem = problem_of(domain, """(define (problem p) (:domain mill) (:objects a b)
+      (:init (sugar a) (= (sugar a) 3)) (:goal (done)))""")  # fmt: skip
+    assert (problem.facts, problem.values) == ({("sugar", "a")}, {("sugar", "a"): 3})
+    plan = solve(problem, timeout_s=20, any_plan=True).plan
+    assert plan is not None
+    assert str(plan).strip() == "(press a)"

@@ -8,6 +8,7 @@ import time
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -17,6 +18,7 @@ from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import TOTAL_COST, Function, Problem
 from hrcplan.planners.contract import Answer, Request, Status
 from hrcplan.planners.fast_downward import FastDownward
+from hrcplan.planners.handover import Handover
 from hrcplan.planners.kairos import TIMED_PRESETS, Kairos
 from hrcplan.validation import validate
 from tests.texts import problem_of
@@ -132,6 +134,27 @@ def test_for_any_plan_nothing_is_grounded_first(monkeypatch: pytest.MonkeyPatch)
     answer = solve(problem_of(domain, text), any_plan=True)
     assert answer.plan is not None
     assert len(answer.plan.actions) == 2
+
+
+@pytest.mark.parametrize(("goal", "guards"), [("b", [False]), ("c", [False, True])])
+def test_missing_values_are_guarded_where_it_finds_no_plan_without(
+    goal: str, guards: list[bool], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[bool] = []
+
+    def of(problem: Problem, **forms: bool) -> Handover:
+        asked.append(forms["guards"])
+        return Handover.of(problem, **forms)
+
+    monkeypatch.setattr("hrcplan.planners.kairos.Handover", SimpleNamespace(of=of))
+    domain = """(define (domain roads) (:requirements :fluents) (:predicates (at ?x))
+      (:functions (length ?x ?y) (fuel)) (:action go :parameters (?x ?y)
+        :precondition (and (at ?x) (not (> (length ?x ?y) (fuel)))) :effect (at ?y)))"""
+    text = f"""(define (problem p) (:domain roads) (:objects a b c)
+      (:init (at a) (= (fuel) 9) (= (length a b) 2)) (:goal (at {goal})))"""
+    answer = solve(problem_of(domain, text), any_plan=True)
+    assert (answer.plan is not None) == (goal == "b")
+    assert asked == guards
 
 
 def test_it_keeps_its_time_and_lets_other_threads_run() -> None:
