@@ -19,11 +19,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import ClassVar
 
+from hrcplan.core.records import record
 
-@dataclass(frozen=True, slots=True)
+
+@record
 class Diagnostic:
     """One fault in a file: where it is (1-based, in characters), what it is, what to do."""
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import replace
 
+from hrcplan.core.records import replace
 from hrcplan.core.text import quote
 from hrcplan.pddl.formulas import read_formula
 from hrcplan.pddl.model import (

@@ -7,7 +7,6 @@ what ``check`` accepts can be loaded and what it rejects cannot.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass
 from pathlib import Path
 from types import MappingProxyType
 
@@ -27,15 +26,15 @@ ADVICE = "unset-function"  # the one warning about what PDDL allows
 _PROBLEM_SECTIONS = frozenset([":domain", ":objects", ":init", ":goal", ":metric"])
 
 
-@dataclass(slots=True)
 class _File:
     """One file on its way through the check."""
 
-    source: SourceText
-    root: GroupNode | None
-    kind: str
-    domain: Domain | None = None
-    problem: Problem | None = None
+    def __init__(self, source: SourceText, root: GroupNode | None, kind: str) -> None:
+        self.source = source
+        self.root = root
+        self.kind = kind
+        self.domain: Domain | None = None
+        self.problem: Problem | None = None
 
 
 @record
@@ -58,6 +57,8 @@ class CheckReport:
 
     def to_json(self) -> dict[str, object]:
         """Return the document that ``hrcplan check --json`` prints."""
+        from dataclasses import asdict
+
         return {"files": self.n_files, "diagnostics": [asdict(d) for d in self.diagnostics]}
 
     def lines(self) -> Iterator[str]:

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence, Set
-from dataclasses import replace
 from itertools import count, product
 
-from hrcplan.core.records import record
+from hrcplan.core.records import record, replace
 from hrcplan.pddl.axioms import levels, uses
 from hrcplan.pddl.joins import FactIndex, Join, JoinBinding
 from hrcplan.pddl.model import (

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import replace
 
+from hrcplan.core.records import replace
 from hrcplan.core.text import nearest, nearest_name, quote
 from hrcplan.pddl import conventions
 from hrcplan.pddl.actions import PLUS, PROCESS, read_actions

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import replace
 
+from hrcplan.core.records import replace
 from hrcplan.core.text import quote
 from hrcplan.pddl.formulas import (
     COMPARISONS,

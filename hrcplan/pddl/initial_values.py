@@ -10,12 +10,11 @@ types, the facts that no action changes, or an (in)equality rule out are not loo
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Set
-from dataclasses import replace
 from functools import cached_property
 from itertools import islice, product
 from math import prod
 
-from hrcplan.core.records import record
+from hrcplan.core.records import record, replace
 from hrcplan.core.text import quote
 from hrcplan.pddl.joins import FactIndex, Join, needed_atoms
 from hrcplan.pddl.model import (

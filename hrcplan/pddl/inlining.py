@@ -7,10 +7,9 @@ derived once, in the initial state, recursive ones too.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence, Set
-from dataclasses import replace
 from itertools import count
 
-from hrcplan.core.records import record
+from hrcplan.core.records import record, replace
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.axioms import levels, uses
 from hrcplan.pddl.constructs import AXIOMS, constructs

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import os
 import re
-from dataclasses import replace
 from pathlib import Path
 
+from hrcplan.core.records import replace
 from hrcplan.core.text import type_text
 from hrcplan.errors import InputError, UsageError
 from hrcplan.pddl import library

@@ -7,11 +7,10 @@ is PDDL again.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from hrcplan.core.numbers import Number, number_text
-from hrcplan.core.records import record
+from hrcplan.core.records import field, record, replace
 from hrcplan.core.text import cut, plural
 
 Fact = tuple[str, ...]
@@ -310,7 +309,7 @@ class Note:
         return " ".join([self.kind, self.name, *values, ", ".join(self.phrases)]).rstrip()
 
 
-@dataclass(frozen=True)
+@record
 class Domain:
     """A planning domain, with the file it came from and its ``;; hrcplan:`` notes.
 
@@ -406,7 +405,7 @@ class Domain:
         )
 
 
-@dataclass(frozen=True)
+@record
 class Problem:
     """A planning problem: objects, initial state, goal and metric of one domain.
 

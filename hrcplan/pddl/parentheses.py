@@ -10,7 +10,6 @@ the layout says so. A file that comes out even is never touched, however it is l
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 from hrcplan.core.records import record
 from hrcplan.pddl.source import SourceText
@@ -60,17 +59,13 @@ class _Stretch:
         return depth == self.end
 
 
-@dataclass(slots=True)
 class _Open:
     """A group that is still open: its place, the line's indentation, and what is in it."""
 
-    at: int
-    line: int
-    indent: int
-    head: str = ""
-    second: str = ""
-    last: str = ""
-    size: int = 0
+    def __init__(self, at: int, line: int, indent: int) -> None:
+        self.at, self.line, self.indent = at, line, indent
+        self.head = self.second = self.last = ""
+        self.size = 0
 
     def take(self, text: str) -> None:
         self.last = text

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 
+from hrcplan.core.records import replace
 from hrcplan.pddl.formulas import read_conditions, read_formula
 from hrcplan.pddl.model import Constraint, Formula, Param, Preference
 from hrcplan.pddl.reader import GroupNode, ParseNode, WordNode

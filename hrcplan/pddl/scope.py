@@ -6,10 +6,10 @@ Looks a name up, reports an unknown one with a hint, and checks number and types
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence, Set
-from dataclasses import dataclass, field, replace
 from itertools import count
 
 from hrcplan.core.numbers import fraction_of, number_text, to_number
+from hrcplan.core.records import field, record, replace
 from hrcplan.core.text import plural, quote
 from hrcplan.pddl.foreign import FOREIGN
 from hrcplan.pddl.model import OBJECT, TOTAL_TIME, Atom, Domain, Function, Param, Signature
@@ -17,7 +17,7 @@ from hrcplan.pddl.reader import FlatNode, GroupNode, ParseNode, WordNode
 from hrcplan.pddl.source import SourceText
 
 
-@dataclass(frozen=True)
+@record
 class Scope:
     """A domain, the objects known so far, and what is bound here.
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
 from pathlib import Path
 
 from hrcplan.core.files import UNPACK_HINT, archive_kind, read_bytes
@@ -22,19 +21,19 @@ _NEWLINE = re.compile(r"\r\n?|\n")
 _BOM = b"\xef\xbb\xbf"
 
 
-@dataclass(slots=True)
 class SourceText:
     """A file's text, the faults found in it so far, and the requirements that it uses."""
 
-    path: str
-    text: str
-    diagnostics: list[Diagnostic] = field(default_factory=list)
-    uses: dict[str, int] = field(default_factory=dict)
-    unknown_types: dict[str, int] = field(default_factory=dict)
-    _unknown: set[tuple[str, str]] = field(default_factory=set)
-    _counts: dict[str, int] = field(default_factory=dict)
-    _lines: list[int] = field(default_factory=list)
-    _mentioned: dict[str, bool] = field(default_factory=dict)
+    def __init__(self, path: str, text: str) -> None:
+        self.path = path
+        self.text = text
+        self.diagnostics: list[Diagnostic] = []
+        self.uses: dict[str, int] = {}
+        self.unknown_types: dict[str, int] = {}
+        self._unknown: set[tuple[str, str]] = set()
+        self._counts: dict[str, int] = {}
+        self._lines: list[int] = []
+        self._mentioned: dict[str, bool] = {}
 
     def position(self, at: int) -> tuple[int, int]:
         r"""Return the 1-based (line, column) of the character at offset ``at``.

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
 from itertools import pairwise
 
 from hrcplan.core.numbers import Number, to_number
+from hrcplan.core.records import replace
 from hrcplan.core.text import quote
 from hrcplan.pddl.formulas import read_formula
 from hrcplan.pddl.model import Constraint, Formula, Trajectory

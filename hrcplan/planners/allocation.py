@@ -11,12 +11,11 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import field
 from fractions import Fraction
 from math import gcd, lcm
 
 from hrcplan.core.numbers import Number, exact, number_text
-from hrcplan.core.records import record
+from hrcplan.core.records import field, record
 from hrcplan.errors import HrcplanError, LimitError, PlannerError, UnsupportedError, UsageError
 from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, FluentKey, Problem, fact_text
 from hrcplan.pddl.semantics import evaluate

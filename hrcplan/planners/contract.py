@@ -5,12 +5,11 @@ from __future__ import annotations
 import enum
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Protocol, runtime_checkable
 
 from hrcplan.core.numbers import Number
-from hrcplan.core.records import record
+from hrcplan.core.records import field, record, replace
 from hrcplan.errors import LimitError, UnsupportedError
 from hrcplan.pddl.model import TOTAL_TIME, Problem
 from hrcplan.pddl.walks import functions_in
@@ -128,7 +127,7 @@ def ignore_plan(plan: Plan) -> None:
     """Do nothing with a plan."""
 
 
-@dataclass(frozen=True)
+@record
 class Request:
     """One problem for one planner: until when, and whether the first plan is enough.
 

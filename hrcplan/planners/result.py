@@ -5,12 +5,11 @@ from __future__ import annotations
 import contextlib
 import time
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import field, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from hrcplan.core.numbers import Number, exact, number_text
-from hrcplan.core.records import record
+from hrcplan.core.records import field, record, replace
 from hrcplan.core.text import cut
 from hrcplan.errors import (
     CostGuardError,

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
-from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import product
 
 from hrcplan.core.bits import single_bits
 from hrcplan.core.numbers import Number
 from hrcplan.core.progress import counting
-from hrcplan.core.records import record
+from hrcplan.core.records import field, record, replace
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.model import DURATION, TOTAL_COST, TRUE, Action, Constant, Expr, FluentKey
 from hrcplan.pddl.semantics import Undefined, Values, evaluate, ground_key, instances
@@ -98,7 +97,7 @@ def ground_actions(
     return tuple(actions)
 
 
-@dataclass(frozen=True)
+@record
 class _Phases:
     """Conditions and effects of an instance, by phase."""
 
@@ -116,7 +115,7 @@ class _Phases:
         return all_of([self.start, _before(all_of([self.over, self.end]), self.at_start)])
 
 
-@dataclass(frozen=True)
+@record
 class _Builder:
     """Turns instances into ground actions over one set of fluents."""
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence, Set
-from dataclasses import dataclass
 from functools import cached_property
 
 from hrcplan.core.bits import single_bits
+from hrcplan.core.records import record
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.model import (
     Action,
@@ -41,7 +41,7 @@ NEVER: Tests = ()
 ALWAYS: Tests = ((0, 0),)
 
 
-@dataclass(frozen=True)
+@record
 class Grounder:
     """Formulas of one problem over the bits of its fluents.
 

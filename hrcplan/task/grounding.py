@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence, Set
-from dataclasses import dataclass, replace
 from functools import cached_property
 from math import inf
 
 from hrcplan.core.garbage import no_garbage_search
 from hrcplan.core.numbers import Number
+from hrcplan.core.records import record, replace
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, Constant, Expr, Fact, Problem
 from hrcplan.pddl.semantics import ground_key, instances, mentions
@@ -22,7 +22,7 @@ from hrcplan.task.reachable import SchemaInstance, reachable
 from hrcplan.task.transitions import BitEffect, net_effect
 
 
-@dataclass(frozen=True, eq=False)
+@record
 class ActionIndex:
     """Ground actions laid out for inner loops.
 
@@ -35,6 +35,8 @@ class ActionIndex:
     runnable: Callable[[int], list[int]]
     others: tuple[int, ...]
     net_effects: tuple[BitEffect | None, ...]
+    __eq__ = object.__eq__
+    __hash__ = object.__hash__
 
     @classmethod
     def of(cls, actions: Sequence[GroundAction], n_facts: int) -> ActionIndex:
@@ -46,7 +48,7 @@ class ActionIndex:
         return cls(lookup(n_facts, len(actions), simple), others, tuple(effects))
 
 
-@dataclass(frozen=True, eq=False)
+@record
 class Grounding:
     """Facts and ground actions of a domain with objects, whatever the state, the goal, the costs.
 
@@ -68,6 +70,8 @@ class Grounding:
     movers: tuple[SchemaInstance, ...]
     actions: tuple[GroundAction, ...]
     structure: object
+    __eq__ = object.__eq__  # by identity: equal ones are many megabytes
+    __hash__ = object.__hash__
 
     @cached_property
     def index(self) -> ActionIndex:

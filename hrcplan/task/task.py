@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
 from functools import cached_property
 from math import inf
 from typing import Final
@@ -11,6 +10,7 @@ from typing import Final
 from hrcplan.core.bits import positions
 from hrcplan.core.deprecation import Renamed
 from hrcplan.core.numbers import Number, exact
+from hrcplan.core.records import replace
 from hrcplan.core.text import cut
 from hrcplan.pddl.inlining import plain
 from hrcplan.pddl.model import Fact, FluentKey, Formula, Problem

@@ -3,12 +3,15 @@
 import copy
 import pickle
 from collections.abc import Callable
-from dataclasses import FrozenInstanceError, asdict, dataclass, field, fields, replace
+from dataclasses import FrozenInstanceError, asdict, dataclass, fields, is_dataclass, replace
+from dataclasses import field as plain_field
+from functools import cached_property
 from typing import Any, TypeVar
 
 import pytest
 
-from hrcplan.core.records import record
+from hrcplan.core import records
+from hrcplan.core.records import field, record
 
 T = TypeVar("T")
 Decorator = Callable[[type[T]], type[T]]
@@ -34,7 +37,7 @@ class TallBox(Box):
         return f"{self.name} of {self.height}"
 
 
-def place(decorate: Decorator[Any]) -> Any:
+def place(decorate: Decorator[Any], field: Any) -> Any:
     """Return one class, made as a record or as a dataclass."""
 
     @decorate
@@ -53,7 +56,8 @@ def place(decorate: Decorator[Any]) -> Any:
     return Place
 
 
-RECORD, PLAIN = place(record), place(dataclass(frozen=True, slots=True))
+RECORD = place(record, field)
+PLAIN = place(dataclass(frozen=True, slots=True), plain_field)
 
 
 @pytest.mark.parametrize("args", [("a",), ("a", 2), ("b", 1, ["x"]), ("b", 1, ["y"], 9)])
@@ -76,7 +80,7 @@ def test_it_cannot_change(kind: Any) -> None:
         box.size = 3
     with pytest.raises(FrozenInstanceError, match="cannot delete field 'size'"):
         del box.size
-    assert replace(box, size=3).size == 3
+    assert replace(box, size=3).size == records.replace(RECORD("a"), size=3).size == 3
     with pytest.raises(ValueError, match="negative"):
         replace(box, size=-3)
     with pytest.raises(TypeError):
@@ -98,3 +102,43 @@ def test_methods_of_the_class_and_of_a_base_stay() -> None:
     assert str(TallBox("b")) == "b of 3"
     assert repr(TallBox("b")) == "TallBox(name='b', sizes=(), notes=[], height=3)"
     assert TallBox("b") != Box("b")
+
+
+@record
+class Circle:
+    """A record with a property that is computed once, compared by identity."""
+
+    radius: int
+    __eq__ = object.__eq__
+    __hash__ = object.__hash__
+
+    @cached_property
+    def label(self) -> list[int]:
+        return [self.radius]
+
+
+def test_a_property_may_be_cached() -> None:
+    circle = Circle(3)
+    assert circle.label is circle.label
+    assert records.replace(circle, radius=4).label == [4]
+    assert pickle.loads(pickle.dumps(circle)).label == [3]
+    assert circle != Circle(3)
+    assert len({circle, Circle(3)}) == 2
+
+
+def test_a_dataclass_may_derive_from_a_record() -> None:
+    @dataclass(frozen=True)
+    class Labelled(TallBox):
+        label: str = "none"
+
+    box = Labelled("b", label="x")
+    assert is_dataclass(TallBox)
+    assert (box.name, box.height, box.label) == ("b", 3, "x")
+    assert [(f.name, f.type) for f in fields(TallBox)][-1] == ("height", int)
+
+
+def test_names_of_the_methods_in_messages() -> None:
+    with pytest.raises(TypeError, match=r"Box\.__init__\(\) missing 1 required"):
+        Box()  # type: ignore[call-arg]
+    with pytest.raises(TypeError, match="the field"):
+        place(record, plain_field)

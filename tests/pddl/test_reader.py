@@ -1,6 +1,7 @@
 """Text to tree: places, disguises that change nothing, and repairs of parentheses."""
 
 import time
+from dataclasses import fields
 from pathlib import Path
 
 import pytest
@@ -62,7 +63,7 @@ def test_a_disguise_changes_nothing(disguise: str, pair: tuple[Path, Path], tmp_
     assert check_files(copies) == ()
     plain, hidden = load(*pair), load(*copies)
     for one, other in zip(plain, hidden, strict=True):
-        names = [name for name in vars(one) if name in one.__dataclass_fields__]
+        names = [field.name for field in fields(one)]
         differences = {n for n in names if getattr(one, n) != getattr(other, n)}
         assert differences <= {"path", "domain"}
 

@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from public_pddl import breaking, comparing, judging, racing
+from public_pddl import breaking, comparing, grounding, judging, racing
 from public_pddl.archive import Pair, export, pairs
 from public_pddl.reader import READERS
 from public_pddl.reading import (
@@ -31,6 +31,9 @@ def main() -> None:
     readable = list[Pair]()
     table = list[Verdicts]()
     with TemporaryDirectory(prefix="wild-") as folder:
+        if options.groundings:
+            grounding.report(_middles(options, Path(folder)), options.groundings)
+            return
         if not options.alone:
             print(f"| archive | pairs | {' | '.join(READERS)} | refused by {OURS} alone |")
             print(f"|{'---|' * (len(READERS) + 3)}")
@@ -54,6 +57,12 @@ def main() -> None:
             racing.report(readable, options.tasks, options.seed, options.time or RACE_S)
         if options.qualities:
             comparing.report(readable, options.qualities, options.seed, options.time or QUALITY_S)
+
+
+def _middles(options: argparse.Namespace, folder: Path) -> list[list[Pair]]:
+    """Return domains of each archive, with the problem of each that is in the middle by size."""
+    folders = (export(source, folder / str(i)) for i, source in enumerate(options.archive))
+    return [pairs(f, options.n, options.seed, middle=True) for f in folders]
 
 
 def _totals(table: list[Verdicts]) -> None:
@@ -97,6 +106,8 @@ def _options() -> argparse.Namespace:
     parser.add_argument("--mutants", type=int, default=0, help="broken mutants to refuse")
     parser.add_argument("--plans", type=int, default=0, help="plans to validate beside VAL")
     parser.add_argument("--tasks", type=int, default=0, help="tasks to plan beside planners")
+    words = "tasks of middle size to ground beside Fast Downward's translator, and nothing else"
+    parser.add_argument("--groundings", type=int, default=0, help=words)
     words = "tasks whose plans of auto are compared with those of each planner alone"
     parser.add_argument("--qualities", type=int, default=0, help=words)
     parser.add_argument("--time", type=float, help="seconds for a task: 60 to plan, 20 to compare")

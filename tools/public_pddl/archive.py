@@ -1,4 +1,4 @@
-"""Pairs of a domain and its smallest problem in a folder, or in a bare git repository."""
+"""Pairs of a domain and one of its problems in a folder, or in a bare git repository."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import re
 import subprocess
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path, PurePosixPath
 
 MOST_BYTES = 300_000
@@ -65,8 +66,11 @@ def _git(source: Path, *words: str, text: bytes = b"") -> bytes:
     return subprocess.run(command, input=text, capture_output=True, check=True).stdout
 
 
-def pairs(folder: Path, n: int, seed: int) -> list[Pair]:
-    """Return a sample of ``n`` domains, one of each name and folder, with a small problem."""
+def pairs(folder: Path, n: int, seed: int, *, middle: bool = False) -> list[Pair]:
+    """Return a sample of ``n`` domains, one of each name and folder, with a problem of each.
+
+    That is the smallest problem in the folder closest to the domain, or the middle one by size.
+    """
     domains: dict[tuple[PurePosixPath, str], list[PurePosixPath]] = {}
     problems = list[_Problem]()
     for path in sorted(folder.rglob("*.pddl")):
@@ -82,15 +86,18 @@ def pairs(folder: Path, n: int, seed: int) -> list[Pair]:
     rng = random.Random(seed)
     keys = sorted(domains, key=str)
     rng.shuffle(keys)
-    chosen = (_pair(folder, rng.choice(domains[key]), key[1], problems) for key in keys)
-    return [pair for pair in chosen if pair is not None][:n]
+    chosen = (_pair(folder, rng.choice(domains[key]), key[1], problems, middle) for key in keys)
+    return list(islice((pair for pair in chosen if pair is not None), n))
 
 
-def _pair(folder: Path, domain: PurePosixPath, name: str, problems: list[_Problem]) -> Pair | None:
-    near = [(rank, p) for p in problems if (rank := _rank(domain, name, p)) is not None]
-    if not near:
+def _pair(
+    folder: Path, domain: PurePosixPath, name: str, problems: list[_Problem], middle: bool
+) -> Pair | None:
+    ranks = sorted(rank for p in problems if (rank := _rank(domain, name, p)) is not None)
+    if not ranks:
         return None
-    return Pair(folder / domain, folder / min(near, key=lambda item: item[0])[1].path)
+    closest = [rank for rank in ranks if rank[:2] == ranks[0][:2]]
+    return Pair(folder / domain, folder / closest[len(closest) // 2 if middle else 0][-1])
 
 
 def _rank(domain: PurePosixPath, name: str, problem: _Problem) -> tuple[int, int, int, str] | None:
