@@ -104,7 +104,7 @@ class Derivation:
                     continue
                 new_facts.add(fact)
                 facts.add(fact)
-                index.add(fact)
+                index.add([fact])
                 for rule, position in users[fact[0]]:
                     waiting += self._heads(rule, index, partial, (position, fact))
             first = [rule for rule in rules if rule.waits] if len(new_facts) > before else []

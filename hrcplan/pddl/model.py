@@ -445,6 +445,18 @@ class Problem:
             self._objects_of[types] = names
         return names
 
+    def object_set(self, types: tuple[str, ...]) -> frozenset[str]:
+        """Return the objects of any of ``types``."""
+        names = self._object_sets.get(types)
+        if names is None:
+            names = self._object_sets[types] = frozenset(self.objects_of(types))
+        return names
+
+    @cached_property
+    def _object_sets(self) -> dict[tuple[str, ...], frozenset[str]]:
+        """Objects by the types asked for already, as sets."""
+        return {}
+
     @cached_property
     def _objects_of(self) -> dict[tuple[str, ...], tuple[str, ...]]:
         """Objects by the types asked for already: quantifiers ask for the same over and over."""

@@ -98,7 +98,8 @@ class LiftedSpace:
     def successors(self, state: Hashable) -> Iterator[tuple[PlannedAction, Number, Hashable]]:
         """Yield the actions that can run in a state, what each costs, and the state after it."""
         before, problem = self._lifted_state(state), self._problem
-        for action, args, binding in self._instances:
+        for instance in self._instances:
+            action, binding = instance.action, instance.binding
             try:
                 if not all(holds(c.formula, before, binding, problem) for c in action.conditions):
                     continue
@@ -107,7 +108,7 @@ class LiftedSpace:
                 continue
             cost = after.values.get(_COST, 0) - before.values.get(_COST, 0)
             values = frozenset((k, v) for k, v in after.values.items() if self._is_part(k))
-            yield PlannedAction(action.name, args), cost, (frozenset(after.facts), values)
+            yield PlannedAction(action.name, instance.args), cost, (frozenset(after.facts), values)
 
     def is_goal(self, state: Hashable) -> bool:
         """Return whether the goal holds."""

@@ -34,6 +34,8 @@ MAX_COST_CONDITIONS = 4
 """Conditions of one action's cost that the state decides: each doubles its ground actions."""
 
 _UNIT_COST: tuple[Expr, ...] = (Constant(1),)
+_NO_VALUES: Mapping[FluentKey, Number] = {}
+_NO_EFFECTS: Effects = ()
 
 
 @record
@@ -88,8 +90,12 @@ def ground_actions(
                 tell(len(actions))
             schema = builder.literal_schema(instance.action)
             if schema is not None:
-                with contextlib.suppress(Undefined):  # what it needs has no value: it cannot run
-                    actions += builder.build_literal(len(actions), instance, schema)
+                try:
+                    action = builder.build_literal(len(actions), instance, schema)
+                except Undefined:  # what it needs has no value: it cannot run
+                    continue
+                if action is not None:
+                    actions.append(action)
                 continue
             for choice in combinations(keys_read(grounder, instance, value_sets), value_sets):
                 with contextlib.suppress(Undefined):
@@ -141,27 +147,23 @@ class _Builder:
 
     def build_literal(
         self, index: int, instance: SchemaInstance, schema: LiteralSchema
-    ) -> Iterator[GroundAction]:
-        """Yield the ground action of an instance, by look-ups; see `build`."""
-        row, action = schema.rows.of(instance.args), instance.action
+    ) -> GroundAction | None:
+        """Return the ground action of an instance, by look-ups; see `build`."""
+        row = schema.rows.of(instance.args)
         start = schema.tests(row, "start")
         if not start:
-            return
+            return None
         over = end = ALWAYS
-        at_end: Effects = ()
-        duration: Number | None = 0
-        if action.durative:
+        at_start, at_end = schema.effects(row, "start"), _NO_EFFECTS
+        if instance.action.durative:
             over, end = schema.tests(row, "all"), schema.tests(row, "end")
-            at_end, length = schema.effects(row, "end"), action.fixed_duration
-            values = self.grounder.problem.values
-            duration = None if length is None else evaluate(length, values, instance.binding)
-        phases = _Phases(start, over, end, schema.effects(row, "start"), at_end)
+            at_end = schema.effects(row, "end")
+        phases = _Phases(start, over, end, at_start, at_end)
         tests = phases.tests
-        if not tests or not (phases.at_start or at_end):
-            return
-        has_costs = TOTAL_COST in self.grounder.problem.domain.functions
-        costs = schema.costs(instance.binding) if has_costs else _UNIT_COST
-        yield self._action(index, instance, phases, tests, duration, costs, {})
+        if not tests or not (at_start or at_end):
+            return None
+        duration, costs = schema.figures(row)
+        return self._action(index, instance, phases, tests, duration, costs, _NO_VALUES)
 
     def build(
         self, index: int, instance: SchemaInstance, choice: Mapping[FluentKey, Number]

@@ -11,14 +11,14 @@ from hrcplan.core.numbers import Number
 from hrcplan.core.records import record, replace
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, Constant, Expr, Fact, Problem
-from hrcplan.pddl.semantics import ground_key, instances, mentions
+from hrcplan.pddl.semantics import mentions
 from hrcplan.pddl.walks import compares
 from hrcplan.task.actions import GroundAction, ground_actions
 from hrcplan.task.changing import ValueSets, combinations, reached_values, value_fact
 from hrcplan.task.conditions import Grounder, Tests, all_of, any_of
 from hrcplan.task.lookup import lookup
 from hrcplan.task.numbers import check_supported, numeric_effects
-from hrcplan.task.reachable import SchemaInstance, reachable
+from hrcplan.task.reachable import EffectFacts, SchemaInstance, reachable
 from hrcplan.task.transitions import BitEffect, net_effect
 
 
@@ -154,10 +154,12 @@ def _fluents(
     problem: Problem, schema_instances: Iterable[SchemaInstance], reachable_facts: Set[Fact]
 ) -> list[Fact]:
     """Return the reachable facts that do not hold all the time."""
+    deletes = {
+        action.name: [EffectFacts(action, e, problem) for e in action.effects if e.kind == "delete"]
+        for action in problem.domain.actions
+    }
     deletable: set[Fact] = set()
     for instance in schema_instances:
-        for effect in instance.action.effects:
-            if effect.kind == "delete":
-                for inner in instances(effect.params, instance.binding, problem):
-                    deletable.add(ground_key(effect.target, inner))
+        for facts in deletes[instance.action.name]:
+            deletable.update(facts.of(instance.args))
     return sorted(reachable_facts & deletable | reachable_facts - problem.facts)

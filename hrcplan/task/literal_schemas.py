@@ -6,16 +6,16 @@ in the tests holds both ways together.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence, Set
-from operator import itemgetter
+from collections.abc import Mapping, Set
 
-from hrcplan.core.records import record
+from hrcplan.core.numbers import Number
 from hrcplan.pddl.model import (
     DURATION,
     TOTAL_COST,
     TRUE,
     Action,
     Atom,
+    Constant,
     Effect,
     Expr,
     Fact,
@@ -23,63 +23,16 @@ from hrcplan.pddl.model import (
     Not,
     Problem,
 )
+from hrcplan.pddl.rows import LiteralRows, Row, RowKey, picker
 from hrcplan.pddl.semantics import evaluate
 from hrcplan.pddl.walks import conjuncts, functions_in, lifted_names
 from hrcplan.task.conditions import ALWAYS, NEVER, Tests
 from hrcplan.task.numbers import functions_read, ground_expression, numeric_effects
 from hrcplan.task.transitions import BitEffect, Effects
 
-Row = tuple[str, ...]
-"""The names that the atoms of a schema hold, then the objects of its parameters."""
-RowKey = Callable[[Row], tuple[str, ...]]
-"""What makes the fact of an atom, or the key of a function, from a row."""
-
-
-class LiteralRows:
-    """The rows of a schema, and what makes facts from them.
-
-    >>> rows = LiteralRows(["?a", "?b"])
-    >>> fact = rows.key("at", ["?b", "home"])
-    >>> fact(rows.of(("ann", "box")))
-    ('at', 'box', 'home')
-    """
-
-    def __init__(self, params: Sequence[str]) -> None:
-        self._places = {name: place for place, name in enumerate(params)}
-        self._names: list[str] = []
-        self._n_params = len(params)
-
-    def key(self, name: str, args: Sequence[str]) -> RowKey:
-        """Return what makes the key ``(name, *args)`` from a row, with variables replaced."""
-        if not args:
-            fact = (name,)
-            return lambda row: fact
-        places = [self._place(name, is_variable=False)]
-        places += [self._place(arg, is_variable=True) for arg in args]
-        return itemgetter(*places)
-
-    def _place(self, name: str, is_variable: bool) -> int:
-        if is_variable and name in self._places:
-            return self._places[name]
-        if name not in self._names:
-            self._names.append(name)
-        return self._n_params + self._names.index(name)
-
-    def of(self, args: tuple[str, ...]) -> Row:
-        """Return the row of an instance."""
-        return (*args, *self._names)
-
-
-@record
-class _Literal:
-    key: RowKey
-    positive: bool
-
-
-@record
-class _Change:
-    key: RowKey
-    adds: bool
+Figures = tuple[Number | None, tuple[Expr, ...]]
+"""The duration of an instance (None if it is not fixed), and what it adds to total-cost."""
+_UNIT_COST: tuple[Expr, ...] = (Constant(1),)
 
 
 class LiteralSchema:
@@ -97,37 +50,39 @@ class LiteralSchema:
         self, action: Action, problem: Problem, changing: Set[str], powers: Mapping[Fact, int],
         fixed: Set[Fact],
     ) -> None:  # fmt: skip
-        self._powers, self._fixed, self._values = powers, fixed, problem.values
+        self._action, self._problem = action, problem
+        self._powers, self._fixed = powers, fixed
         self.rows = LiteralRows([param.name for param in action.params])
-        self._literals: dict[str, list[_Literal]] = {"start": [], "all": [], "end": []}
+        self._literals: dict[str, list[tuple[RowKey, bool]]] = {"start": [], "all": [], "end": []}
         for condition in action.conditions:
             for part in conjuncts(condition.formula):
                 literal = _literal(part, changing)
                 if literal is not None:
                     atom, positive = literal
                     key = self.rows.key(atom.name, atom.args)
-                    self._literals[condition.when].append(_Literal(key, positive))
-        self._changes: dict[str, list[_Change]] = {"start": [], "end": []}
+                    self._literals[condition.when].append((key, positive))
+        self._changes: dict[str, list[tuple[RowKey, bool]]] = {"start": [], "end": []}
         for effect in action.effects:
             if effect.value is None:
                 key = self.rows.key(effect.target.name, effect.target.args)
-                self._changes[effect.when].append(_Change(key, effect.kind == "add"))
-        self._cost_values = [
-            effect.value
-            for effect in action.effects
-            if effect.value is not None and effect.target.name == TOTAL_COST
-        ]
+                self._changes[effect.when].append((key, effect.kind == "add"))
+        self._expressions = _figure_expressions(action, problem)
+        used = {arg for e in self._expressions for f in functions_in(e) for arg in f.args}
+        params = [param.name for param in action.params]
+        self._used = [name for name in params if name in used]
+        self._used_objects = picker([params.index(name) for name in self._used])
+        self._figures: dict[Row, Figures] = {}
 
     def tests(self, row: Row, when: str) -> Tests:
         """Return the conditions of one phase as bits."""
         positives = negatives = 0
-        for literal in self._literals[when]:
-            fact = literal.key(row)
+        for key, positive in self._literals[when]:
+            fact = key(row)
             bit = self._powers.get(fact)
             if bit is None:
-                if (fact in self._fixed) != literal.positive:
+                if (fact in self._fixed) != positive:
                     return NEVER
-            elif literal.positive:
+            elif positive:
                 positives |= bit
             else:
                 negatives |= bit
@@ -140,26 +95,55 @@ class LiteralSchema:
     def effects(self, row: Row, when: str) -> Effects:
         """Return the changes of one instant: one effect, or none."""
         adds = deletes = 0
-        for change in self._changes[when]:
-            bit = self._powers.get(change.key(row))
+        for key, is_add in self._changes[when]:
+            bit = self._powers.get(key(row))
             if bit is None:
                 continue
-            if change.adds:
+            if is_add:
                 adds |= bit
             else:
                 deletes |= bit
         return (BitEffect(adds, deletes & ~adds),) if adds or deletes else ()
 
-    def costs(self, binding: Mapping[str, str]) -> tuple[Expr, ...]:
-        """Return what an instance adds to total-cost, over ground functions.
+    def figures(self, row: Row) -> Figures:
+        """Return duration and costs, over ground functions: once for the objects that they name.
 
         Raises:
-            Undefined: if a cost needs a function without a value, or divides by zero.
+            Undefined: if one needs a function without a value, or divides by zero.
         """
-        costs = tuple([ground_expression(value, binding, {}) for value in self._cost_values])
+        objects = self._used_objects(row)
+        figures = self._figures.get(objects)
+        if figures is None:
+            figures = self._ground(dict(zip(self._used, objects, strict=True)))
+            self._figures[objects] = figures
+        return figures
+
+    def _ground(self, binding: Mapping[str, str]) -> Figures:
+        action, values = self._action, self._problem.values
+        duration: Number | None = 0
+        if action.durative:
+            length = action.fixed_duration
+            duration = None if length is None else evaluate(length, values, binding)
+        if TOTAL_COST not in self._problem.domain.functions:
+            return duration, _UNIT_COST
+        costs = tuple([ground_expression(value, binding, {}) for value in _cost_values(action)])
         for cost in costs:
-            evaluate(cost, self._values, {})
-        return costs
+            evaluate(cost, values, {})
+        return duration, costs
+
+
+def _figure_expressions(action: Action, problem: Problem) -> list[Expr]:
+    """Return what the duration and the costs of an action are computed from."""
+    expressions = [expression for _, expression in action.durations]
+    return expressions + (_cost_values(action) if TOTAL_COST in problem.domain.functions else [])
+
+
+def _cost_values(action: Action) -> list[Expr]:
+    return [
+        effect.value
+        for effect in action.effects
+        if effect.value is not None and effect.target.name == TOTAL_COST
+    ]
 
 
 def is_literal(action: Action, changing: Set[str], moving: Set[str]) -> bool:

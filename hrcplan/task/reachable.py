@@ -7,17 +7,29 @@ hold; all others (negations, alternatives, numbers that change) are taken to be 
 from __future__ import annotations
 
 import time
-from collections import defaultdict, deque
+from collections import defaultdict
 from collections.abc import Callable, Iterator
 from math import inf
 from pathlib import Path
-from typing import NamedTuple
 
 from hrcplan.core.progress import counting
+from hrcplan.core.records import record
 from hrcplan.errors import LimitError
 from hrcplan.pddl.joins import FactIndex, Join, JoinBinding, needed_atoms
-from hrcplan.pddl.model import DURATION, Action, Atom, Domain, Fact, Formula, Problem
-from hrcplan.pddl.semantics import LiftedState, ground_key, holds, instances
+from hrcplan.pddl.model import (
+    DURATION,
+    Action,
+    Atom,
+    Domain,
+    Effect,
+    Equal,
+    Fact,
+    Formula,
+    Not,
+    Problem,
+)
+from hrcplan.pddl.rows import LiteralRows, Row, RowKey
+from hrcplan.pddl.semantics import LiftedState, holds, instances
 from hrcplan.pddl.walks import conjuncts, lifted_names
 
 MIN_FREE_BYTES = 512 << 20
@@ -27,19 +39,24 @@ _CHECK_MEMORY = 4096
 _HINT = "use a planner that does not need them: enhsp, kairos"
 
 
-class SchemaInstance(NamedTuple):
+@record
+class SchemaInstance:
     """An action schema, and the objects that its parameters are bound to."""
 
     action: Action
-    args: tuple[str, ...]
-    binding: JoinBinding
+    args: Row
+
+    @property
+    def binding(self) -> JoinBinding:
+        """The objects by parameter."""
+        return {param.name: arg for param, arg in zip(self.action.params, self.args, strict=True)}
 
 
 def reachable(problem: Problem, deadline: float = inf) -> tuple[list[SchemaInstance], set[Fact]]:
     """Return the reachable instances, by schema and then by objects, and the reachable facts.
 
-    Facts that no action adds are there from the beginning; every other one is taken in once and
-    joined with those before it (semi-naive evaluation).
+    Facts that no action adds are there from the beginning; all others are taken in once, in groups
+    of one predicate, and joined with those before them (semi-naive evaluation).
 
     Raises:
         LimitError: at the deadline, or if memory becomes short.
@@ -47,11 +64,13 @@ def reachable(problem: Problem, deadline: float = inf) -> tuple[list[SchemaInsta
     with counting("reachable ground actions") as tell:
         search = _ReachabilitySearch(problem, deadline, tell)
         search.run()
-    order = {action.name: i for i, action in enumerate(problem.domain.actions)}
     rank = {name: i for i, name in enumerate(problem.all_objects)}
-    instances = list(search.instances.values())
-    instances.sort(key=lambda i: (order[i.action.name], [rank[arg] for arg in i.args]))
-    return instances, search.index.facts
+    schema_instances = [
+        SchemaInstance(rule.action, args)
+        for rule in search.rules
+        for args in sorted(rule.instances, key=lambda args: [rank[arg] for arg in args])
+    ]
+    return schema_instances, search.index.facts
 
 
 def available_bytes() -> int:
@@ -66,61 +85,60 @@ class _ReachabilitySearch:
     """The reachable facts and instances so far, and the facts that wait to be joined."""
 
     def __init__(self, problem: Problem, deadline: float, tell: Callable[[int], None]) -> None:
-        self.problem = problem
-        self.deadline = deadline
+        self._deadline = deadline
         self._tell = tell
-        self.index = FactIndex()
-        self.instances: dict[tuple[str, tuple[str, ...]], SchemaInstance] = {}
-        self._n_bindings = 0
-        self._start = LiftedState(problem.facts, problem.values)
-        self._rules = [_ReachabilityRule(action, problem) for action in problem.domain.actions]
+        self._n_bindings = self._n_instances = 0
+        self.rules = [_ReachabilityRule(action, problem) for action in problem.domain.actions]
         self._users: dict[str, list[tuple[_ReachabilityRule, int]]] = defaultdict(list)
-        self._addable = {atom.name for rule in self._rules for _, atom in rule.adds}
-        for rule in self._rules:
+        self._addable = {add.name for rule in self.rules for add in rule.adds}
+        for rule in self.rules:
             for position, atom in enumerate(rule.join.atoms):
                 if atom.name in self._addable:
                     self._users[atom.name].append((rule, position))
-        facts = sorted(problem.facts)
-        self._waiting = deque(fact for fact in facts if fact[0] in self._addable)
-        for fact in facts:
-            if fact[0] not in self._addable:
-                self.index.add(fact)
+        self.index = FactIndex(fact for fact in problem.facts if fact[0] not in self._addable)
+        self._facts = set(problem.facts)  # also those that wait
+        self._waiting: dict[str, list[Fact]] = {}
+        for fact in problem.facts:
+            if fact[0] in self._addable:
+                self._waiting.setdefault(fact[0], []).append(fact)
 
     def run(self) -> None:
-        for rule in self._rules:
+        for rule in self.rules:
             if self._addable.isdisjoint(atom.name for atom in rule.join.atoms):
-                self._take(rule, rule.join.bindings(self.index))
+                self._take(rule, rule.join.rows(self.index, look=self._look))
         while self._waiting:
-            fact = self._waiting.popleft()
-            if self.index.add(fact):
-                for rule, position in self._users[fact[0]]:
-                    self._take(rule, rule.join.bindings(self.index, (position, fact)))
+            name = next(iter(self._waiting))
+            facts = self._waiting.pop(name)
+            self.index.add(facts)
+            for rule, position in self._users[name]:
+                self._take(rule, rule.join.rows(self.index, position, facts, self._look))
 
-    def _take(self, rule: _ReachabilityRule, bindings: Iterator[JoinBinding]) -> None:
-        for binding in bindings:
+    def _take(self, rule: _ReachabilityRule, rows: Iterator[Row]) -> None:
+        for args in rows:
             self._n_bindings += 1
-            self._check()
-            args = tuple([binding[name] for name in rule.names])
-            key = rule.action.name, args
-            if key in self.instances or not self._can_hold(rule.static_parts, binding):
+            if self._n_bindings % _CHECK == 0:
+                self._check()
+            if args in rule.instances or not rule.can_hold(args):
                 continue
-            self.instances[key] = SchemaInstance(rule.action, args, binding)
-            for params, atom in rule.adds:
-                for inner in instances(params, binding, self.problem):
-                    self._waiting.append(ground_key(atom, inner))
+            rule.instances.add(args)
+            self._n_instances += 1
+            for add in rule.adds:
+                for fact in add.of(args):
+                    if fact not in self._facts:
+                        self._facts.add(fact)
+                        self._waiting.setdefault(fact[0], []).append(fact)
 
     def _check(self) -> None:
-        n_instances = len(self.instances)
-        if self._n_bindings % _CHECK == 0:
-            self._tell(n_instances)
-            if time.monotonic() > self.deadline:
-                raise LimitError(f"no time for more than {n_instances} ground actions", hint=_HINT)
+        self._tell(self._n_instances)
+        self._look()
         if self._n_bindings % _CHECK_MEMORY == 0 and available_bytes() < MIN_FREE_BYTES:
-            message = f"no memory for more than {n_instances} ground actions"
+            message = f"no memory for more than {self._n_instances} ground actions"
             raise LimitError(message, hint=_HINT)
 
-    def _can_hold(self, parts: tuple[Formula, ...], binding: JoinBinding) -> bool:
-        return all(holds(part, self._start, binding, self.problem) for part in parts)
+    def _look(self) -> None:
+        if time.monotonic() > self._deadline:
+            message = f"no time for more than {self._n_instances} ground actions"
+            raise LimitError(message, hint=_HINT)
 
 
 class _ReachabilityRule:
@@ -128,21 +146,62 @@ class _ReachabilityRule:
 
     def __init__(self, action: Action, problem: Problem) -> None:
         self.action = action
-        self.names = [param.name for param in action.params]
+        self.instances: set[Row] = set()
         self.join = Join(action, needed_atoms(action, problem.domain), problem)
-        self.static_parts = tuple(_static_parts(action, problem.domain))
         self.adds = [
-            (effect.params, effect.target)
+            EffectFacts(action, effect, problem)
             for effect in action.effects
-            if effect.kind == "add" and isinstance(effect.target, Atom)
+            if effect.kind == "add"
         ]
+        self._static_parts = tuple(_static_parts(action, problem.domain))
+        self._start = LiftedState(problem.facts, problem.values)
+        self._problem = problem
+
+    def can_hold(self, args: Row) -> bool:
+        """Return whether what no action can change holds for these objects."""
+        if not self._static_parts:
+            return True
+        binding = dict(zip(self.join.names, args, strict=True))
+        start, problem = self._start, self._problem
+        return all(holds(part, start, binding, problem) for part in self._static_parts)
+
+
+class EffectFacts:
+    """The facts of an effect that adds or deletes: one, or one for each choice of its variables.
+
+    >>> from hrcplan import read
+    >>> problem = read("transport", "two-boxes")
+    >>> move = problem.domain.action("move")
+    >>> EffectFacts(move, move.effects[0], problem).of(("robot", "wp0", "wp1"))
+    [('at', 'robot', 'wp0')]
+    """
+
+    def __init__(self, action: Action, effect: Effect, problem: Problem) -> None:
+        self.name = effect.target.name
+        self._params, self._problem = effect.params, problem
+        self._rows = LiteralRows([param.name for param in (*action.params, *effect.params)])
+        self._key: RowKey = self._rows.key(self.name, effect.target.args)
+
+    def of(self, args: Row) -> list[Fact]:
+        """Return the facts of an instance, by the objects of its action."""
+        key, of = self._key, self._rows.of
+        if not self._params:
+            return [key(of(args))]
+        choices = instances(self._params, {}, self._problem)
+        return [key(of((*args, *choice.values()))) for choice in choices]
 
 
 def _static_parts(action: Action, domain: Domain) -> Iterator[Formula]:
-    """Yield the parts of an action's conditions that no action can change, but for plain facts."""
+    """Yield the parts of an action's conditions that no action can change, apart from plain facts.
+
+    Equalities of terms are not among them: joins see to these.
+    """
     changing = {effect.target.name for other in domain.actions for effect in other.effects}
     changing.add(DURATION)
     for condition in action.conditions:
         for part in conjuncts(condition.formula):
-            if not isinstance(part, Atom) and changing.isdisjoint(lifted_names(part)):
+            match part:
+                case Atom() | Equal() | Not(Equal()):
+                    continue
+            if changing.isdisjoint(lifted_names(part)):
                 yield part

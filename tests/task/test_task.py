@@ -159,6 +159,7 @@ def test_too_many_alternatives_are_refused(tmp_path: Path) -> None:
 
 
 def test_grounding_gives_up_where_memory_is_short(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(reachable, "_CHECK", 100)
     monkeypatch.setattr(reachable, "_CHECK_MEMORY", 100)
     assert reachable.available_bytes() > 0
     monkeypatch.setattr(reachable, "available_bytes", lambda: reachable.MIN_FREE_BYTES - 1)
