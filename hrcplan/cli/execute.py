@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from hrcplan.cli import options, output
+from hrcplan.core.files import check_targets
 from hrcplan.errors import UsageError
 
 if TYPE_CHECKING:
@@ -141,6 +142,7 @@ def command(
     options.check_picture(gantt, "--gantt")
     domain, name, _ = split_names(names, 0)
     problem = problem_of(domain, name, settings)
+    check_targets((gantt, journal), problem.path, problem.domain.path, profile_name)
     prepared_run = prepare_run(
         problem, profile=profile_name, human=human, changes=changes, model=not no_model,
         planner=planner, seed=seed, replan_limit=replan_limit, timeout_s=timeout, world=world,

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from hrcplan.cli import options, output
-from hrcplan.core.files import check_target
+from hrcplan.core.files import check_targets
 
 if TYPE_CHECKING:
     from hrcplan.pddl.model import Problem
@@ -79,11 +79,10 @@ def command(
     from hrcplan.planners.solve import solve
 
     options.check_picture(gantt, "--gantt")
-    check_target(target)
+    check_targets((gantt, target))
     domain, name, _ = split_names(names, 0)
     problem = problem_of(domain, name, settings)
-    for path in (gantt, target):
-        check_target(path, problem.path, problem.domain.path)
+    check_targets((gantt, target), problem.path, problem.domain.path)
     result = solve(
         problem, planner, timeout_s=timeout, any_plan=any_plan, lanes=lanes or gantt is not None,
         memory_bytes=memory << 20, on_better=Improvements(),

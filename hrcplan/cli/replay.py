@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from hrcplan.cli import output
-from hrcplan.core.files import check_target
+from hrcplan.core.files import check_targets
 
 if TYPE_CHECKING:
     from hrcplan.collaboration.outcome import CollaborationOutcome
@@ -32,8 +32,7 @@ def command(journal: Path, trace: Path | None, page: Path | None) -> int:
     """
     from hrcplan.execution.journal import read_journal
 
-    check_target(trace, journal)
-    check_target(page, journal)
+    check_targets((trace, page), journal)
     content = read_journal(journal)
     check = _replay(content)
     if trace is not None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import errno
 import os
+from collections.abc import Sequence
+from itertools import combinations
 from pathlib import Path
 
 from hrcplan.core.text import harmless
@@ -127,6 +129,24 @@ def check_target(path: Path | None, *inputs: str | Path) -> None:
     if any(_is_same(path, one) for one in inputs):
         message = f"cannot write {name}: the command reads it"
         raise UsageError(message, code="output-is-input", path=name, hint="name another file")
+
+
+def check_targets(targets: Sequence[Path | None], *inputs: str | Path) -> None:
+    """Refuse outputs as `check_target` does, and two outputs that would replace each other.
+
+    Raises:
+        UsageError: if one of ``targets`` cannot be written, is one of ``inputs``, or is there twice.
+    """
+    paths = [path for path in targets if path is not None]
+    for path in paths:
+        check_target(path, *inputs)
+    for one, other in combinations(paths, 2):
+        if os.path.realpath(one) == os.path.realpath(other) or _is_same(one, other):
+            if os.path.exists(one) and not os.path.isfile(one):
+                continue  # a device, such as /dev/null
+            name = harmless(str(other))
+            message = f"cannot write {name}: another result is written there"
+            raise UsageError(message, code="same-output", path=name, hint="name another file")
 
 
 def _is_same(one: str | Path, other: str | Path) -> bool:

@@ -17,6 +17,7 @@ from typing import NamedTuple
 from hrcplan.core.numbers import Number, exact
 from hrcplan.core.records import record
 from hrcplan.errors import LimitError, UnsupportedError
+from hrcplan.pddl.inlining import plain
 from hrcplan.pddl.model import TOTAL_COST, TOTAL_TIME, Problem
 from hrcplan.pddl.semantics import Undefined
 from hrcplan.pddl.walks import functions_in
@@ -66,7 +67,7 @@ def _space(request: Request) -> StateSpace:
     if idle_gain(request.problem) is None:
         with suppress(UnsupportedError):
             return BitSpace(request.task)
-    return LiftedSpace(request.problem, request.deadline)
+    return LiftedSpace(plain(request.problem), request.deadline)
 
 
 @record

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from hrcplan.core.files import write_atomically
+from hrcplan.core.files import check_targets, write_atomically
 from hrcplan.errors import UsageError
 
 
@@ -31,3 +31,21 @@ def test_nothing_is_left_where_nothing_can_be_written(tmp_path: Path) -> None:
     with pytest.raises(UsageError, match="cannot write"):
         write_atomically(tmp_path / "a-folder", "text")
     assert [path.name for path in tmp_path.iterdir()] == ["a-folder"]
+
+
+def test_two_results_need_two_files(tmp_path: Path) -> None:
+    (tmp_path / "link").symlink_to(tmp_path / "plan")
+    with pytest.raises(UsageError, match="another result"):
+        check_targets((tmp_path / "plan", tmp_path / "." / "plan"))
+    with pytest.raises(UsageError, match="another result"):
+        check_targets((tmp_path / "plan", tmp_path / "link"))
+    check_targets((tmp_path / "plan", tmp_path / "picture", None))
+    check_targets((Path("/dev/null"), Path("/dev/null")))
+
+
+def test_no_result_replaces_an_input(tmp_path: Path) -> None:
+    domain, same = tmp_path / "d.pddl", tmp_path / "same"
+    domain.write_text("(define …)")
+    same.hardlink_to(domain)
+    with pytest.raises(UsageError, match="reads it"):
+        check_targets((None, same), domain)

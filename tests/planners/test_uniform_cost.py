@@ -121,3 +121,24 @@ def test_it_agrees_with_all_simple_paths(seed: int) -> None:
         assert (answer.status, answer.objective) == (Status.OPTIMAL, best["f"])
     else:
         assert answer.status is Status.UNSOLVABLE
+
+
+TANK = """(define (domain tank) (:requirements :adl :numeric-fluents :derived-predicates)
+  (:predicates (open) (ready) (safe)) (:functions (level))
+  (:derived (ready) (and (open) (>= (level) 2.5)))
+  (:derived (safe) (or (ready) (not (open))))
+  (:action fill :parameters () :precondition (not (ready)) :effect (increase (level) 1))
+  (:action leave :parameters () :precondition (ready)
+    :effect (and (when (safe) (not (open))) (assign (level) 0))))"""
+
+
+def test_numbers_and_derived_predicates_together() -> None:
+    problem = problem_from(
+        TANK,
+        """(define (problem p) (:domain tank) (:init (open) (= (level) 0))
+             (:goal (and (safe) (not (open)) (= (level) 0)))
+             (:metric minimize (total-time)))""",
+    )
+    answer = solve(problem)
+    assert answer.status is Status.OPTIMAL
+    assert answer.objective == 4
