@@ -9,7 +9,7 @@ from collections.abc import Callable
 from typing import TextIO
 
 from hrcplan.core import progress
-from hrcplan.core.text import cut
+from hrcplan.core.text import cut, harmless
 
 DELAY_S = 2.0
 """Work that ends earlier shows nothing."""
@@ -49,7 +49,7 @@ class _ProgressWriter(ABC):
             self._next_s = now + self.delay_s
         elif now >= self._next_s:
             self._next_s = now + self.every_s
-            self._write(f"{count:,} {what} …")
+            self._write(harmless(f"{count:,} {what} …"))
 
     @abstractmethod
     def _write(self, text: str) -> None:

@@ -135,7 +135,7 @@ def check_targets(targets: Sequence[Path | None], *inputs: str | Path) -> None:
     """Refuse outputs as `check_target` does, and two outputs that would replace each other.
 
     Raises:
-        UsageError: if one of ``targets`` cannot be written, is one of ``inputs``, or is there twice.
+        UsageError: if one of ``targets`` cannot be written, is an input, or is there twice.
     """
     paths = [path for path in targets if path is not None]
     for path in paths:

@@ -34,6 +34,12 @@ from hrcplan.planners.handover import Handover
 from hrcplan.planners.lowering import Lowering, lower
 from hrcplan.plans import Plan, parse_plan
 
+_REQUIREMENTS = frozenset({
+    ":strips", ":adl", ":typing", ":equality", ":negative-preconditions", ":action-costs",
+    ":disjunctive-preconditions", ":existential-preconditions", ":universal-preconditions",
+    ":quantified-preconditions", ":conditional-effects", ":derived-predicates",
+})  # fmt: skip
+"""What Fast Downward lets a domain require; it refuses others, used or not."""
 _MAX_INT = 2**31
 _MAX_PRICE = _MAX_INT // 10**6  # no heuristic value of a lifted task overflows then
 
@@ -135,7 +141,8 @@ def _lifted_input(handover: Handover) -> DownwardInput | None:
     else:
         problem = without_numbers(problem)
     small = max((price for price in prices if price is not None), default=0) <= _MAX_PRICE
-    texts = domain_text(problem.domain), problem_text(problem)
+    known = tuple(flag for flag in problem.domain.requirements if flag in _REQUIREMENTS)
+    texts = domain_text(replace(problem.domain, requirements=known)), problem_text(problem)
     return DownwardInput(
         *texts, None, exact and small, _proof(problem), _is_solved(problem), handover
     )  # fmt: skip

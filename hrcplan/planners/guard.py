@@ -77,7 +77,8 @@ def stand_by(guard: int, parent: int, time_s: float, report: int) -> None:
             os._exit(0)
         if guard in dead or time.monotonic() > deadline:
             end_all(guard, 0.0)
-            os.write(report, marshal.dumps(("lost", None, "")))
+            reason = "lost" if guard in dead else "timeout"
+            os.write(report, marshal.dumps((reason, None, "")))
             os._exit(0)
         if os.getppid() != parent:
             end_all(guard, GRACE_S)

@@ -16,7 +16,6 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
 
-from hrcplan.planners import orphans
 from hrcplan.planners.process import ProcessLimits, guarded_program, job_message
 
 MAX_LINE = 1 << 20  # bytes; a longer line is dropped
@@ -54,7 +53,6 @@ class LineProcess:
             self._exits.callback(os.close, self._input)
             limits = ProcessLimits(float("inf"), memory_bytes)
             job = job_message(argv, limits, env, read_end)
-            self._exits.enter_context(orphans.adoption())
             program = guarded_program(job, cwd, read_end)
             self._guard, self._report = self._exits.enter_context(program)
         except BaseException:

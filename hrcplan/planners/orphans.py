@@ -19,11 +19,21 @@ _lock = threading.Lock()
 _families: list[Family] = []
 
 
+def _forget_families() -> None:
+    """Begin without families: they are the parent's, and so is a thread that holds the lock."""
+    global _lock
+    _lock = threading.Lock()
+    _families.clear()
+
+
+os.register_at_fork(after_in_child=_forget_families)
+
+
 class Family:
     """The children that this process had before it started a supervisor."""
 
     def __init__(self) -> None:
-        self._before = {pid for pid, parent in _parents().items() if parent == os.getpid()}
+        self._before = _children() if _has_children() else set()
 
     def end_orphans(self) -> None:
         """Kill the programs that became children of this process when all above them were killed.
@@ -62,7 +72,8 @@ def adoption() -> Iterator[Family]:
         yield family
     finally:
         with _lock:
-            _families.remove(family)
+            if family in _families:  # not in a copy of the process that began
+                _families.remove(family)
             if not _families:
                 _set_subreaper(False)
 
@@ -106,6 +117,19 @@ def _parents(dead: str = "XZ") -> dict[int, int]:
             if state not in dead:
                 parents[int(folder.name)] = int(parent)
     return parents
+
+
+def _has_children() -> bool:
+    """Return whether this process has children; that is known at once."""
+    try:
+        os.waitid(os.P_ALL, 0, os.WEXITED | os.WNOHANG | os.WNOWAIT)
+    except ChildProcessError:
+        return False
+    return True
+
+
+def _children() -> set[int]:
+    return {pid for pid, parent in _parents().items() if parent == os.getpid()}
 
 
 def _session(pid: int) -> int | None:

@@ -129,15 +129,10 @@ def run(
         <ProcessEnd.TIMEOUT: 'timeout'>
     """
     started_s = time.monotonic()
-    with (
-        orphans.adoption() as family,
-        guarded_program(job_message(argv, limits, env), cwd) as (guard, report),
-    ):
+    with guarded_program(job_message(argv, limits, env), cwd) as (guard, report):
         output, answer = _collect(guard, report, limits, on_tick)
         if not output.is_over and not answer:
             orphans.end_tree(guard.pid)
-            guard.wait()
-            family.end_orphans()
     end, code, message = _verdict(output, answer)
     stdout, stderr = (
         bytes(stream).decode("utf-8", "replace") for stream in output.streams.values()
@@ -171,12 +166,13 @@ def guarded_program(
     """
     report, report_write = os.pipe()
     try:
-        try:
-            guard = _start(report_write, cwd, stdin)
-        finally:
-            os.close(report_write)
         with contextlib.ExitStack() as exits:
-            exits.callback(guard.wait)
+            family = exits.enter_context(orphans.adoption())
+            try:
+                guard = _start(report_write, cwd, stdin)
+            finally:
+                os.close(report_write)
+            exits.callback(_await_end, guard, family)
             for pipe in (guard.stdout, guard.stderr, guard.stdin):
                 assert pipe
                 exits.callback(_close, pipe)
@@ -187,6 +183,16 @@ def guarded_program(
             yield guard, report
     finally:
         os.close(report)
+
+
+def _await_end(guard: subprocess.Popen[bytes], family: orphans.Family) -> None:
+    """Return when nothing is left of a program, also if its guard was killed or is stopped."""
+    try:
+        guard.wait(_PATIENCE_S)
+    except subprocess.TimeoutExpired:
+        orphans.end_tree(guard.pid)
+    if guard.wait():
+        family.end_orphans()
 
 
 def _start(report_write: int, cwd: Path, stdin: int | None) -> subprocess.Popen[bytes]:

@@ -15,6 +15,7 @@ from hrcplan.core import progress
 from hrcplan.core.numbers import number_text
 from hrcplan.core.records import record
 from hrcplan.errors import HrcplanError, LimitError, PlannerError
+from hrcplan.planners import orphans
 from hrcplan.planners.choice import Job
 from hrcplan.planners.contract import Answer, Request, Status
 from hrcplan.planners.portfolio import Portfolio
@@ -112,6 +113,7 @@ class _Race:
         self._waiting = _Queue(waiting)
         self._slots = max(2, cores())
         self._lanes: list[_Lane] = []
+        self._is_clean = True  # workers have ended by themselves, so nothing is left of them
         self._ready = selectors.PollSelector()
         self._in_lanes = lanes
         self._on_better = on_better
@@ -122,6 +124,15 @@ class _Race:
 
     def run(self) -> Portfolio:
         """Return the portfolio once it is settled, all jobs have ended, or time is up."""
+        with orphans.adoption() as family:
+            try:
+                self._run()
+            finally:
+                if not self._is_clean:
+                    family.end_orphans()
+        return self.portfolio
+
+    def _run(self) -> None:
         stop_at = self.request.deadline + OVERTIME_S
         self._watch = Watch()
         try:
@@ -133,10 +144,9 @@ class _Race:
                 progress.report(self._standing, int(time.monotonic() - self._start_s))
         finally:
             progress.hide()
-            end([lane.worker for lane in self._lanes])
+            self._is_clean &= end([lane.worker for lane in self._lanes])
             self._watch.close()
             self._ready.close()
-        return self.portfolio
 
     @property
     def _standing(self) -> str:
@@ -219,6 +229,7 @@ class _Race:
             self._on_better(best)
 
     def _remove(self, lane: _Lane) -> None:
+        self._is_clean &= lane.has_answered
         self._take(lane, PlannerError(f"{lane.job.name} ended without an answer"))
         self._ready.unregister(lane.worker.fd)
         self._lanes.remove(lane)

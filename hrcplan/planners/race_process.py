@@ -18,7 +18,6 @@ from tempfile import TemporaryFile
 from typing import IO
 
 from hrcplan.errors import HrcplanError, LimitError, PlannerError
-from hrcplan.planners import orphans
 from hrcplan.planners.choice import Job
 from hrcplan.planners.contract import Replays, Request, ignore_plan
 from hrcplan.planners.messages import Inbox, send
@@ -48,7 +47,7 @@ def race_in_process(
     """
     limits = ProcessLimits(request.time_left_s + _PATIENCE_S, memory_bytes=None)
     plain_request = replace(request, replays=Replays(), on_plan=ignore_plan)
-    with TemporaryFile() as file, orphans.adoption():
+    with TemporaryFile() as file:
         pickle.dump(sys.path, file)
         pickle.dump((plain_request, tuple(waiting), lanes), file)
         file.seek(0)

@@ -125,8 +125,12 @@ def _stand_by(parent: int) -> NoReturn:
         os._exit(0)
 
 
-def end(workers: Sequence[Worker[Any]]) -> None:
-    """End workers and all that they have started: asked first, killed after ``GRACE_S``."""
+def end(workers: Sequence[Worker[Any]]) -> bool:
+    """End workers and all that they have started: asked first, killed after ``GRACE_S``.
+
+    Returns:
+        Whether each has ended by itself, and so has cleared up.
+    """
     for worker in workers:
         worker.signal(signal.SIGTERM)
     deadline = time.monotonic() + GRACE_S
@@ -139,6 +143,7 @@ def end(workers: Sequence[Worker[Any]]) -> None:
         worker.signal(signal.SIGKILL)
     for worker in workers:
         worker.close()
+    return not waiting
 
 
 def largest_beyond(workers: Sequence[Worker[M]], memory_bytes: int) -> Worker[M] | None:

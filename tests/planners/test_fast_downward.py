@@ -14,6 +14,7 @@ from hrcplan.planners import fast_downward
 from hrcplan.planners.contract import Request, Status
 from hrcplan.planners.fast_downward import FastDownward
 from hrcplan.validation import validate
+from tests.worlds import problem_from
 
 HUMAN = ("motivation", "human")
 ROBOT = ("knowledge", "robot")
@@ -131,3 +132,19 @@ def test_conditional_effects_and_alternative_goals_are_proven_too(
     answer = FastDownward().solve(Request(problem))
     assert answer.status is Status.OPTIMAL
     assert answer.objective == steps
+
+
+def test_requirements_that_nothing_needs_do_not_disturb_it() -> None:
+    domain = """(define (domain d)
+      (:requirements :adl :fluents :numeric-fluents :action-costs :preferences :derived-predicates)
+      (:predicates (on ?x ?y) (above ?x ?y) (done)) (:functions (total-cost))
+      (:derived (above ?x ?y) (or (on ?x ?y) (exists (?z) (and (on ?x ?z) (above ?z ?y)))))
+      (:action put :parameters (?x ?y) :precondition (not (above ?y ?x))
+        :effect (and (on ?x ?y) (increase (total-cost) 1))))"""
+    problem = problem_from(
+        domain,
+        """(define (problem p) (:domain d) (:objects a b c)
+      (:init (on a b)) (:goal (above a c)) (:metric minimize (total-cost)))""",
+    )
+    answer = FastDownward().solve(Request(problem))
+    assert (answer.status, answer.objective) == (Status.OPTIMAL, 1)

@@ -438,3 +438,20 @@ def test_a_stopped_supervisor_does_not_hang_the_caller(
     assert (finished.end, finished.code) == (ProcessEnd.EXITED, -signal.SIGKILL)
     assert "supervisor process was lost" in finished.stderr
     assert processes(marker) == []
+
+
+@pytest.mark.parametrize("number", ["SIGKILL", "SIGSTOP"])
+@pytest.mark.parametrize("levels", [2, 3])
+def test_nothing_is_left_of_a_planner_that_ends_its_worker_too(
+    marker: str, number: str, levels: int
+) -> None:
+    """Guard, watcher, and the copy of hrcplan that waits for them."""
+    words = [sys.executable, "-S", HOSTILE / "dynasty.py", number, levels, marker]
+    planner = "cmd:" + " ".join(map(str, words)) + " {domain} {problem}"
+    command = [sys.executable, "-P", "-m", "hrcplan", "plan", "transport/two-boxes"]
+    done = subprocess.run(
+        [*command, "--planner", planner, "--timeout", "2"], text=True, check=False,
+        capture_output=True, timeout=60,
+    )  # fmt: skip
+    assert done.returncode in (4, 5), done.stdout + done.stderr
+    assert processes(marker) == []
