@@ -26,7 +26,8 @@ if TYPE_CHECKING:
 def command(files: tuple[str, ...], strict: bool, sarif: bool) -> int:
     """Report every fault of domain and problem FILEs, with line and column.
 
-    The exit code is 3 if any fault is an error.
+    A FILE may also be a name: DOMAIN or DOMAIN/PROBLEM. The exit code is 3 if any fault
+    is an error.
     """
     from hrcplan.pddl.check import check
 

@@ -72,15 +72,17 @@ class CheckReport:
 def check(paths: Sequence[str | Path], texts: Mapping[str, str] | None = None) -> CheckReport:
     """Return every fault of the files; problems are checked against their domains.
 
-    A problem's domain is the one of its name among the files given, else in the problem's folder,
-    else among the shipped ones. A file that cannot be read is a fault like any other.
+    A problem's domain is the one of its name among the files given, else near the problem (in its
+    folder, the one above, or ``domains/``), else among the shipped ones. A file that cannot be read
+    is a fault like any other.
 
     Args:
-        paths: The files.
+        paths: The files, or names: ``DOMAIN`` or ``DOMAIN/PROBLEM``.
         texts: By path, what to read instead of the file, as an editor has it.
     """
-    files = [_open(path, texts or {}) for path in paths]
-    domains = _Domains(files, texts or {})
+    texts = texts or {}
+    files = [file for path in paths for file in _open_named(str(path), texts)]
+    domains = _Domains(files, texts)
     for file in files:
         if file.kind == "problem":
             _check_problem(file, domains)
@@ -165,15 +167,28 @@ def kind_of(path: str | Path) -> str:
     return _open(path).kind
 
 
+def _open_named(name: str, texts: Mapping[str, str]) -> Sequence[_File]:
+    if name in texts:
+        return [_open(name, texts)]
+    try:
+        return [_open(path, texts) for path in library.named_files(name)]
+    except InputError as error:
+        return [_without_text(name, error)]
+
+
 def _open(path: str | Path, texts: Mapping[str, str] = MappingProxyType({})) -> _File:
     if str(path) in texts:
         return _read(SourceText(str(path), texts[str(path)]))
     try:
         return _read(read_source(path))
     except InputError as error:
-        source = SourceText(str(path), "")
-        source.error(0, error.code, error.message, error.hint)
-        return _File(source, None, "unknown")
+        return _without_text(str(path), error)
+
+
+def _without_text(path: str, error: InputError) -> _File:
+    source = SourceText(path, "")
+    source.error(0, error.code, error.message, error.hint)
+    return _File(source, None, "unknown")
 
 
 def _read(source: SourceText) -> _File:
@@ -240,7 +255,7 @@ def _check_problem(file: _File, domains: _Domains) -> None:
     elif name is None:
         file.source.error(file.root.at, "no-domain", "the problem does not say its (:domain NAME)")
     else:
-        message = f"no domain {quote(name)} given, in the problem's folder, or shipped"
+        message = f"no domain {quote(name)} given, near the problem, or shipped"
         hint = nearest(name, [*domains.by_name, *library.domain_names()])
         file.source.error(name.at, "domain-mismatch", message, hint)
 

@@ -28,7 +28,7 @@ def read(domain: Readable | Domain, problem: Readable | None = None) -> Problem:
     Args:
         domain: The domain: a shipped name, a path, PDDL text, or a `Domain`. Without ``problem``:
             both in one word (``"transport/two-boxes"``), or a problem (path or text) whose domain
-            is looked up in its folder and among the shipped ones.
+            is looked up near it (its folder, the one above, ``domains/``) and among the shipped.
         problem: The problem: a shipped name of that domain, a path, or PDDL text.
 
     Raises:
@@ -116,7 +116,7 @@ def _read_one(source: str | SourceText) -> Problem:
 
 
 def _domain_for(source: SourceText, path: Path | None) -> Domain:
-    """Return the domain that a problem names: in its folder, or among the shipped ones.
+    """Return the domain that a problem names: near it, or among the shipped ones.
 
     Raises:
         InputError: if there is none of that name.
@@ -127,7 +127,7 @@ def _domain_for(source: SourceText, path: Path | None) -> Domain:
         return Domain("")  # the problem's own faults are reported when it is read
     file = library.domain_file_for(str(name), path)
     if file is None:
-        where = "among the shipped ones" if path is None else "in its folder or shipped"
+        where = "among the shipped ones" if path is None else "near it or shipped"
         message = f"the problem is of domain '{name}', and there is none {where}"
         raise InputError(message, code="domain-mismatch", path=source.path)
     return load_domain(file)

@@ -11,7 +11,7 @@ from __future__ import annotations
 import os
 import re
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from hrcplan.core.text import nearest
@@ -19,6 +19,7 @@ from hrcplan.errors import InputError
 
 _PACKAGE = Path(__file__).resolve().parent.parent
 _HEADING = 100_000  # characters: comments may come first
+_MOST_UP = 3  # folders above a problem's in which its domain may be
 _SPACE = r"(?:\s|;[^\r\n]*(?:[\r\n]|$))*+"
 _DOMAIN = re.compile(rf"{_SPACE}\({_SPACE}define{_SPACE}\({_SPACE}domain{_SPACE}([^\s();]+)")
 _OF_DOMAIN = (
@@ -135,16 +136,41 @@ def own_goals(name: str) -> Path | None:
 
 
 def domain_file_for(name: str, problem: Path | None) -> Path | None:
-    """Return the file of domain ``name``: from a problem's folder, else shipped, else None.
+    """Return the file of domain ``name`` for a problem file, or None.
 
-    A problem that is no file (None) has no folder.
+    It is any file of the problem's folder; else ``NAME.pddl`` or ``*domain*.pddl`` in the folder
+    above, or ``domains/NAME.pddl`` next to the problem or further up; else a shipped one. A problem
+    that is no file (None) has no folder.
     """
-    folder = () if problem is None else sorted(problem.parent.glob("*.pddl"))
-    beside = [path for path in folder if path != problem]
-    package_path = root() / "domains" / f"{name}.pddl"
     return next(
-        (p for p in (*beside, package_path) if os.path.isfile(p) and _defines(p, name)), None
+        (p for p in _places_of_domain(name, problem) if os.path.isfile(p) and _defines(p, name)),
+        None,
     )
+
+
+def _places_of_domain(name: str, problem: Path | None) -> Iterator[Path]:
+    file = f"{name}.pddl"
+    if problem is not None:
+        folder = problem.parent
+        yield from (path for path in sorted(folder.glob("*.pddl")) if path != problem)
+        up = [Path(os.path.normpath(folder.joinpath(*[".."] * n))) for n in range(_MOST_UP + 1)]
+        yield up[1] / file
+        yield from sorted(up[1].glob("*domain*.pddl"))
+        yield from (path / "domains" / file for path in up)
+    yield root() / "domains" / file
+
+
+def named_files(name: str) -> Sequence[Path]:
+    """Return the files of ``DOMAIN`` or ``DOMAIN/PROBLEM``; a path that exists is itself.
+
+    Raises:
+        InputError: if there is no domain or problem of that name.
+    """
+    domain, _, problem = name.partition("/")
+    if os.path.exists(name) or name.endswith(".pddl") or "/" in problem:
+        return [Path(name)]
+    file = find_domain(domain)
+    return [file, find_problem(domain, problem)] if problem else [file]
 
 
 def _own(places: Sequence[Path], package_path: Path, heading: re.Pattern[str]) -> Path | None:

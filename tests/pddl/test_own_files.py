@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 
 from hrcplan.bank.sources import read_goals
+from hrcplan.cli.arguments import split_names
+from hrcplan.pddl.check import check
 from hrcplan.pddl.inputs import read
 from hrcplan.pddl.library import OwnFileWarning, find_domain, find_problem
 
@@ -68,3 +70,30 @@ def test_own_goals_win_over_shipped_ones_with_a_warning(
     (own / "mine.pddl").write_bytes(find_problem("kitchen", "pasta-bean").read_bytes())
     with pytest.warns(OwnFileWarning, match=r"the folder ./problems/kitchen here"):
         assert len(read_goals("kitchen").names) == 1
+
+
+@pytest.mark.parametrize(
+    "domain",
+    ["problems/box/d.pddl", "problems/box.pddl", "problems/the-domain.pddl", "domains/box.pddl"],
+)
+def test_a_problem_alone_names_a_domain_near_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, domain: str
+) -> None:
+    problem = tmp_path / "problems/box/x.pddl"
+    problem.parent.mkdir(parents=True)
+    problem.write_text(PROBLEM.format(name="x", domain="box"))
+    assert [d.code for d in check([problem]).diagnostics] == ["domain-mismatch"]
+    (tmp_path / domain).parent.mkdir(exist_ok=True)
+    (tmp_path / domain).write_text(DOMAIN.format(name="box"))
+    assert check([problem]).diagnostics == ()
+    monkeypatch.chdir(problem.parent)
+    assert read("x.pddl").domain.name == "box"
+    assert split_names(["x.pddl", "my.plan"], 1) == ("x.pddl", None, ["my.plan"])
+
+
+def test_check_takes_names(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("box.pddl").write_text(DOMAIN.format(name="box"))
+    assert check(["box", "transport/two-boxes"]).n_files == 3
+    (fault,) = check(["transport/two-boxs"]).diagnostics
+    assert (fault.code, fault.hint) == ("no-file", "did you mean 'two-boxes'?")
