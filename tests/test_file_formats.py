@@ -54,6 +54,8 @@ RARE: list[ev.Event | ev.Command] = [
     ev.Observed(0.0, frozenset({FACT}), {("load", "robot"): 3}, frozenset({FACT})),
     ev.Observed(0.0, frozenset()),
     ev.AskPlan(0.0, frozenset({FACT}), {("load", "robot"): 3}, {}, absent=frozenset({FACT})),
+    ev.AskPlan(6.0, frozenset({FACT}), {}, {}, n_happened=1),
+    ev.Happened(5.0, 0, "(not (open quay))"),
     ev.Planned(0.0, None, note="no plan in time"),
     ev.Finish(0.0, ev.STOPPED, "a user asked for it"),
 ]

@@ -20,6 +20,11 @@ from tests.studies.test_switch import small_benchmark
 ROOT = Path(__file__).resolve().parent.parent
 SECTIONS = schema.sections("json.md")
 BAD = "(define (problem x) (:domain transport) (:objects a - wpp) (:goal (at human nowhere)))"
+NIGHT = """(define (domain night) (:requirements :timed-initial-literals :durative-actions)
+  (:predicates (dark) (asleep)) (:durative-action sleep :duration (= ?duration 8)
+  :condition (at start (dark)) :effect (at end (asleep))))"""
+TONIGHT = """(define (problem tonight) (:domain night) (:init (at 9 (dark))) (:goal (asleep))
+  (:metric minimize (total-time)))"""
 CLOSE = "0: (move human wp1 wp4) [50]\n50.0001: (grasp human blue wp4) [50]\n"
 SEEN = """(get human yogurt)
 (get human berries)
@@ -48,6 +53,7 @@ COMMANDS = {
         ["execute", "transport/two-boxes", "--human", "partly-cooperative", "--seed", "5",
          "--journal", "{w}/run.jsonl"],
         ["execute", "transport/two-boxes", "--change", "motivation human=2@0"],
+        ["execute", "{w}/night.pddl", "{w}/tonight.pddl"],
     ],
     "collaborate": [["collaborate", "kitchen", "{w}/goals"]],
     "replay": [["replay", "{w}/run.jsonl"]],
@@ -114,6 +120,8 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     work = tmp_path_factory.mktemp("json")
     (work / "bad.pddl").write_text(BAD)
     (work / "seen.txt").write_text(SEEN)
+    (work / "night.pddl").write_text(NIGHT)
+    (work / "tonight.pddl").write_text(TONIGHT)
     (work / "good.plan").write_text("")
     (work / "bad.plan").write_text("(move human wp1 wp2)")
     (work / "close.plan").write_text(CLOSE)

@@ -12,6 +12,8 @@ from hrcplan.planners.contract import Status
 from hrcplan.planners.result import Result
 from hrcplan.plans import Plan, PlannedAction, lane, occupied, seconds_text
 
+BY_ITSELF = "by itself"
+"""The column of timed initial literals."""
 VERDICT = {
     Status.OPTIMAL: "proven optimal",
     Status.SOLVED: "not proven optimal",
@@ -137,12 +139,29 @@ def _table(problem: Problem, plan: Plan) -> list[str]:
             rows.append((when, cells))
         else:
             row.update(cells)
+    coming = _literals(problem, plan)
+    if coming:
+        lanes.append(BY_ITSELF)
+        rows = [(when, cells) for _, when, cells in sorted(
+            [*coming, *((float(when), when, cells) for when, cells in rows)], key=lambda r: r[0]
+        )]  # fmt: skip
     head = "step" if not plan.is_schedule else "time (s)" if problem.domain.is_temporal else "time"
     width = max(len(text) for text in (head, *(when for when, _ in rows)))
     table = [[head, *lanes]] + [
         [when.rjust(width), *(row.get(a, "") for a in lanes)] for when, row in rows
     ]
     return [f"  {line}" for line in output.columns([table[0], output.rule(table), *table[1:]])]
+
+
+def _literals(problem: Problem, plan: Plan) -> list[tuple[float, str, dict[str, str]]]:
+    """Return rows of the timed initial literals that come before the end of a schedule."""
+    if not plan.is_schedule:
+        return []
+    return [
+        (float(change.time), _clock(change.time, problem), {BY_ITSELF: change.literal})
+        for change in problem.timed
+        if change.time <= (plan.makespan_s or 0)
+    ]
 
 
 def _cells(action: PlannedAction, problem: Problem) -> dict[str, str]:

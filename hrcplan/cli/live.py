@@ -50,6 +50,8 @@ class Live:
         if isinstance(event, ev.Sensed):
             values = (f"{fact_text(k)} = {_value(v)}" for k, v in event.values.items())
             self._notes.append(f"sensed {', '.join(values)}")
+        if isinstance(event, ev.Happened):
+            self._notes.append(f"{event.text} comes by itself")
         is_complete = isinstance(event, (ev.Settled, ev.Planned))
         if is_complete:
             self._flush(run)

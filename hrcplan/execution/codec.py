@@ -39,14 +39,14 @@ class Item(Protocol):
 
 
 ABSENT = "absent"
-LEFT_OUT = frozenset({ABSENT, "asks", "takes_over", "none_of_these", "composed"})
+LEFT_OUT = frozenset({ABSENT, "n_happened", "asks", "takes_over", "none_of_these", "composed"})
 """What is left out where it is empty, as in journals of earlier versions."""
 
 KINDS: Mapping[str, type] = {
     kind.__name__.lower(): kind
-    for kind in (ev.Ended, ev.Overdue, ev.Observed, ev.Sensed, ev.Settled, ev.Planned, ev.StopAsked,
-                 ev.Noticed, ev.AskPlan, ev.Dispatch, ev.Cancel, ev.Wake, ev.Adopt, ev.Tell,
-                 ev.Finish)
+    for kind in (ev.Ended, ev.Overdue, ev.Observed, ev.Sensed, ev.Happened, ev.Settled, ev.Planned,
+                 ev.StopAsked, ev.Noticed, ev.AskPlan, ev.Dispatch, ev.Cancel, ev.Wake, ev.Adopt,
+                 ev.Tell, ev.Finish)
 }  # fmt: skip
 
 

@@ -10,15 +10,17 @@ from __future__ import annotations
 from dataclasses import replace
 
 from hrcplan.agents import Profile
-from hrcplan.core.numbers import Number
+from hrcplan.core.numbers import Number, exact
 from hrcplan.execution import events as ev
 from hrcplan.execution.action_model import UNIT_S
 from hrcplan.execution.events import Command
+from hrcplan.execution.forecast import foreseen_obstacle
 from hrcplan.execution.model import ExecutionModel
-from hrcplan.execution.order import Waits, rest_of, waits
+from hrcplan.execution.order import Waits, holds_of, rest_of, waits
 from hrcplan.execution.run import FollowedPlan, Phase, Run, RunStep, begin_action, plus
 from hrcplan.pddl.model import FluentKey, Problem
-from hrcplan.plans import Plan, PlannedAction
+from hrcplan.pddl.semantics import LiftedState
+from hrcplan.plans import EPSILON_S, Plan, PlannedAction
 from hrcplan.validation import objective, validate
 
 MAX_ASKED_AGAIN = 3  # times that one replan may ask again because something changed meanwhile
@@ -41,7 +43,8 @@ class Decider:
         """Return the problem from the present state on, with the values that planners get."""
         problem = self.model.priced_problem
         values = {**problem.values, **run.state.values, **self.planner_values(run)}
-        return replace(problem, facts=frozenset(run.state.facts), values=values)
+        timed = self.model.timed.coming(run.n_happened, run.t)
+        return replace(problem, facts=frozenset(run.state.facts), values=values, timed=timed)
 
     def decide(self, run: Run) -> RunStep:
         """Return what is to be done now that an instant has settled."""
@@ -49,13 +52,38 @@ class Decider:
             return self._ask_plan(run)
         if run.phase is Phase.PLANNING:
             return run, ()
-        if self.actions.is_goal(run.state):
+        if self._is_done(run):
             if run.running:
                 return replace(run, phase=Phase.DRAINING), ()
             return self.finish(run, ev.GOAL, "")
         if run.reasons or run.phase is Phase.DRAINING:
             return self._drain(run)
+        obstacle = self._foreseen_obstacle(run)
+        if obstacle is not None:
+            return self._drain(run.with_reason(ev.CHANGE, obstacle))
         return self._dispatch(run)
+
+    def _is_done(self, run: Run) -> bool:
+        """Whether the goal holds and will hold; preferences are worth the rest of the plan."""
+        if not self.actions.is_goal(run.state):
+            return False
+        if self.model.problem.preferences and _has_rest(run):
+            return False
+        return self.actions.is_goal(self._state_at_last(run))
+
+    def _state_at_last(self, run: Run) -> LiftedState:
+        """Return the state after all timed initial literals, if nothing else happens."""
+        state = run.state
+        for change in self.model.timed.literals[run.n_happened :]:
+            state = self.actions.happen(state, change)
+        return state
+
+    def _foreseen_obstacle(self, run: Run) -> str | None:
+        """Return what a coming timed initial literal will make impossible, if a replan is left."""
+        is_late = run.counts.n_replans >= self.profile.replan_limit
+        if is_late or run.n_happened == len(self.model.timed.literals):
+            return None
+        return foreseen_obstacle(self.model, run, self.planner_values(run))
 
     def _drain(self, run: Run) -> RunStep:
         cancels: tuple[Command, ...] = ()
@@ -85,7 +113,8 @@ class Decider:
         reasons = tuple(f"{r.kind}: {r.text}" for r in run.reasons)
         facts, absent = self.actions.changing(run.state), self.actions.absent(run.state)
         values = self.planner_values(run)
-        return run, (ev.AskPlan(run.t, facts, run.state.values, values, reasons, absent),)
+        numbers, n_happened = run.state.values, run.n_happened
+        return run, (ev.AskPlan(run.t, facts, numbers, values, reasons, absent, n_happened),)
 
     def consider_plan(self, run: Run, event: ev.Planned) -> RunStep:
         """Return what follows from the answer of a planner: adopt, confirm, ask again, or end."""
@@ -134,7 +163,9 @@ class Decider:
         if kind is not None:
             counts = replace(counts, replans=plus(counts.replans, [kind]))
         why = "; ".join(f"{r.kind}: {r.text}" for r in run.reasons)
-        current = FollowedPlan(plan, self._order(plan))
+        coming = self.model.timed.coming(run.n_happened, run.t)
+        holds = holds_of(self.model.problem, plan, coming, run.n_happened, run.t)
+        current = FollowedPlan(plan, self._order(plan), holds)
         run = replace(run, phase=Phase.EXECUTING, current_plan=current, counts=counts, reasons=())
         return run, (ev.Adopt(run.t, plan, why),)
 
@@ -149,7 +180,10 @@ class Decider:
         if current is None:
             return None
         is_temporal = self.model.problem.domain.is_temporal
-        rest = rest_of(current.plan, current.order, current.ended, is_temporal)
+        gap: Number = EPSILON_S if is_temporal else 0  # after a literal it waits for
+        held = {i: exact(repr(max(0.0, h.not_before_s - run.t))) + gap
+                for i, h in current.holds.items()}  # fmt: skip
+        rest = rest_of(current.plan, current.order, current.ended, is_temporal, held)
         now = self.problem_now(run)
         report = validate(now, rest)
         value = objective(now, report)
@@ -167,6 +201,9 @@ class Decider:
             ready = run.current_plan.ready_s(index) if run.current_plan else None
             if ready is None:
                 continue
+            hold = current.holds.get(index)
+            if hold is not None and hold.n_happened > run.n_happened:
+                ready = max(ready, hold.not_before_s, run.t + 2 * ev.INSTANT_S)
             if ready > run.t + ev.INSTANT_S:
                 commands.append(ev.Wake(run.t, ready))
                 continue
@@ -176,6 +213,8 @@ class Decider:
                 return run_after, (*commands, *more)
             commands.append(command)
         if not run.running and not commands:
+            if self.actions.is_goal(self._state_at_last(run)) and not _has_rest(run):
+                return run, self._waking(run)
             return self._drain(run.with_reason(ev.DEVIATION, "the plan has ended without the goal"))
         return run, tuple(commands)
 
@@ -199,10 +238,21 @@ class Decider:
         run = replace(run, current_plan=current)
         return begin_action(self.actions, run, step, duration or 0, lasts, index)
 
+    def _waking(self, run: Run) -> tuple[Command, ...]:
+        """Return the command that wakes the run when the next timed initial literal has come."""
+        coming = self.model.timed.literals[run.n_happened :]
+        return tuple(ev.Wake(run.t, float(change.time)) for change in coming[:1])
+
     def finish(self, run: Run, ending: str, why: str) -> RunStep:
         """Return the run when it is over, and the command that stops every agent."""
         run = replace(run, phase=Phase.OVER, ending=ending, why=why)
         return run, (ev.Finish(run.t, ending, why),)
+
+
+def _has_rest(run: Run) -> bool:
+    """Return whether actions of the running plan have not begun."""
+    plan = run.current_plan
+    return plan is None or len(plan.begun) < len(plan.plan.actions)
 
 
 def _replan_kind(kinds: list[str]) -> str | None:

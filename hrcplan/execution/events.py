@@ -65,6 +65,18 @@ class Sensed:
 
 
 @dataclass(frozen=True, slots=True)
+class Happened:
+    """A timed initial literal of the problem has come about; ``text`` is what it says, as PDDL.
+
+    ``number`` is its place among those of the problem, in order of time, from 0.
+    """
+
+    t: float
+    number: int
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
 class Settled:
     """Nothing more happens in this instant: now the monitor decides."""
 
@@ -100,16 +112,16 @@ class StopAsked:
     why: str
 
 
-Event = Ended | Overdue | Observed | Sensed | Settled | Planned | StopAsked | Noticed
-RANK: Mapping[type, int] = {Ended: 0, Overdue: 0, Noticed: 0, Observed: 1, Sensed: 2, Planned: 3,
-                            Settled: 4, StopAsked: 0}  # fmt: skip
+Event = Ended | Overdue | Observed | Sensed | Happened | Settled | Planned | StopAsked | Noticed
+RANK: Mapping[type, int] = {Ended: 0, Overdue: 0, Happened: 0, Noticed: 0, Observed: 1, Sensed: 2,
+                            Planned: 3, Settled: 4, StopAsked: 0}  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
 class AskPlan:
     """Request for a plan from these facts and numbers, with these agent-state values.
 
-    ``absent``: as in `Observed`.
+    ``absent``: as in `Observed`. ``n_happened``: how many timed initial literals are past.
     """
 
     t: float
@@ -118,6 +130,7 @@ class AskPlan:
     values: Mapping[FluentKey, Number]
     reasons: tuple[str, ...] = ()
     absent: frozenset[Fact] = frozenset()
+    n_happened: int = 0
 
 
 @dataclass(frozen=True, slots=True)

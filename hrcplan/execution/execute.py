@@ -32,7 +32,7 @@ from hrcplan.execution.simulate import Engine, Spec
 from hrcplan.execution.timeline import Timeline
 from hrcplan.execution.worlds import EventWorld
 from hrcplan.execution.worlds.registry import EVENT_WORLDS, ROBOT, SIMULATED
-from hrcplan.pddl.inlining import plain
+from hrcplan.pddl.inlining import executable
 from hrcplan.pddl.inputs import Readable, as_problem
 from hrcplan.pddl.model import Domain, FluentKey, Problem
 from hrcplan.pddl.settings import check_function
@@ -181,7 +181,7 @@ def prepare_run(
     _check_type("seed", seed, int, str)
     _check_type("replan_limit", replan_limit, int, type(None))
     _check_type("profile", profile, str, Profile)
-    problem = plain(problem)
+    problem = executable(problem)
     own_profile = load_profile(profile) if isinstance(profile, str) else profile
     planners = _planners(planner)
     names = tuple(p if isinstance(p, str) else p.card.name for p in planners)

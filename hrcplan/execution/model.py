@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from hrcplan.agents import AgentModel
 from hrcplan.execution.action_model import ActionModel
+from hrcplan.execution.timed import TimedEvents
 from hrcplan.pddl.model import Problem
 from hrcplan.planners.expected_price import expected_retries
 
@@ -15,6 +16,7 @@ class ExecutionModel:
         problem: The problem as it was read.
         priced_problem: The problem that planners get: interactions cost their expected retries.
         actions: How actions begin, end and fail.
+        timed: The timed initial literals.
         agents: The elements of agent state, and which actions they touch.
     """
 
@@ -22,6 +24,7 @@ class ExecutionModel:
         self.problem = problem
         self.priced_problem = expected_retries(problem)
         self.actions = ActionModel(problem)
+        self.timed = TimedEvents(problem)
         self.agents = AgentModel(problem)
 
     def __repr__(self) -> str:

@@ -59,7 +59,10 @@ class Monitor:
                 return self.observer.state(run, event), ()
             case ev.Sensed():
                 return self.observer.sensed_values(run, event)
+            case ev.Happened():
+                return self.observer.timed_events(run, event.number + 1), ()
             case ev.Settled():
+                run = self.observer.timed_events(run, self.model.timed.n_past(run.t))
                 return self.decider.decide(self.observer.compare_states(run))
             case ev.Planned():
                 return self.decider.consider_plan(run, event)

@@ -24,7 +24,7 @@ class Observer:
     """Updates what is believed about one problem; ``sensing`` false ignores sensed values."""
 
     def __init__(self, model: ExecutionModel, sensing: bool = True) -> None:
-        self.actions, self.agents = model.actions, model.agents
+        self.actions, self.agents, self.timed = model.actions, model.agents, model.timed
         self.sensing = sensing
 
     def outcome(self, run: Run, event: ev.Ended) -> RunStep:
@@ -51,7 +51,9 @@ class Observer:
         )  # fmt: skip
         run = replace(
             run, running=run.without(action), current_plan=plan, counts=counts,
-            state=self.actions.finish(run.state, step, _number(action.duration_s)),
+            state=self.actions.finish(
+                run.state, step, _number(action.duration_s), action.start_effects
+            ),
             memory=run.memory.went_well(self._touching(step)),
         )  # fmt: skip
         return self._after_interaction(run, step)
@@ -66,6 +68,7 @@ class Observer:
     def _revert(self, run: Run, action: RunningAction, outcome: str) -> Run:
         """Take a failed or cancelled action back: no effect, the time is used up."""
         agent, counts = action.step.agent, run.counts
+        broken = self._broken_condition(run, action.step)
         plan = run.current_plan
         if plan is not None:
             starts = {i: t for i, t in plan.begun.items() if i != action.index}
@@ -82,9 +85,29 @@ class Observer:
         if outcome == ev.UNKNOWN:  # which is no sign of an agent's state
             run = replace(run, counts=counts)
             return run.with_reason(ev.FAILURE, f"whether {text} was done is unknown")
+        if broken is not None:  # which is no sign of an agent's state either
+            run = replace(run, counts=counts)
+            return run.with_reason(ev.FAILURE, f"{text} failed, {broken} does not hold any more")
         memory = run.memory.failed(self._suspects(run, action.step))
         text = f"{text} failed"
         return replace(run, counts=counts, memory=memory).with_reason(ev.FAILURE, text)
+
+    def _broken_condition(self, run: Run, step: BoundAction) -> str | None:
+        """Return the condition of a failed action that a timed initial literal has made false."""
+        if not self.timed.literals:
+            return None
+        return self.actions.unmet_phase(run.state, step, "all") or self.timed.obstacle_at_end(
+            self.actions, run.state, step
+        )
+
+    def timed_events(self, run: Run, n_happened: int) -> Run:
+        """Return the run after so many of the problem's timed initial literals have happened."""
+        if n_happened <= run.n_happened:
+            return run
+        state = run.state
+        for change in self.timed.literals[run.n_happened : n_happened]:
+            state = self.actions.happen(state, change)
+        return replace(run, state=state, n_happened=n_happened)
 
     def _suspects(self, run: Run, step: BoundAction) -> Iterable[FluentKey]:
         """Return the elements that can have made an action fail: those sensed high, if any."""

@@ -54,7 +54,8 @@ class Replanner:
     def answer(self, ask: ev.AskPlan) -> ev.Planned:
         """Return a checked plan for what was asked, or none with the reason."""
         values = tuple(sorted(ask.values.items()))
-        key = (ask.facts, ask.absent, values, tuple(sorted(ask.numbers.items())))
+        coming = self.model.timed.coming(ask.n_happened, ask.t)
+        key = (ask.facts, ask.absent, values, tuple(sorted(ask.numbers.items())), coming)
         answer = self._answers.get(key)
         if answer is None:
             begin = time.perf_counter()
@@ -120,7 +121,8 @@ class Replanner:
         state = self.model.actions.state(ask.facts, ask.numbers, ask.absent)
         values = {**ask.numbers, **ask.values}
         problem_with_prices = self.model.priced_problem.with_values(values)
-        problem = replace(problem_with_prices, facts=frozenset(state.facts))
+        coming = self.model.timed.coming(ask.n_happened, ask.t)
+        problem = replace(problem_with_prices, facts=frozenset(state.facts), timed=coming)
         try:
             return problem, self._groundings.task(problem)
         except (UnsupportedError, LimitError):

@@ -11,7 +11,7 @@ from hrcplan.agents.profile import Experience
 from hrcplan.core.numbers import Number
 from hrcplan.execution.action_model import ActionModel, BoundAction, StartEffects
 from hrcplan.execution.events import Command, Dispatch
-from hrcplan.execution.order import Waits
+from hrcplan.execution.order import Hold, Waits
 from hrcplan.pddl.model import FluentKey
 from hrcplan.pddl.semantics import LiftedState
 from hrcplan.plans import Plan
@@ -41,16 +41,20 @@ class RunningAction:
 
 @dataclass(frozen=True, slots=True)
 class FollowedPlan:
-    """A plan that is being followed: which of its actions have begun, and which have ended."""
+    """A plan that is being followed: which of its actions have begun, and which have ended.
+
+    ``holds``: what actions wait for besides other actions (see ``order.py``), by their place.
+    """
 
     plan: Plan
     order: Waits
+    holds: Mapping[int, Hold] = field(default_factory=dict)
     begun: Mapping[int, float] = field(default_factory=dict)
     ended: frozenset[int] = frozenset()
 
     def ready_s(self, index: int) -> float | None:
         """Return from when an action may begin; None while it waits for something unfinished."""
-        earliest = 0.0
+        earliest = self.holds[index].not_before_s if index in self.holds else 0.0
         for wait in self.order[index]:
             if wait.for_end:
                 if wait.index not in self.ended:
@@ -108,6 +112,7 @@ class Run:
     ``sensed_values``: the last valid value of each element. ``observation``: an observed state that
     was not yet compared with the expected ``state``. ``n_reasons_asked``: how many ``reasons`` the
     planner was asked with. ``confirmation_s``: when the current plan was confirmed last.
+    ``n_happened``: how many timed initial literals of the problem are past.
     """
 
     state: LiftedState
@@ -122,6 +127,7 @@ class Run:
     observation: LiftedState | None = None
     n_reasons_asked: int = 0
     confirmation_s: float | None = None
+    n_happened: int = 0
     counts: RunCounts = field(default_factory=RunCounts)
     ending: str | None = None
     why: str = ""

@@ -41,11 +41,14 @@ class Timeline:
     bars: dict[int, Bar] = field(default_factory=dict)
     plans: list[Adopted] = field(default_factory=list)
     messages: list[ev.Tell] = field(default_factory=list)
+    literals: list[ev.Happened] = field(default_factory=list)
 
     def watch(self, run: Run, event: Event, commands: tuple[Command, ...]) -> None:
         """Take in one step of the monitor."""
         if isinstance(event, ev.Ended):
             self._close(event.number, run.t, event.outcome)
+        if isinstance(event, ev.Happened):
+            self.literals.append(event)
         for command in commands:
             match command:
                 case ev.Dispatch():
@@ -80,7 +83,7 @@ class Timeline:
         return Plan(actions), frozenset(i for i, b in enumerate(bars) if b.outcome == ev.FAILED)
 
     def to_json(self) -> dict[str, Any]:
-        """Return actions, plans and messages as a JSON object."""
+        """Return actions, plans, messages and timed initial literals as a JSON object."""
         return {
             "actions": [
                 {
@@ -94,4 +97,5 @@ class Timeline:
                 for p in self.plans
             ],
             "messages": [{"t": m.t, "code": m.code, "message": m.message} for m in self.messages],
+            "literals": [{"t": happened.t, "literal": happened.text} for happened in self.literals],
         }  # fmt: skip

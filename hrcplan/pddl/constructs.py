@@ -14,9 +14,12 @@ TRAJECTORIES = "trajectory constraints"
 CONTINUOUS = "processes, events or continuous effects"
 ALL = frozenset([AXIOMS, TIMED, PREFERENCES, START_CONDITIONS, TRAJECTORIES, CONTINUOUS])
 
+EXECUTED = frozenset([AXIOMS, TIMED, PREFERENCES, START_CONDITIONS])
+"""Those that an execution can hold."""
+
 
 def constructs(problem: Problem) -> Iterator[str]:
-    """Yield the names of the constructs that a ground task and an execution cannot hold."""
+    """Yield the names of the constructs that a ground task cannot hold."""
     domain = problem.domain
     if domain.axioms:
         yield AXIOMS

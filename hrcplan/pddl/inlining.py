@@ -12,7 +12,7 @@ from itertools import count
 from hrcplan.core.records import record, replace
 from hrcplan.errors import UnsupportedError
 from hrcplan.pddl.axioms import levels, uses
-from hrcplan.pddl.constructs import AXIOMS, constructs
+from hrcplan.pddl.constructs import AXIOMS, EXECUTED, TIMED, constructs
 from hrcplan.pddl.derivation import Derivation, substitute
 from hrcplan.pddl.model import (
     Action,
@@ -35,11 +35,30 @@ def plain(problem: Problem) -> Problem:
     Raises:
         UnsupportedError: naming the construct that cannot be compiled away.
     """
-    for name in constructs(problem):
-        if name != AXIOMS:
-            message = f"{name} cannot be held by a ground task"
-            raise UnsupportedError(message, hint="'plan' hands them to planners that know them")
+    _refuse(problem, frozenset([AXIOMS]), "cannot be held by a ground task")
     return without_axioms(problem) if problem.domain.axioms else problem
+
+
+def executable(problem: Problem) -> Problem:
+    """Return a problem that can be executed: without derived predicates, if they can be inlined.
+
+    Raises:
+        UnsupportedError: naming the construct that an execution cannot hold.
+    """
+    _refuse(problem, EXECUTED, "cannot be executed")
+    if not frozenset([AXIOMS, TIMED]).issuperset(constructs(problem)):
+        return problem  # what else looks at derived predicates is not inlined
+    try:
+        return without_axioms(problem)
+    except UnsupportedError:
+        return problem  # they are evaluated in each state
+
+
+def _refuse(problem: Problem, constructs_held: Set[str], what: str) -> None:
+    for name in constructs(problem):
+        if name not in constructs_held:
+            hint = "'plan' hands them to planners that know them"
+            raise UnsupportedError(f"{name} {what}", hint=hint)
 
 
 def remaining(problem: Problem) -> frozenset[str]:
@@ -63,6 +82,8 @@ def without_axioms(problem: Problem) -> Problem:
     constant = _constant(problem)
     once = [axiom for axiom in problem.domain.axioms if axiom.name in constant]
     lasting = replace(problem, domain=replace(problem.domain, axioms=tuple(once)))
+    if not problem.domain.axioms:
+        return problem
     state = LiftedState(problem.facts, problem.values)
     facts = frozenset(Derivation(lasting).close(state).facts)
     rest = [axiom for axiom in problem.domain.axioms if axiom.name not in constant]
@@ -76,6 +97,7 @@ def _constant(problem: Problem) -> Set[str]:
     """Return the derived predicates that depend on nothing that an action can change."""
     domain = problem.domain
     changing = {e.target.name for action in domain.actions for e in action.effects}
+    changing |= {change.key[0] for change in problem.timed}
     while True:
         more = {
             axiom.name

@@ -37,6 +37,24 @@ def clash(a: Access, b: Access) -> Fact | None:
     return None
 
 
+def depends(problem: Problem, a: Access, b: Access) -> bool:
+    """Return whether the order of two events matters: they interfere, also by what is derived.
+
+    One that writes what a derived predicate depends on comes before or after one that reads it.
+    """
+    if clash(a, b) is not None:
+        return True
+    if not problem.domain.axioms:
+        return False
+    for one, other in ((a, b), (b, a)):
+        writes = {key[0] for part in (other.adds, other.deletes, other.sums, other.assigns)
+                  for key in part}  # fmt: skip
+        for name in {fact[0] for fact in one.reads} & problem.domain.derived:
+            if not writes.isdisjoint(problem.domain.sources[name]):
+                return True
+    return False
+
+
 def access(problem: Problem, action: Action, binding: Binding, when: str) -> Access:
     """Return what the ``start`` or ``end`` of an action under a binding reads and writes."""
     atoms: set[Fact] = set()

@@ -260,13 +260,16 @@ class TimedChange:
     positive: bool = True
     value: Number | None = None
 
-    def __str__(self) -> str:
+    @property
+    def literal(self) -> str:
+        """The literal without its time, as PDDL."""
         text = fact_text(self.key)
         if self.value is not None:
-            text = f"(= {text} {number_text(self.value)})"
-        elif not self.positive:
-            text = f"(not {text})"
-        return f"(at {number_text(self.time)} {text})"
+            return f"(= {text} {number_text(self.value)})"
+        return text if self.positive else f"(not {text})"
+
+    def __str__(self) -> str:
+        return f"(at {number_text(self.time)} {self.literal})"
 
 
 @record
@@ -393,6 +396,23 @@ class Domain:
     def derived(self) -> frozenset[str]:
         """Predicates that axioms define: no state holds them, they follow from it."""
         return frozenset(axiom.name for axiom in self.axioms)
+
+    @cached_property
+    def sources(self) -> Mapping[str, frozenset[str]]:
+        """The names of what each derived predicate depends on, whether directly or not."""
+        from hrcplan.pddl.walks import lifted_names
+
+        names: dict[str, frozenset[str]] = dict.fromkeys(self.derived, frozenset())
+        for axiom in self.axioms:
+            names[axiom.name] |= frozenset(lifted_names(axiom.body))
+        while True:
+            more = {
+                name: below.union(*(names[other] for other in below if other in names))
+                for name, below in names.items()
+            }
+            if more == names:
+                return names
+            names = more
 
     @cached_property
     def changed_functions(self) -> frozenset[str]:

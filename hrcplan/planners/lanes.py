@@ -14,7 +14,7 @@ from dataclasses import replace
 from hrcplan.core.numbers import Number
 from hrcplan.core.records import record
 from hrcplan.errors import LimitError, UnsupportedError
-from hrcplan.pddl.interference import Access, access, clash
+from hrcplan.pddl.interference import Access, access, depends
 from hrcplan.pddl.model import Action, Problem
 from hrcplan.pddl.semantics import Binding, Undefined, bind, evaluate
 from hrcplan.plans import EPSILON_S, Plan, PlannedAction, occupied
@@ -82,7 +82,7 @@ def _jobs(problem: Problem, plan: Plan) -> list[_Job]:
         _Job(
             action,
             _duration(problem, problem.domain.action(action.name), action),
-            tuple(j for j in range(i) if clash(touches[j], touches[i]) is not None),
+            tuple(j for j in range(i) if depends(problem, touches[j], touches[i])),
             options[i],
         )
         for i, action in enumerate(plan.actions)

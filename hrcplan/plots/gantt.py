@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 MIN_WIDTH, MAX_WIDTH = 7.0, 16.0  # inches: at most 2400 pixels
+BY_ITSELF = "by itself"
+"""The lane of timed initial literals."""
 _TOP_PT, _AXIS_PT, _SIDE_PT = 34.0, 44.0, 16.0
 _KEY_PT = 1.45 * FONT_PT  # height of a line of the legend
 
@@ -51,8 +53,12 @@ def draw(problem: Problem, plan: Plan, form: str, failed: Collection[int] = froz
         for bar in _bars(problem, action, names, place in failed)
     ]
     end = max([float(plan.makespan_s or 0), *(bar.start + bar.length for bar in bars)]) or 1.0
+    moments = _moments(problem, end)
+    if moments:
+        names.append(BY_ITSELF)
     left = max(width_pt(name or "no agent", 9) for name in names) + _SIDE_PT
     width = 72 * _width(bars, end, left)
+    bars += [GanttBar(len(names) - 1, t, end / 100, text) for t, text in moments]
     unit = (width - left - _SIDE_PT) / end
     labels = {bar.text for bar in bars if not bar.faint and not fits(bar, unit)}
     columns, n_lines = _key_shape(labels, width - left)
@@ -61,7 +67,13 @@ def draw(problem: Problem, plan: Plan, form: str, failed: Collection[int] = froz
     bottom = _AXIS_PT + _KEY_PT * n_lines
     axes = figure.add_axes((left / width, bottom / height, unit * end / width,
                             LANE_PT * len(names) / height))  # fmt: skip
-    numbers = draw_bars(axes, bars, colors([a.name for a in plan.actions]), unit)
+    color_of = {
+        **colors([a.name for a in plan.actions]),
+        **{text: style.LINE for _, text in moments},
+    }
+    numbers = draw_bars(axes, bars, color_of, unit)
+    for t, _ in moments:
+        axes.axvline(t, color=style.GRAY, linewidth=0.9, linestyle="--", zorder=0)
     name_lanes(axes, names, end)
     axes.set_xlabel("time (s)" if problem.domain.is_temporal else "time (steps)")
     axes.set_title(f"{problem.domain.name}/{problem.name}, {_makespan(problem, plan)}")
@@ -73,6 +85,15 @@ def _lanes(problem: Problem, plan: Plan) -> list[str]:
     """Return the names of the lanes; an empty name is that of actions without an agent."""
     is_without = any(lane(action.args, problem) is None for action in plan.actions)
     return [*problem.agents, *([""] if is_without or not problem.agents else [])]
+
+
+def _moments(problem: Problem, end: float) -> list[tuple[float, str]]:
+    """Return the timed initial literals until ``end``: those of one moment as one text."""
+    texts: dict[float, list[str]] = {}
+    for change in problem.timed:
+        if change.time <= end:
+            texts.setdefault(float(change.time), []).append(change.literal)
+    return [(t, " ".join(literals)) for t, literals in texts.items()]
 
 
 def _bars(

@@ -14,7 +14,7 @@ from hrcplan.execution.replanner import Replanner
 from hrcplan.execution.simulate import Engine
 from hrcplan.execution.worlds import EventWorld
 from hrcplan.execution.worlds.simulated import Nature
-from hrcplan.pddl.inlining import plain
+from hrcplan.pddl.inlining import executable
 from hrcplan.pddl.model import Problem
 from hrcplan.testing.watched_world import DomainTruth, WatchedWorld
 
@@ -45,7 +45,7 @@ def check_event_world(
     Raises:
         AssertionError: if a law is broken.
     """
-    model = ExecutionModel(plain(problem))
+    model = ExecutionModel(executable(problem))
     engine = Engine(Monitor(model, load_profile("hrcplan")), Replanner(model))
 
     def watched(nature: Nature) -> WatchedWorld:

@@ -11,7 +11,7 @@ from hrcplan.execution.journal import RunSetup, setup_from_json
 from hrcplan.execution.model import ExecutionModel
 from hrcplan.execution.natures import NatureSource, checked_nature
 from hrcplan.execution.worlds.simulated import Nature
-from hrcplan.pddl.inlining import plain
+from hrcplan.pddl.inlining import executable
 from hrcplan.pddl.model import Problem
 
 
@@ -34,7 +34,7 @@ def check_nature(
     """
     source, twin = make(), make()
     assert isinstance(source, NatureSource), f"{type(source).__name__} has no nature()"
-    seeds, model = list(seeds), ExecutionModel(plain(problem))
+    seeds, model = list(seeds), ExecutionModel(executable(problem))
     natures = [source.nature(model.problem, seed) for seed in seeds]
     for seed, nature in reversed(list(zip(seeds, natures, strict=True))):
         assert isinstance(nature, Nature), f"nature() returns a Nature, not {nature!r}"

@@ -151,6 +151,8 @@ class Story:
             case ev.Sensed(_, values) | shared.StateTold(_, values):
                 shown = (f"{' '.join(k)} is {v:g}" for k, v in _values_by_key(values).items())
                 yield STATE, ", ".join(shown)
+            case ev.Happened(_, _, text):
+                yield STATE, f"{text} comes by itself"
             case ev.Noticed(_, _, message):
                 yield NOTE, message
 

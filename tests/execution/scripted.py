@@ -1,12 +1,20 @@
 """Helpers of the tests: a monitor that is fed events by hand, with plans written out."""
 
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
 from hrcplan.agents import load_profile
 from hrcplan.execution import events as ev
 from hrcplan.execution.events import Command, Event
+from hrcplan.execution.execute import Execution, carry_out, prepare_run
 from hrcplan.execution.model import ExecutionModel
 from hrcplan.execution.monitor import Monitor
+from hrcplan.execution.replanner import Replanner
 from hrcplan.execution.run import Run
+from hrcplan.execution.worlds.simulated import Nature
 from hrcplan.pddl.inputs import read
+from hrcplan.pddl.model import Problem
 from hrcplan.plans import Plan, parse_plan
 from hrcplan.validation import objective, validate
 
@@ -84,3 +92,33 @@ def dispatched(commands: tuple[Command, ...]) -> list[str]:
 def adopted(commands: tuple[Command, ...]) -> Plan:
     """Return the plan that was taken over."""
     return next(command.plan for command in commands if isinstance(command, ev.Adopt))
+
+
+class Plans:
+    """Answers the n-th request with the n-th plan, if it is valid from then on."""
+
+    def __init__(self, problem: Problem, plans: Sequence[str]) -> None:
+        self.model, self.plans = ExecutionModel(problem), list(plans)
+        self.asks: list[ev.AskPlan] = []
+
+    def answer(self, ask: ev.AskPlan) -> ev.Planned:
+        """Return the next plan."""
+        self.asks.append(ask)
+        if not self.plans:
+            return ev.Planned(ask.t, None, note="no more plans")
+        now = Replanner(self.model, timeout_s=1)._from_now(ask)[0]
+        plan = parse_plan(self.plans.pop(0))
+        report = validate(now, plan)
+        assert report.valid, report.reason
+        return ev.Planned(ask.t, plan, objective(now, report), "by hand")
+
+
+def carried_out(
+    problem: Problem, *plans: str, nature: Nature | None = None, journal: Path | None = None,
+    resume: bool = False,
+) -> tuple[Execution, Plans]:  # fmt: skip
+    provider = Plans(problem, plans)
+    prepared = prepare_run(problem, provider=provider)
+    if nature is not None:
+        prepared = replace(prepared, setup=replace(prepared.setup, nature=nature))
+    return carry_out(prepared, journal=journal, resume=resume), provider

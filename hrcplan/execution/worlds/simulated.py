@@ -77,9 +77,16 @@ class _ActionOutcome:
     start_effects: StartEffects
 
 
-_Due = StateChange | FactChange | ev.Ended | int | None
+@dataclass(frozen=True, slots=True)
+class _Literal:
+    """A timed initial literal of the problem, by its place."""
+
+    number: int
+
+
+_Due = StateChange | FactChange | ev.Ended | _Literal | int | None
 """What is due at a time: a number is that of an action that ends."""
-_END, _ACCIDENT, _CHANGE, _SENSE, _WAKE = range(5)
+_END, _LITERAL, _ACCIDENT, _CHANGE, _SENSE, _WAKE = range(6)
 """Kinds of entries on the clock; in one instant they happen in this order."""
 
 
@@ -103,6 +110,8 @@ class SimulatedWorld:
             self._at(change.t, _CHANGE, change)
         for accident in nature.accidents:
             self._at(accident.t, _ACCIDENT, accident)
+        for number, literal in enumerate(model.timed.literals):
+            self._at(float(literal.time), _LITERAL, _Literal(number))
 
     def _at(self, t: float, kind: int, what: _Due) -> None:
         self._n_entries += 1
@@ -230,12 +239,40 @@ class SimulatedWorld:
             return self._end(t, what)
         if isinstance(what, FactChange):
             self.set_state(what.adds, what.deletes)
+            self._break_actions(t)
             return [self.observation()]
+        if isinstance(what, _Literal):
+            return self._come_about(t, what.number)
         if isinstance(what, StateChange):
             return self._change(t, what.values)
         if kind == _SENSE:
             return self._sense(t)
         return [self.observation()]
+
+    def _come_about(self, t: float, number: int) -> Sequence[Event]:
+        """Let a timed initial literal of the problem happen."""
+        change = self.model.timed.literals[number]
+        self.state = self.actions.happen(self.state, change)
+        self._break_actions(t)
+        events: list[Event] = [ev.Happened(t, number, change.literal)]
+        if self.actions.is_agent_state(change):
+            assert change.value is not None
+            self.values[change.key] = change.value
+            events.append(ev.Sensed(t, {change.key: change.value}))
+        return events
+
+    def _break_actions(self, t: float) -> None:
+        """Let actions fail that need all the time what does not hold any more.
+
+        Only in problems with timed initial literals, and not the actions that a link carries out.
+        """
+        if not self.model.timed.literals:
+            return
+        here = {what for _, kind, _, what in self._clock if kind == _END}
+        for number, action in self._outcomes.items():
+            if number in here and self.actions.unmet_phase(self.state, action.step, "all"):
+                self._failures.add(number)
+                self._at(t, _END, number)
 
     def _end(self, t: float, number: int) -> Sequence[Event]:
         action = self._outcomes.get(number)
@@ -257,7 +294,9 @@ class SimulatedWorld:
         if outcome != ev.DONE:
             self.state = self.actions.revert(self.state, action.start_effects)
             return [ev.Ended(t, number, outcome)]
-        self.state = self.actions.finish(self.state, action.step, action.duration)
+        self.state = self.actions.finish(
+            self.state, action.step, action.duration, action.start_effects
+        )
         return [ev.Ended(t, number, ev.DONE), *self._influence(t, number, action.step)]
 
     def _influence(self, t: float, number: int, step: BoundAction) -> Sequence[Event]:
@@ -276,8 +315,13 @@ class SimulatedWorld:
         return float(self.model.problem.domain.success(name))
 
     def _succeeds(self, number: int, action: _ActionOutcome) -> bool:
-        """Return the outcome of an action, from the true agent state and what was drawn for it."""
+        """Return the outcome of an action, from the true agent state and what was drawn for it.
+
+        One that needs at its end what a timed initial literal has changed fails, too.
+        """
         name = action.step.schema.name
+        if self.model.timed.obstacle_at_end(self.actions, self.state, action.step):
+            return False
         if not self._is_human(action.step) or name not in (self.nature.can_fail or {name}):
             return True
         agent = action.step.agent
