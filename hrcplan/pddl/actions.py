@@ -9,7 +9,7 @@ from hrcplan.core.text import nearest, nearest_name, quote
 from hrcplan.pddl.effects import read_effects
 from hrcplan.pddl.foreign import FOREIGN
 from hrcplan.pddl.formulas import read_conditions, read_expression
-from hrcplan.pddl.model import CONTINUOUS, DURATION, Action, Constant, Expr, Preference
+from hrcplan.pddl.model import CONTINUOUS, DURATION, Action, Constant, Expr, Param, Preference
 from hrcplan.pddl.parentheses import ACTIONS, PARTS
 from hrcplan.pddl.preferences import read_preferences
 from hrcplan.pddl.reader import GroupNode, ParseNode, WordNode
@@ -35,6 +35,7 @@ _INSTEAD = {
 }
 """Cures for a part of the other kind of action."""
 _TYPED_PARTS = (":agent", ":vars")  # not supported, but what they bind is no further fault
+_BINDING_PARTS = (":parameters", *_TYPED_PARTS)
 
 
 def read_actions(
@@ -71,12 +72,10 @@ def _action(node: GroupNode, scope: Scope) -> Action | None:
         return None
     durative = node.head == ":durative-action"
     parts = _parts(node, source, durative)
-    params = tuple(
-        param
-        for part in (":parameters", *_TYPED_PARTS)
-        if part in parts
-        for param in read_params(parts[part], scope)
-    )
+    params: tuple[Param, ...] = ()
+    for part in _BINDING_PARTS:
+        if part in parts:
+            params += read_params(parts[part], scope)
     inner = scope.binding(params)
     scope_at_end = inner.knowing(DURATION) if durative else inner
     moment = None if durative else "start"
@@ -91,9 +90,7 @@ def _action(node: GroupNode, scope: Scope) -> Action | None:
     if condition is not None:
         condition, preferences = read_preferences(condition, inner, durative)
     effect = parts.get(":effect")
-    if effect is None or (
-        isinstance(effect, GroupNode) and effect[1:] == [] and effect.head in ("", "and")
-    ):
+    if effect is None or _is_empty(effect, inner):
         source.warn(node.at, "no-effect", f"action {quote(node[1])} has no effect")
     return Action(
         name=str(node[1]),
@@ -104,6 +101,13 @@ def _action(node: GroupNode, scope: Scope) -> Action | None:
         durations=tuple(_durations(parts.get(":duration"), inner, node)) if durative else (),
         preferences=preferences,
     )
+
+
+def _is_empty(effect: ParseNode, scope: Scope) -> bool:
+    """Whether an effect is ``()`` or ``(and)``."""
+    if isinstance(effect, WordNode) or scope.plain_atom(effect) is not None:
+        return False
+    return len(effect) < 2 and effect.head in ("", "and")
 
 
 def _parts(node: GroupNode, source: SourceText, durative: bool) -> dict[str, ParseNode]:

@@ -25,7 +25,7 @@ from hrcplan.pddl.typed_lists import read_params
 
 ASSIGNMENTS = frozenset(["assign", "increase", "decrease", "scale-up", "scale-down"])
 _LOGIC = frozenset(["and", "forall", "when"])
-_NO_EFFECTS = COMPARISONS | {"or", "imply", "exists", "not", "over"}
+_NO_EFFECTS = COMPARISONS | _LOGIC | {"or", "imply", "exists", "not", "over"}
 
 
 def read_effects(node: ParseNode, scope: Scope, when: str | None) -> Iterable[Effect]:
@@ -33,17 +33,18 @@ def read_effects(node: ParseNode, scope: Scope, when: str | None) -> Iterable[Ef
     atom = scope.plain_atom(node)
     if atom is not None and when in ("start", "end") and atom.name not in scope.derived:
         return (Effect(when, "add", atom),)
-    if not isinstance(node, GroupNode) or (node and not node.head):
+    head = node.head if isinstance(node, GroupNode) else ""
+    if not isinstance(node, GroupNode) or (node and not head):
         message = "an effect such as (p ?x) is expected here"
         scope.source.error(node.at, "not-an-effect", message, loose_cure(node, "effects"))
         return ()
     pair = time_of(node) if when is None else None
     if pair is not None and pair[0] != "all":
         return read_effects(pair[1], scope, pair[0])
-    match node.head:
+    match head:
         case "":
             return ()
-        case _ if scope.is_atom(node) and when is not None:
+        case _ if when is not None and scope.is_atom(node):
             return _literal(node, scope, when)
         case "and":
             return [effect for part in node[1:] for effect in read_effects(part, scope, when)]
@@ -55,14 +56,14 @@ def read_effects(node: ParseNode, scope: Scope, when: str | None) -> Iterable[Ef
             return _conditional(node, scope, when)
         case _ if is_unsupported(node, scope):
             return ()
-        case head if when is None and head in ASSIGNMENTS and _mentions(node, CONTINUOUS):
+        case _ if when is None and head in ASSIGNMENTS and _mentions(node, CONTINUOUS):
             scope.source.use(":continuous-effects", node.at)
             return _assignment(node, scope.knowing(CONTINUOUS), "all")
         case _ if when is None:
             message = "a durative effect needs (at start …) or (at end …)"
             scope.source.error(node.at, "no-time", message)
             return ()
-        case head if head in ASSIGNMENTS:
+        case _ if head in ASSIGNMENTS:
             return _assignment(node, scope, when)
         case _:
             return _literal(node, scope, when)
@@ -127,7 +128,7 @@ def _both(outer: Formula, inner: Formula) -> Formula:
     return And((outer, inner))
 
 
-def _literal(node: GroupNode, scope: Scope, when: str) -> Iterator[Effect]:
+def _literal(node: GroupNode, scope: Scope, when: str) -> tuple[Effect, ...]:
     inner: ParseNode = node
     if node.head == "not" and len(node) == 2 and not scope.is_atom(node):
         inner = node[1]
@@ -138,7 +139,7 @@ def _literal(node: GroupNode, scope: Scope, when: str) -> Iterator[Effect]:
             if isinstance(inner, GroupNode):
                 message = f"{quote(inner.head)} cannot be an effect"
             scope.source.error(inner.at, "not-an-effect", message, _cure(node, inner))
-            return
+            return ()
         atom = read_atom(inner, scope)
     if when == "all":
         message = "a process changes numbers only, such as (increase (f) (* #t 2))"
@@ -147,11 +148,12 @@ def _literal(node: GroupNode, scope: Scope, when: str) -> Iterator[Effect]:
         message = f"{quote(atom.name)} is derived: no action can change it"
         scope.source.error(inner.at, "derived-predicate", message)
     elif atom is not None:
-        yield Effect(when, "add" if inner is node else "delete", atom)
+        return (Effect(when, "add" if inner is node else "delete", atom),)
+    return ()
 
 
 def _is_no_effect(node: GroupNode, scope: Scope) -> bool:
-    return node.head in _NO_EFFECTS | _LOGIC and not scope.is_atom(node)
+    return node.head in _NO_EFFECTS and not scope.is_atom(node)
 
 
 def _cure(node: GroupNode, inner: ParseNode) -> str | None:

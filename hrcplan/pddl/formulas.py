@@ -59,17 +59,18 @@ def read_formula(node: ParseNode, scope: Scope) -> Formula:
     atom = scope.plain_atom(node)
     if atom is not None:
         return atom
-    if isinstance(node, WordNode) or (node and not node.head):
+    head = "" if isinstance(node, WordNode) else node.head
+    if isinstance(node, WordNode) or (node and not head):
         message = "a condition such as (p ?x) is expected"
         scope.source.error(node.at, "not-a-condition", message, loose_cure(node, "conditions"))
         return TRUE
-    match node.head:
+    match head:
         case "":
             return TRUE
         case _ if scope.is_atom(node):
             return read_atom(node, scope) or TRUE
         case "and":
-            return And(tuple(read_formula(part, scope) for part in node[1:]))
+            return And(tuple([read_formula(part, scope) for part in node[1:]]))
         case "or":
             scope.source.use(":disjunctive-preconditions", node.at)
             return Or(tuple(read_formula(part, scope) for part in node[1:]))
@@ -79,7 +80,7 @@ def read_formula(node: ParseNode, scope: Scope) -> Formula:
             return _implication(node, scope)
         case "forall" | "exists":
             return _quantifier(node, scope)
-        case head if head in COMPARISONS:
+        case _ if head in COMPARISONS:
             return _comparison(node, scope)
     return read_atom(node, scope) or TRUE
 
@@ -122,13 +123,14 @@ def loose_cure(node: ParseNode, kind: str) -> str | None:
 
 def is_foreign(node: GroupNode, scope: Scope) -> bool:
     """Report an operator of another language, with what PDDL writes instead."""
-    if node.head in scope.domain.predicates or node.head in scope.domain.functions:
+    head = node.head
+    cure = FOREIGN.get(head)
+    if cure is None or head in scope.domain.predicates or head in scope.domain.functions:
         return _is_infix(node, scope)
-    cure = FOREIGN.get(str(node.head))
     takes_terms = not any(isinstance(part, GroupNode) for part in node[1:])
-    if cure is None or (takes_terms and node.head in OF_FACTS):
+    if takes_terms and head in OF_FACTS:
         return _is_infix(node, scope)
-    scope.source.error(node[0].at, "foreign-operator", f"PDDL has no {quote(node.head)}", cure)
+    scope.source.error(node[0].at, "foreign-operator", f"PDDL has no {quote(head)}", cure)
     return True
 
 
@@ -150,10 +152,10 @@ def _has_time(node: GroupNode) -> bool:
 
 def is_unsupported(node: GroupNode, scope: Scope) -> bool:
     """Report a construct that hrcplan does not know, unless its word is a predicate here."""
-    declared = node.head in scope.domain.predicates or node.head in scope.domain.functions
-    if node.head not in UNSUPPORTED or declared:
+    head = node.head
+    if head not in UNSUPPORTED or head in scope.domain.predicates or head in scope.domain.functions:
         return False
-    scope.source.error(node.at, "unsupported", f"{UNSUPPORTED[node.head]} are not supported")
+    scope.source.error(node.at, "unsupported", f"{UNSUPPORTED[head]} are not supported")
     return True
 
 

@@ -67,12 +67,16 @@ class SourceText:
         hint: str | None = None,
     ) -> None:  # fmt: skip
         """Note once that ``word`` is none of ``names``; the hint is the nearest of them."""
-        if (code, word) in self._unknown and code != "unbound":  # each action has its own variables
+        if self.is_reported(code, word) and code != "unbound":  # each action has its own variables
             return
         self._unknown.add((code, word))
         if hint is None and len(self.diagnostics) < MAX_HINTS:
             hint = nearest(word, names)
         self.error(at, code, message, hint)
+
+    def is_reported(self, code: str, word: str) -> bool:
+        """Return whether ``unknown`` has noted an error about the word."""
+        return (code, word) in self._unknown
 
     def mentions(self, word: str) -> bool:
         """Return whether the text holds a word anywhere, in small letters or capitals."""
