@@ -34,6 +34,7 @@ def as_json(problem: Problem, result: Result) -> dict[str, Any]:
         "sense": _sense(problem),
         "bound": number(result.bound),
         "gap": result.gap,
+        "gap_reason": result.gap_reason,
         "valid": report.valid if report else None,
         "steps": _steps(problem, result),
         "wall_s": round(result.wall_s, 6),
@@ -110,8 +111,10 @@ def _figures(problem: Problem, result: Result) -> str:
 
 def _bound(problem: Problem, result: Result) -> str | None:
     """Return what is proven about a plan that is not proven to be the best."""
-    if result.bound is None or result.status is Status.OPTIMAL:
+    if result.status is Status.OPTIMAL:
         return None
+    if result.bound is None:
+        return f"bound     none: {result.bound_note}" if result.bound_note else None
     if result.gap is None:
         return f"bound     {_short(result.bound)}"
     side = "below" if problem.metric is not None and problem.maximize else "above"

@@ -25,8 +25,10 @@ from hrcplan.pddl.model import (
     TOTAL_TIME,
     VIOLATED,
     And,
+    Arithmetic,
     Compare,
     Constant,
+    Expr,
     Function,
 )
 from hrcplan.pddl.walks import functions_in
@@ -36,7 +38,7 @@ from hrcplan.planners.lowering import Lowering, lower
 from hrcplan.planners.number_range import decides_exactly, never_lowers_cost, prices_exactly
 from hrcplan.planners.rounding import valid_form
 from hrcplan.plans import Plan
-from hrcplan.validation import Report, objective
+from hrcplan.validation import Report, objective, validate
 
 if TYPE_CHECKING:
     import kairos
@@ -159,26 +161,32 @@ class _Portfolio:
     def _raise_metric(self) -> None:
         """Look for plans with a higher metric, as long as some are found.
 
-        kairos does not maximize: it is asked for any plan beyond the best so far.
+        kairos does not maximize: it is asked for any plan beyond the last one, total-time left out.
         """
         request, metric = self.request, self.request.problem.metric
         if metric is None or not request.problem.maximize or request.any_plan or self.is_proven:
             return
-        if any(f.name in (TOTAL_TIME, VIOLATED) for f in functions_in(metric)):
+        metric = _without_time(metric)
+        names = {function.name for function in functions_in(metric)}
+        if self.best is None or not names or names & {TOTAL_TIME, VIOLATED}:
             return
-        before = None
-        while self.best is not None and self.best is not before and request.time_left_s > 0:
-            before = self.best
-            above = Compare(">", metric, Constant(-before[0]))
-            goal = And((request.problem.goal, above))
+        timeless, plan = replace(request.problem, metric=metric), self.best[1]
+        while request.time_left_s > 0:
+            value = validate(timeless, plan).metric
+            if value is None:
+                return
+            goal = And((request.problem.goal, Compare(">", metric, Constant(value))))
             harder = replace(request.problem, goal=goal, metric=None, maximize=False)
             deadline = time.monotonic() + STEP * request.time_left_s
-            with contextlib.suppress(UnsupportedError, PlannerError):
-                answer = _Portfolio(Request(harder, deadline, True, request.memory_bytes)).solve(
-                    None
-                )
-                if answer.plan is not None:
-                    self._keep(answer.plan, None)
+            one = Request(harder, deadline, True, request.memory_bytes, n_threads=request.n_threads)
+            try:
+                answer = _Portfolio(one).solve(None)
+            except (UnsupportedError, PlannerError):
+                return
+            if answer.plan is None:
+                return
+            plan = answer.plan
+            self._keep(plan, None)
 
     def _parse(self) -> kairos.Problem:
         import kairos
@@ -308,6 +316,20 @@ class _Portfolio:
             note = "it says unsolvable, but counts in floating point"
             return Answer(Status.UNSOLVED, note=note)
         return Answer(Status.UNSOLVABLE)
+
+
+def _without_time(metric: Expr) -> Expr:
+    """Return a metric with 0 for total-time where it only stands in sums and differences."""
+    match metric:
+        case Function(name) if name == TOTAL_TIME:
+            return Constant(0)
+        case Arithmetic("+" | "-", parts):
+            return replace(metric, parts=tuple(map(_without_time, parts)))
+        case Arithmetic("*", (Constant() as factor, part)) | Arithmetic(
+            "*", (part, Constant() as factor)
+        ):
+            return Arithmetic("*", (factor, _without_time(part)))
+    return metric
 
 
 def _lowering(request: Request) -> Lowering | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from fractions import Fraction
 
-from hrcplan.core.numbers import Number
+from hrcplan.core.numbers import Number, number_text
 from hrcplan.errors import HrcplanError, LimitError, PlannerError, UnsupportedError
 from hrcplan.pddl.model import Problem
 from hrcplan.planners.contract import Status
@@ -26,6 +26,7 @@ class Portfolio:
         self.any_plan = any_plan
         self.best: Result | None = None
         self.bound: Number | None = None
+        self._bound_note = ""
         self._is_proven = False
         self._claims: dict[str, Result] = {}
         self._unsolvable: Result | None = None
@@ -78,6 +79,10 @@ class Portfolio:
         self._take_bound(result.bound)
         if result.claim is Status.UNSOLVABLE:
             self.take(result)
+
+    def take_no_bound(self, error: HrcplanError) -> None:
+        """Take why a search for bounds has none."""
+        self._bound_note = error.message
 
     def take_failure(self, planner: str, error: HrcplanError, wall_s: float) -> None:
         """Take that a planner could not hold the task, or failed."""
@@ -157,10 +162,12 @@ class Portfolio:
             apart = abs(Fraction(value - bound))
             if is_better(self.problem, value, bound) and apart > best.gaps:
                 bound = None  # a plan refutes a bound
+                self._bound_note = f"the plan refutes a bound of {number_text(self.bound or 0)}"
             elif apart <= best.gaps:
                 return replace(best, bound=bound, status=Status.OPTIMAL)
         status = Status.OPTIMAL if self._is_proven else Status.SOLVED
-        return replace(best, bound=bound, status=status)
+        note = "" if bound is not None else self._bound_note
+        return replace(best, bound=bound, status=status, bound_note=note)
 
     def _worst_failure(self) -> HrcplanError:
         for kind in (LimitError, PlannerError, UnsupportedError):

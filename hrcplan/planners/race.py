@@ -222,6 +222,9 @@ class _Race:
                 lane.has_answered = True
                 wall_s = time.monotonic() - lane.start_s
                 self.portfolio.take_failure(lane.job.name, error, wall_s)
+            case HrcplanError() as error if not lane.has_answered:
+                lane.has_answered = True
+                self.portfolio.take_no_bound(error)
         best = self.portfolio.best
         goes_on = len(self._lanes) > 1 or isinstance(message, _Improvement)
         if best is not None and best is not before and goes_on and not self.portfolio.is_settled:

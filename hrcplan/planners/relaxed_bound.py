@@ -80,6 +80,8 @@ def _classical(task: Task) -> Answer:
 
 
 def _temporal(task: Task) -> Answer:
+    if task.problem.maximize:
+        raise UnsupportedError("what a plan with durations can gain at most is not bounded")
     objective = metric(task.problem)
     prices = [Fraction(objective.cost * cost) for cost in task.costs]
     if any(price < 0 for price in prices):

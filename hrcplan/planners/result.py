@@ -72,6 +72,7 @@ class Result:
         objective: What planners minimize here: the metric, else makespan or cost.
         gaps: How much of the objective may be due to the gaps between actions.
         bound: What no plan can be better than, in units of the objective; None if not known.
+        bound_note: Why there is no bound, as far as a search for one has said it.
         claim: What the planner itself said.
         mismatch: How the planner's figure differs from the plan's; None if it does not.
         problem: What was solved; it says which agent an action belongs to.
@@ -88,6 +89,7 @@ class Result:
     objective: Number | None = None
     gaps: Number = 0
     bound: Number | None = None
+    bound_note: str = ""
     claim: Status | None = None
     mismatch: str | None = None
     problem: Problem | None = field(default=None, repr=False, compare=False)
@@ -96,14 +98,28 @@ class Result:
     def gap(self) -> float | None:
         """How far the objective is from ``bound``, relative to it; None where that means nothing.
 
-        0 if the plan is proven optimal: gaps between its actions are not counted.
+        0 if the plan is proven optimal: gaps between its actions are not counted. ``gap_reason``
+        says why it is None.
         """
+        if self.objective is not None and self.status is Status.OPTIMAL:
+            return 0.0
         if self.objective is None or self.bound is None or self.bound <= 0:
             return None
-        if self.status is Status.OPTIMAL:
-            return 0.0
         apart = abs(Fraction(self.objective - self.bound)) - self.gaps
         return round(max(0.0, float(apart / Fraction(self.bound))), 9)
+
+    @property
+    def gap_reason(self) -> str | None:
+        """Why ``gap`` is None, in words; None if there is a gap."""
+        if self.gap is not None:
+            return None
+        if self.plan is None:
+            return "there is no plan"
+        if self.objective is None:
+            return self.mismatch or "the plan has no value to compare"
+        if self.bound is not None:
+            return f"relative to a bound of {number_text(self.bound)} a distance has no meaning"
+        return self.bound_note or "no planner proved a bound"
 
     def __repr__(self) -> str:
         what = repr(self.plan) if self.report is None else f"{self.plan!r}, {self.report!r}"

@@ -234,3 +234,5 @@ def test_a_metric_to_be_maximized_is_raised_step_by_step() -> None:
         (= (worth c) -2)) (:goal (done)) (:metric maximize (gain)))"""
     problem = problem_of(domain, text)
     assert metric(problem, solve(problem)) == 6
+    timed = text.replace("(gain)))", "(- (gain) (* 0.5 (total-time)))))")
+    assert metric(problem_of(domain, timed), solve(problem_of(domain, timed))) == 5

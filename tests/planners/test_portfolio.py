@@ -99,6 +99,24 @@ def test_the_gap_is_relative_to_the_bound(cast: Callable[..., None]) -> None:
     assert (found.status, found.bound, found.gap) == (Status.SOLVED, 1, 1)
 
 
+@pytest.mark.parametrize(
+    ("bound", "reason"),
+    [
+        (1, None),
+        (None, "no planner proved a bound"),
+        (0, "a bound of 0"),
+        (3, "refutes"),
+    ],
+)
+def test_a_gap_that_is_missing_has_a_reason(
+    bound: int | None, reason: str | None, cast: Callable[..., None]
+) -> None:
+    cast(one=says(Status.UNSOLVED, bound=bound), two=says(Status.SOLVED, LONG))
+    result = solve(walk(), timeout_s=10)
+    assert (result.gap is None) == (reason is not None)
+    assert (reason or "None") in str(result.gap_reason)
+
+
 def test_of_plans_to_maximize_the_larger_is_better(cast: Callable[..., None]) -> None:
     cast(one=says(Status.SOLVED, SHORT), two=says(Status.SOLVED, LONG))
     found = solve(walk("(:metric maximize (views))"), timeout_s=10)

@@ -99,3 +99,9 @@ def test_an_end_that_needs_what_its_start_undoes_is_left_to_others() -> None:
                         "(at end (is-open)))")  # fmt: skip
     with pytest.raises(UnsupportedError, match="undo what its end needs"):
         RelaxedBound().solve(Request(problem_from(text, DOOR_P)))
+
+
+def test_a_temporal_metric_to_maximize_has_no_bound() -> None:
+    problem = problem_from(PAIR, PAIR_P.replace("minimize", "maximize"))
+    with pytest.raises(UnsupportedError, match="can gain"):
+        RelaxedBound().solve(Request(problem))
