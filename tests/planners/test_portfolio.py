@@ -103,7 +103,7 @@ def test_the_gap_is_relative_to_the_bound(cast: Callable[..., None]) -> None:
     ("bound", "reason"),
     [
         (1, None),
-        (None, "no planner proved a bound"),
+        (None, "not agent state"),
         (0, "a bound of 0"),
         (3, "refutes"),
     ],
