@@ -8,8 +8,10 @@ from __future__ import annotations
 import re
 from decimal import Decimal
 from fractions import Fraction
+from typing import TYPE_CHECKING
 
-from hrcplan.core.json_values import JsonValue
+if TYPE_CHECKING:
+    from hrcplan.core.json_values import JsonValue
 
 Number = int | Fraction
 

@@ -21,12 +21,12 @@ _PACKAGE = Path(__file__).resolve().parent.parent
 _HEADING = 100_000  # characters: comments may come first
 _MOST_UP = 3  # folders above a problem's in which its domain may be
 _SPACE = r"(?:\s|;[^\r\n]*(?:[\r\n]|$))*+"
-_DOMAIN = re.compile(rf"{_SPACE}\({_SPACE}define{_SPACE}\({_SPACE}domain{_SPACE}([^\s();]+)")
+_DOMAIN = rf"{_SPACE}\({_SPACE}define{_SPACE}\({_SPACE}domain{_SPACE}([^\s();]+)"
 _OF_DOMAIN = (
     rf"{_SPACE}\({_SPACE}define{_SPACE}\({_SPACE}problem{_SPACE}[^\s();]++{_SPACE}\)"
     rf"{_SPACE}\({_SPACE}:domain{_SPACE}"
 )
-_PROBLEM = re.compile(rf"{_OF_DOMAIN}([^\s();]+)")
+_PROBLEM = rf"{_OF_DOMAIN}([^\s();]+)"
 
 
 class OwnFileWarning(UserWarning):
@@ -115,7 +115,7 @@ def _domain_of_goals(name: str) -> Path | None:
     """Return the file of the domain that the first problem of a folder of goals names."""
     folder = own_goals(name) or root() / "problems" / name
     first = min(folder.glob("*.pddl"), default=None) if os.path.isdir(folder) else None
-    match = None if first is None else _PROBLEM.match(_heading(first))
+    match = None if first is None else re.match(_PROBLEM, _heading(first))
     return None if match is None else domain_file_for(match[1], first)
 
 
@@ -173,12 +173,12 @@ def named_files(name: str) -> Sequence[Path]:
     return [file, find_problem(domain, problem)] if problem else [file]
 
 
-def _own(places: Sequence[Path], package_path: Path, heading: re.Pattern[str]) -> Path | None:
+def _own(places: Sequence[Path], package_path: Path, heading: str) -> Path | None:
     """Return the first of the user's files that begins as it should.
 
     A warning says that it is not the shipped one of the same name.
     """
-    path = next((p for p in places if os.path.isfile(p) and heading.match(_heading(p))), None)
+    path = next((p for p in places if os.path.isfile(p) and re.match(heading, _heading(p))), None)
     if path is not None and os.path.isfile(package_path):
         if os.path.samefile(path, package_path):
             return None
@@ -187,11 +187,13 @@ def _own(places: Sequence[Path], package_path: Path, heading: re.Pattern[str]) -
     return path
 
 
-def _problem_of(domain: str) -> re.Pattern[str]:
+def _problem_of(domain: str) -> str:
     """Return what the beginning of a problem of a domain reads like."""
-    match = _DOMAIN.match(_heading(Path(domain) if os.path.isfile(domain) else find_domain(domain)))
+    match = re.match(
+        _DOMAIN, _heading(Path(domain) if os.path.isfile(domain) else find_domain(domain))
+    )
     name = re.escape(match[1] if match else Path(domain).stem.lower())
-    return re.compile(rf"{_OF_DOMAIN}{name}{_SPACE}\)")
+    return rf"{_OF_DOMAIN}{name}{_SPACE}\)"
 
 
 def _heading(path: Path) -> str:
@@ -208,5 +210,5 @@ def _is_path(name: str) -> bool:
 
 def _defines(path: Path, name: str) -> bool:
     """Whether the beginning of a file reads ``(define (domain NAME)``."""
-    match = _DOMAIN.match(_heading(path))
+    match = re.match(_DOMAIN, _heading(path))
     return match is not None and match[1] == name
