@@ -181,9 +181,12 @@ def __getattr__(name: str) -> Any:
     """Import a public name when it is first asked for, so that ``import hrcplan`` is cheap."""
     from importlib import import_module
 
+    from hrcplan.core.garbage import no_garbage_search
+
     if name in _PUBLIC:
         module, attribute = _PUBLIC[name]
-        home = import_module(module)
+        with no_garbage_search():  # modules make none; the search would be a tenth of the import
+            home = import_module(module)
         return getattr(home, attribute) if attribute else home
     if name in _DEPRECATED:
         import warnings

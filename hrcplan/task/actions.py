@@ -188,9 +188,12 @@ class _Builder:
             return []
         variants: list[GroundAction] = []
         for extra, costs in self._costs(instance, values, later, at_start):
-            tests, start = all_of([before, extra]), all_of([phases.start, extra])
+            tests, part = before, phases
+            if extra != ALWAYS:
+                tests = all_of([before, extra])
+                part = replace(phases, start=all_of([phases.start, extra]))
             if tests:
-                place, part = index + len(variants), replace(phases, start=start)
+                place = index + len(variants)
                 variants.append(self._action(place, instance, part, tests, duration, costs, choice))
         return variants
 
@@ -239,11 +242,12 @@ class _Builder:
         """Return the changes of one instant, and the function values after it."""
         adds = deletes = 0
         conditional: list[BitEffect] = []
+        powers = self.grounder.powers
         for effect in instance.action.effects:
             if effect.when != when or effect.value is not None:
                 continue
             for inner in instances(effect.params, instance.binding, self.grounder.problem):
-                bit = self.grounder.bit(ground_key(effect.target, inner))
+                bit = powers.get(ground_key(effect.target, inner), 0)
                 add_bit, delete_bit = (bit, 0) if effect.kind == "add" else (0, bit)
                 tests = ALWAYS if effect.condition == TRUE else self.grounder.tests(
                     effect.condition, inner, values)  # fmt: skip

@@ -25,7 +25,6 @@ from hrcplan.pddl.semantics import (
     Binding,
     LiftedState,
     Values,
-    ground_key,
     holds,
     instances,
 )
@@ -76,15 +75,15 @@ class Grounder:
         Raises:
             UnsupportedError: if there are more than ``MAX_ALTERNATIVES``.
         """
+        if isinstance(
+            formula, Atom
+        ):  # most formulas; a match takes longer
+            fact = (formula.name, *[binding.get(arg, arg) for arg in formula.args])
+            bit = self.powers.get(fact)
+            if bit is not None:
+                return ((bit, bit if positive else 0),)
+            return ALWAYS if (fact in self.fixed) == positive else NEVER
         match formula:
-            case Atom():
-                fact = ground_key(formula, binding)
-                bit = self.bit(fact)
-                return (
-                    ((bit, bit if positive else 0),)
-                    if bit
-                    else _constant_tests((fact in self.fixed) == positive)
-                )
             case And(parts) | Or(parts):
                 inner = (self.tests(part, binding, values, positive) for part in parts)
                 return all_of(inner) if isinstance(formula, And) == positive else any_of(inner)
@@ -127,7 +126,10 @@ def all_of(parts: Iterable[Tests]) -> Tests:
     """Return alternatives of which one holds where all parts hold."""
     tests = ALWAYS
     for part in parts:
-        if tests == ALWAYS or part == NEVER:
+        if len(tests) == len(part) == 1:
+            pair = conjunction(tests[0], part[0])
+            tests = NEVER if pair is None else (pair,)
+        elif tests == ALWAYS or part == NEVER:
             tests = part
         elif part != ALWAYS:
             pairs = [conjunction(one, other) for one in tests for other in part]

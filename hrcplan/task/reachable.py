@@ -9,6 +9,7 @@ from __future__ import annotations
 import time
 from collections import defaultdict
 from collections.abc import Callable, Iterator
+from functools import cached_property
 from math import inf
 from pathlib import Path
 
@@ -46,7 +47,7 @@ class SchemaInstance:
     action: Action
     args: Row
 
-    @property
+    @cached_property
     def binding(self) -> JoinBinding:
         """The objects by parameter."""
         return {param.name: arg for param, arg in zip(self.action.params, self.args, strict=True)}
