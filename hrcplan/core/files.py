@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import contextlib
 import errno
 import os
 from collections.abc import Sequence
 from itertools import combinations
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 from hrcplan.core.text import harmless
 from hrcplan.errors import InputError, UsageError
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 MAX_BYTES = 64 << 20  # of a text that is read: also ends the reading of what never ends
 
@@ -73,30 +77,34 @@ def write_atomically(path: Path, data: str | bytes) -> None:
     Raises:
         UsageError: if the folder is missing or may not be written.
     """
+    place = str(path)
     try:
         raw = data.encode() if isinstance(data, str) else data
-        path = Path(os.path.realpath(path))
-        if path.is_symlink():  # still one: it leads to itself
+        place = os.path.realpath(path)
+        if os.path.islink(place):  # still one: it leads to itself
             raise OSError(errno.ELOOP, os.strerror(errno.ELOOP))
-        if os.path.exists(path) and not os.path.isfile(path):
-            path.write_bytes(raw)
+        if os.path.exists(place) and not os.path.isfile(place):
+            with open(place, "wb") as device:
+                device.write(raw)
             return
         import tempfile  # it takes 2 ms, and most commands write nothing
 
         # The name of the new file is no longer than a file system takes.
-        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name[:40]}.")
+        folder, base = os.path.split(place)
+        handle, name = tempfile.mkstemp(dir=folder, prefix=f".{base[:40]}.")
         try:
             with os.fdopen(handle, "wb") as file:
                 file.write(raw)
             mask = os.umask(0)
             os.umask(mask)
             os.chmod(name, 0o666 & ~mask)
-            Path(name).replace(path)
+            os.replace(name, place)
         except BaseException:
-            Path(name).unlink(missing_ok=True)
+            with contextlib.suppress(FileNotFoundError):
+                os.unlink(name)
             raise
     except (OSError, ValueError) as error:
-        target_name = harmless(str(path))
+        target_name = harmless(place)
         raise UsageError(
             f"cannot write {target_name}: {reason_of(error)}", path=target_name
         ) from None
@@ -162,6 +170,8 @@ def cache_folder() -> Path | None:
     That is ``$HRCPLAN_CACHE``, else ``$XDG_CACHE_HOME/hrcplan``, else ``~/.cache/hrcplan``; None if
     the user has no home.
     """
+    from pathlib import Path
+
     own, standard = os.environ.get("HRCPLAN_CACHE"), os.environ.get("XDG_CACHE_HOME", "")
     if own:
         return Path(own)

@@ -7,20 +7,22 @@ what ``check`` accepts can be loaded and what it rejects cannot.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from pathlib import Path
 from types import MappingProxyType
+from typing import TYPE_CHECKING
 
 from hrcplan.core.garbage import no_garbage_search
 from hrcplan.core.records import record
 from hrcplan.core.text import nearest, quote
 from hrcplan.errors import Diagnostic, InputError, PddlError
-from hrcplan.pddl import library
 from hrcplan.pddl.annotations import check_calls
 from hrcplan.pddl.domain import read_domain
 from hrcplan.pddl.model import Domain, Note, Problem
 from hrcplan.pddl.problem import named_domain, read_problem
 from hrcplan.pddl.reader import GroupNode, read
 from hrcplan.pddl.source import SourceText, in_order, read_source
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 ADVICE = "unset-function"  # the one warning about what PDDL allows
 _PROBLEM_SECTIONS = frozenset([":domain", ":objects", ":init", ":goal", ":metric"])
@@ -171,6 +173,8 @@ def _open_named(name: str, texts: Mapping[str, str]) -> Sequence[_File]:
     if name in texts:
         return [_open(name, texts)]
     try:
+        from hrcplan.pddl import library
+
         return [_open(path, texts) for path in library.named_files(name)]
     except InputError as error:
         return [_without_text(name, error)]
@@ -229,6 +233,8 @@ class _Domains:
             return self.by_name[name]
         place = (name, problem.parent)
         if place not in self._places:
+            from hrcplan.pddl import library
+
             self._places[place] = library.domain_file_for(name, problem)
         path = self._places[place]
         if path is None:
@@ -246,6 +252,8 @@ class _Domains:
 def _check_problem(file: _File, domains: _Domains) -> None:
     assert file.root is not None
     name = named_domain(file.root)
+    from pathlib import Path
+
     domain = None if name is None else domains.find(str(name), Path(file.source.path))
     domain = domain or domains.only  # a wrong name is reported, and the rest is still checked
     if domain is not None and domain.domain is not None:
@@ -256,6 +264,8 @@ def _check_problem(file: _File, domains: _Domains) -> None:
         file.source.error(file.root.at, "no-domain", "the problem does not say its (:domain NAME)")
     else:
         message = f"no domain {quote(name)} given, near the problem, or shipped"
+        from hrcplan.pddl import library
+
         hint = nearest(name, [*domains.by_name, *library.domain_names()])
         file.source.error(name.at, "domain-mismatch", message, hint)
 

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import os
 import re
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 from hrcplan.core.records import replace
 from hrcplan.core.text import type_text
 from hrcplan.errors import InputError, UsageError
-from hrcplan.pddl import library
 from hrcplan.pddl.check import domain_in, load_domain, load_problem, problem_in
 from hrcplan.pddl.model import Domain, Problem
 from hrcplan.pddl.problem import named_domain
@@ -17,7 +16,11 @@ from hrcplan.pddl.reader import read as read_tree
 from hrcplan.pddl.source import SourceText, decode, read_source
 
 _PDDL = re.compile(r"(?:\s|;[^\r\n]*(?:[\r\n]|$))*+\(")
-_SHORT_NAME = re.compile(r"[^/]+(?<!\.pddl)(/[^/]+(?<!\.pddl))?")
+_SHORT_NAME = r"[^/]+(?<!\.pddl)(/[^/]+(?<!\.pddl))?"
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
 Readable = str | os.PathLike[str]
 """A name, a path, or PDDL text; text is what begins with a parenthesis after its comments."""
 
@@ -53,7 +56,7 @@ def read(domain: Readable | Domain, problem: Readable | None = None) -> Problem:
     if isinstance(first, SourceText):
         domain_copy = replace(domain_in(first), path="")
         return _problem_of(domain_copy, domain_copy.name, second)
-    return _problem_of(load_domain(library.find_domain(first)), first, second)
+    return _problem_of(load_domain(_domain_file(first)), first, second)
 
 
 def as_problem(domain: Readable | Domain | Problem, problem: Readable | None = None) -> Problem:
@@ -96,14 +99,35 @@ def _readable(value: Readable, noun: str) -> str | SourceText:
 def _problem_of(domain: Domain, folder: str, problem: str | SourceText) -> Problem:
     if isinstance(problem, SourceText):
         return replace(problem_in(domain, problem), path="")
+    if _is_file(problem):
+        return load_problem(domain, problem)
+    from hrcplan.pddl import library
+
     return load_problem(domain, library.find_problem(folder, problem))
+
+
+def _domain_file(name: str) -> str | Path:
+    if _is_file(name):
+        return name
+    from hrcplan.pddl import library
+
+    return library.find_domain(name)
+
+
+def _is_file(name: str) -> bool:
+    """Return whether a name is a path as it stands, so that nothing has to be looked up."""
+    return "./" not in name and "//" not in name and os.path.isfile(name)
 
 
 def _read_one(source: str | SourceText) -> Problem:
     """Return the problem of one word, one file or one text."""
     if isinstance(source, SourceText):
         return _problem_of(_domain_for(source, None), "", source)
-    if os.path.isfile(source) or not _SHORT_NAME.fullmatch(source):
+    from hrcplan.pddl import library
+
+    if os.path.isfile(source) or not re.fullmatch(_SHORT_NAME, source):
+        from pathlib import Path
+
         file = read_source(source)
         return problem_in(_domain_for(file, Path(source)), file)
     domain, slash, problem = source.partition("/")
@@ -125,6 +149,8 @@ def _domain_for(source: SourceText, path: Path | None) -> Domain:
     name = None if root is None else named_domain(root)
     if name is None:
         return Domain("")  # the problem's own faults are reported when it is read
+    from hrcplan.pddl import library
+
     file = library.domain_file_for(str(name), path)
     if file is None:
         where = "among the shipped ones" if path is None else "near it or shipped"

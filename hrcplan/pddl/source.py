@@ -5,11 +5,14 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections.abc import Iterable, Sequence
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 from hrcplan.core.files import UNPACK_HINT, archive_kind, read_bytes
 from hrcplan.core.text import cut, nearest
 from hrcplan.errors import Diagnostic, InputError
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 MAX_BYTES = 64 << 20  # also ends the reading of what never ends
 MAX_MESSAGE = 160  # a message and its hint are each cut here, whatever they repeat

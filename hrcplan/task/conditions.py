@@ -75,9 +75,7 @@ class Grounder:
         Raises:
             UnsupportedError: if there are more than ``MAX_ALTERNATIVES``.
         """
-        if isinstance(
-            formula, Atom
-        ):  # most formulas; a match takes longer
+        if isinstance(formula, Atom):  # most formulas; a match takes longer
             fact = (formula.name, *[binding.get(arg, arg) for arg in formula.args])
             bit = self.powers.get(fact)
             if bit is not None:

@@ -11,7 +11,6 @@ from collections import defaultdict
 from collections.abc import Callable, Iterator
 from functools import cached_property
 from math import inf
-from pathlib import Path
 
 from hrcplan.core.progress import counting
 from hrcplan.core.records import record
@@ -76,9 +75,10 @@ def reachable(problem: Problem, deadline: float = inf) -> tuple[list[SchemaInsta
 
 def available_bytes() -> int:
     """Return how much memory new data may take without swapping, as Linux estimates it."""
-    for line in Path("/proc/meminfo").read_text(encoding="ascii").splitlines():
-        if line.startswith("MemAvailable:"):
-            return int(line.split()[1]) << 10
+    with open("/proc/meminfo", encoding="ascii") as lines:
+        for line in lines:
+            if line.startswith("MemAvailable:"):
+                return int(line.split()[1]) << 10
     return MIN_FREE_BYTES
 
 
