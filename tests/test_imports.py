@@ -51,6 +51,20 @@ def test_help_loads_no_numpy(tmp_path: Path) -> None:
     assert not loaded_by(tmp_path, "--help") & (HEAVY | GPL | {"numpy"})
 
 
+def test_a_task_is_grounded_without_what_only_others_need() -> None:
+    """Each of these is a part of the time that a small task takes as a whole process."""
+    public = Path(__file__).parent / "data" / "public" / "aries" / "1998-gripper-round1-adl"
+    code = """import sys
+from hrcplan import Task, read
+print(len(Task(read(*sys.argv[1:])).actions))
+print(*sorted({"numpy", "dataclasses", "inspect", "pathlib", "json", "click"} & {*sys.modules}))"""
+    argv = [sys.executable, "-I", "-c", code, public / "domain.pddl", public / "problem.pddl"]
+    run = subprocess.run(argv, capture_output=True, text=True, timeout=60, check=True)
+    n_actions, *loaded = run.stdout.split()
+    assert int(n_actions) > 0
+    assert loaded == []
+
+
 def test_plan_and_validate_load_nothing_heavy(tmp_path: Path) -> None:
     plan = tmp_path / "two-boxes.plan"
     assert not loaded_by(tmp_path, "plan", "transport/two-boxes", "-o", str(plan)) & (HEAVY | GPL)

@@ -46,3 +46,14 @@ def test_a_bare_repository_and_a_folder_are_the_same_archive(tmp_path: Path) -> 
     row = "| 1 | 1 | 1 | 1 | 1 | 0 |"
     assert f"| pddlgym {row}" in wild("--archive", bare)
     assert f"| source {row}" in wild("--archive", source)
+
+
+def test_tasks_are_grounded_beside_a_translator() -> None:
+    """Of the domains of a folder, in turn, until enough tasks are grounded by both."""
+    pytest.importorskip("up_fast_downward")
+    text = wild("--archive", PUBLIC, "--n", "3", "--seed", "2", "--groundings", "2")
+    rows = [line.split("|") for line in text.splitlines() if line.startswith("| ")][1:]
+    ratios = [float(row[5]) for row in rows if row[5].strip()]
+    assert len(ratios) == 2
+    assert all(0 < ratio < 60 for ratio in ratios)
+    assert "2 tasks, the translator takes 0 s or more: ratio" in text
