@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from hrcplan.core.numbers import Number, to_number
 from hrcplan.core.text import nearest, quote
@@ -61,7 +61,7 @@ def read_problem(root: GroupNode, source: SourceText, domain: Domain) -> Problem
     objects = read_objects(sections.get(":objects"), source, domain.types, domain.constants)
     scope = Scope(source, domain, {**domain.constants, **objects}, {})
     init = _Init(scope)
-    for node in sections.get(":init", ())[1:]:
+    for node in _consume(sections.get(":init")):
         init.take(node)
     goal, preferences = _goal(sections.get(":goal"), root, scope)
     constraints = read_constraints(sections.get(SECTION), scope)
@@ -91,6 +91,15 @@ def read_problem(root: GroupNode, source: SourceText, domain: Domain) -> Problem
     if not source.has_errors:
         check_values(problem, at, init.places, source)
     return problem
+
+
+def _consume(section: GroupNode | None) -> Iterator[ParseNode]:
+    """Yield what a section holds; each node is freed when it is read, as there may be a million."""
+    if section is not None:
+        section.reverse()
+        section.pop()  # the head
+        while section:
+            yield section.pop()
 
 
 def _check_domain(root: GroupNode, source: SourceText, domain: Domain) -> None:
