@@ -20,6 +20,7 @@ from hrcplan.pddl.scope import Scope
 from hrcplan.pddl.source import SECTION_SIMILARITY, SourceText
 from hrcplan.pddl.trajectories import SECTION, read_constraints
 from hrcplan.pddl.typed_lists import (
+    NO_PRIVATE,
     Entry,
     params_of,
     plain_params,
@@ -272,7 +273,7 @@ def _signatures(
                 continue
         if isinstance(node, GroupNode) and node.head == ":private":
             hint = "declare its predicates with the others: hrcplan has no private facts"
-            source.error(node.at, "unsupported", "(:private …) of MA-PDDL is not supported", hint)
+            source.error(node.at, "unsupported", NO_PRIVATE, hint)
             inner = [part for part in node if isinstance(part, GroupNode)]
             private = GroupNode(node.at)
             private.extend([node[0], *inner])

@@ -11,6 +11,7 @@ import sys
 from collections.abc import Callable, Iterable, Iterator
 from typing import Concatenate, ParamSpec, TypeVar
 
+from hrcplan.core.text import quote
 from hrcplan.pddl.parentheses import PARTS, SECTIONS, Token, mend
 from hrcplan.pddl.source import MAX_FAULTS, SourceText
 
@@ -24,6 +25,7 @@ _FLAT = r"\(\s*+\??[^\s();:?][^\s();?]*+(?:\s++\??[^\s();?:][^\s();?]*+)*+\s*+\)
 _GROUP_OR_TOKEN = re.compile(_FLAT + r"|[()]|\?*:*[^\s();?:]+|[?:]+|;[^\r\n]*")
 _TOKEN = re.compile(r"[()]|\?*[^\s();?]+|\?+|;[^\r\n]*")
 _DEFINE = re.compile(r"\((?:\s|;[^\r\n]*+)*+define\b", re.IGNORECASE)
+_COMMENT_OR_TEMPLATE = re.compile(r";[^\r\n]*|\{\{|\{%")
 _COMMENT_OR_COMMA = re.compile(r";[^\r\n]*|(?<![0-9]),|,(?![0-9])")  # 1,5 is meant as a number
 _NOTE = re.compile(r"(?<!;);++[ \t]*+hrcplan:[ \t]*+([^\r\n;]*)", re.IGNORECASE)
 # Control characters, marks that hide or reverse text, and halves of characters.
@@ -113,18 +115,35 @@ ParseNode = WordNode | GroupNode
 
 def read(source: SourceText) -> GroupNode | None:
     """Return the one ``(define …)`` group of a file, or None; faults go into ``source``."""
-    if not source.has_errors and not _DEFINE.search(source.text):
-        _report_no_define(source)
+    if not source.has_errors and (_is_template(source) or not _DEFINE.search(source.text)):
+        if not source.has_errors:
+            _report_no_define(source)
         return None
     nodes = read_nodes(source)
     groups = [node for node in nodes if isinstance(node, GroupNode)]
     root = next((group for group in groups if group.head == "define"), None)
     outside = next((n for n in nodes if n is not root and not _is_lisp(n, source)), None)
     if outside is not None:
-        source.error(outside.at, "outside-define", *_outside(source.text, root is not None))
+        message, hint = _outside(source.text, root is not None)
+        if root is not None and isinstance(outside, WordNode):
+            message = f"{quote(outside)} stands outside the (define …)"
+        source.error(outside.at, "outside-define", message, hint)
     elif root is None and not source.has_errors:
         source.error(0, "empty", "the file holds no (define …)")
     return root
+
+
+def _is_template(source: SourceText) -> bool:
+    """Whether a file has places of a template language outside comments; it is one error."""
+    if "{{" not in source.text and "{%" not in source.text:
+        return False
+    marks = (m for m in _COMMENT_OR_TEMPLATE.finditer(source.text) if m[0][0] != ";")
+    mark = next(marks, None)
+    if mark is not None:
+        message = f"the file is a template: {quote(mark[0])} stands for text still to be filled in"
+        hint = "fill it in with its data first, and read the result"
+        source.error(mark.start(), "template", message, hint)
+    return mark is not None
 
 
 def _report_no_define(source: SourceText) -> None:

@@ -17,6 +17,8 @@ from hrcplan.pddl.model import OBJECT, TOTAL_TIME, Atom, Domain, Function, Param
 from hrcplan.pddl.reader import FlatNode, GroupNode, ParseNode, WordNode
 from hrcplan.pddl.source import SourceText
 
+_BINDING = "list it in :parameters, or in an (exists …) or (forall …) around this"
+
 
 @record
 class Scope:
@@ -142,14 +144,29 @@ class Scope:
                 hint = (
                     f"spaces are missing around the '-' of {quote(variable)}" if variable else None
                 )
-                self.source.unknown(term.at, "unbound", message, term, self.variables, hint)
+                variables = self.variables
+                self.source.unknown(term.at, "unbound", message, term, variables, hint, _BINDING)
             return self.variables.get(term)
         if term not in self.objects:
             message = f"there is no object {quote(term)}"
-            hint = None if self.objects else "declare it in (:constants …) of the domain"
-            self.source.unknown(term.at, "unknown-object", message, term, self.objects, hint)
+            hint, cure = self._other_meaning(term), self._object_cure()
+            self.source.unknown(term.at, "unknown-object", message, term, self.objects, hint, cure)
             return None
         return (self.objects[term],)
+
+    def _other_meaning(self, term: WordNode) -> str | None:
+        """Return a hint where an unknown object is a word of another kind."""
+        if f"?{term}" in self.variables:
+            return f"did you mean {quote(f'?{term}')}?"
+        if term in self.domain.types:
+            return f"it is a type: write a variable of it, such as ?x, declared as ?x - {term}"
+        if term in self.domain.functions:
+            return "it is a function, and no number can be an argument"
+        return None
+
+    def _object_cure(self) -> str:
+        is_domain = self.source.path == self.domain.path
+        return f"declare it in {'(:constants …)' if is_domain else '(:objects …)'}"
 
     def arguments(self, group: GroupNode, signature: Signature) -> tuple[str, ...] | None:
         """Return the arguments of ``group``; None, with errors, if they do not fit."""
@@ -210,7 +227,8 @@ class Scope:
             self.source.error(word.at, code, f"{quote(word)} is a {wrong}, not a {kind}")
         else:
             message = f"{kind} {quote(word)} is not declared"
-            self.source.unknown(word.at, code, message, word, names, FOREIGN.get(word))
+            cure = f"declare it in (:{kind}s …)"
+            self.source.unknown(word.at, code, message, word, names, FOREIGN.get(word), cure)
         return None
 
 

@@ -67,15 +67,18 @@ class SourceText:
 
     def unknown(
         self, at: int, code: str, message: str, word: str, names: Iterable[str],
-        hint: str | None = None,
+        hint: str | None = None, cure: str | None = None,
     ) -> None:  # fmt: skip
-        """Note once that ``word`` is none of ``names``; the hint is the nearest of them."""
+        """Note once that ``word`` is none of ``names``.
+
+        The hint is the nearest of them, or ``cure`` where none is near.
+        """
         if self.is_reported(code, word) and code != "unbound":  # each action has its own variables
             return
         self._unknown.add((code, word))
         if hint is None and len(self.diagnostics) < MAX_HINTS:
             hint = nearest(word, names)
-        self.error(at, code, message, hint)
+        self.error(at, code, message, hint or cure)
 
     def is_reported(self, code: str, word: str) -> bool:
         """Return whether ``unknown`` has noted an error about the word."""

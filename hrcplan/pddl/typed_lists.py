@@ -11,6 +11,8 @@ from hrcplan.pddl.reader import FlatNode, GroupNode, ParseNode, WordNode
 from hrcplan.pddl.scope import Scope
 from hrcplan.pddl.source import SourceText
 
+NO_PRIVATE = "(:private …) of MA-PDDL is not supported"
+
 Entry = tuple[WordNode, tuple[str, ...]]
 """A name and the names of its types."""
 
@@ -65,11 +67,23 @@ def _flat(nodes: Sequence[ParseNode], source: SourceText) -> Iterator[ParseNode]
             assert node is not None
             yield node
             continue
+        if node.head == ":private":
+            source.error(node.at, "unsupported", NO_PRIVATE, "list its names with the others")
+            yield from node[1:]
+            continue
         if is_first:
             message, hint = "a name is expected here, not a group", "leave its parentheses out"
             source.error(node.at, "not-a-name", message, hint)
         is_first = False
         yield from node
+
+
+def _no_variable(name: WordNode, types: Collection[str]) -> tuple[str, str]:
+    """Return message and hint for what stands in place of a variable."""
+    if name == "?":
+        return "a variable needs a name behind its '?'", "write the name without a space: ?name"
+    hint = f"the type stands behind: ?x - {name}" if name in types else f"write ?{name}"
+    return f"{quote(name)} should start with '?'", hint
 
 
 def _report_odd_name(word: WordNode, source: SourceText) -> None:
@@ -140,7 +154,8 @@ def report_types(source: SourceText, types: Collection[str], has_section: bool =
                 hint = f"the name {quote(joined)} has no spaces around its '-'"
                 source.error(at, "unknown-type", message, hint)
             else:
-                source.unknown(at, "unknown-type", message, name, [*types, OBJECT])
+                cure = "declare it in (:types …)"
+                source.unknown(at, "unknown-type", message, name, [*types, OBJECT], cure=cure)
     elif source.unknown_types:
         names = " ".join(source.unknown_types)
         message = "types are named, but the domain has no (:types …)"
@@ -203,10 +218,8 @@ def params_of(
         text = str(name)
         if not name.startswith("?") or len(name) == 1:
             wrong += 1
-            hint = "the type stands behind: ?x - " + name if name in types else f"write ?{name}"
             if wrong == 1:
-                message = f"{quote(name)} should start with '?'"
-                source.error(name.at, "not-a-variable", message, hint)
+                source.error(name.at, "not-a-variable", *_no_variable(name, types))
         elif name in names and declaration:
             source.warn(name.at, "repeated-parameter", f"parameter {quote(name)} is repeated")
             own = numbers.setdefault(text, count(2))

@@ -180,3 +180,58 @@ def test_an_effect_called_like_a_part_of_and_is_an_effect(tmp_path):
 def test_a_bare_operator_is_told_to_stand_first(tmp_path):
     (fault,) = errors(tmp_path, ONE_ACTION.format("(and (p ?x) && (q))", "(q)"))
     assert fault.hint == "write and instead"
+
+
+TYPED = """(define (domain d) (:requirements :strips :typing) (:types box - object)
+ (:predicates (p ?x - box) (pair ?x ?y)) (:functions (weight))
+ (:action a :parameters (?b - box) :precondition {} :effect (p ?b)))"""
+
+
+@pytest.mark.parametrize(
+    ("condition", "cure"),
+    [
+        ("(p b)", "did you mean '?b'?"),
+        ("(p box)", "declared as ?x - box"),
+        ("(p weight)", "it is a function"),
+        ("(p crate-7)", "declare it in (:constants …)"),
+        ("(open ?b)", "declare it in (:predicates …)"),
+        ("(> (speed) 1)", "declare it in (:functions …)"),
+        ("(p ?unrelated)", "list it in :parameters"),
+        ("(exists (?z - lorry) (pair ?z ?z))", "declare it in (:types …)"),
+        ("(exists (? z - box) (p ?b))", "without a space: ?name"),
+    ],
+)
+def test_an_unknown_name_has_the_cure_of_its_kind(tmp_path, condition, cure):
+    assert cure in (errors(tmp_path, TYPED.format(condition))[0].hint or "")
+
+
+def test_an_object_of_a_problem_is_declared_in_the_problem(tmp_path):
+    paths = tmp_path / "domain.pddl", tmp_path / "problem.pddl"
+    paths[0].write_text(TYPED.format("(p ?b)"))
+    paths[1].write_text("(define (problem x) (:domain d) (:init (p crate-7)) (:goal (pair c c)))")
+    cures = [f.hint for f in check_files(paths) if f.severity == "error"]
+    assert cures == ["declare it in (:objects …)"] * len(cures) != []
+
+
+@pytest.mark.parametrize("mark", ["{{ robots|length }}", "{% for r in robots %}"])
+def test_a_template_is_one_error_unless_it_is_a_comment(tmp_path, mark):
+    (fault,) = errors(tmp_path, TYPED.format(f"(p ?b) {mark}"))
+    assert fault.code == "template"
+    assert "template" in fault.message
+    assert not errors(tmp_path, f"; {mark}\n{TYPED.format('(p ?b)')}")
+
+
+def test_private_objects_of_ma_pddl_are_named(tmp_path):
+    paths = tmp_path / "domain.pddl", tmp_path / "problem.pddl"
+    paths[0].write_text(TYPED.format("(p ?b)"))
+    paths[1].write_text(
+        "(define (problem x) (:domain d) (:objects (:private a b - box)) (:init (p a))"
+        " (:goal (p b)))"
+    )
+    (fault,) = [f for f in check_files(paths) if f.severity == "error"]
+    assert "(:private …) of MA-PDDL" in fault.message
+
+
+def test_a_word_before_the_define_is_named(tmp_path):
+    (fault,) = errors(tmp_path, f"lisp\n{TYPED.format('(p ?b)')}")
+    assert fault.message == "'lisp' stands outside the (define …)"
