@@ -28,7 +28,7 @@ def test_public_files_are_read_judged_as_by_val_and_refused_once_broken() -> Non
     text = wild("--archive", PUBLIC, "--n", "8", "--mutants", "16", "--plans", "2")
     assert "| pddlgym | 8 | 6 | 5 | 5 | 5 |" in text
     assert "| all | 16 | 16 |" in text
-    judged, _, same, unjudged = text.splitlines()[-1].split("|")[2:6]
+    judged, _, same, _, unjudged = text.splitlines()[-1].split("|")[2:7]
     assert int(judged) == int(same) > 2
     assert int(unjudged) == 0
 

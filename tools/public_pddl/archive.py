@@ -6,7 +6,7 @@ import random
 import re
 import subprocess
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice
 from pathlib import Path, PurePosixPath
 
@@ -16,14 +16,16 @@ _DOMAIN = re.compile(r"\(\s*define\s*\(\s*domain\s+([^\s()]+)", re.IGNORECASE)
 _PROBLEM = re.compile(r"\(\s*define\s*\(\s*problem\b", re.IGNORECASE)
 _DOMAIN_OF = re.compile(r"\(\s*:domain\s+([^\s()]+)", re.IGNORECASE)
 _DIGITS = re.compile(r"\d+")
+_PLAN = re.compile(r"(\.[\w-]+)?\.(plan|soln|solution)$")
 
 
 @dataclass(frozen=True)
 class Pair:
-    """A domain file and a problem file."""
+    """A domain file and a problem file, with the plan that the archive has for it."""
 
     domain: Path
     problem: Path
+    plan: Path | None = None
 
 
 @dataclass(frozen=True)
@@ -34,18 +36,20 @@ class _Problem:
 
 
 def export(source: Path, target: Path) -> Path:
-    """Return a folder with the PDDL files of an archive: itself, or what ``HEAD`` holds."""
+    """Return a folder with PDDL and plans of an archive: itself, or what ``HEAD`` holds."""
     if not (source / "HEAD").exists():
         return source
+    files = list[Path]()
     listing = _git(source, "ls-tree", "-r", "-l", "-z", "HEAD").decode(errors="replace")
     for line in listing.split("\0"):
         entry, _, name = line.partition("\t")
-        if not name.endswith(".pddl") or not entry.split()[3].isdigit():
+        if not (name.endswith(".pddl") or _PLAN.search(name)) or not entry.split()[3].isdigit():
             continue  # no PDDL, or a file that this copy of the repository lacks
         if int(entry.split()[3]) <= MOST_BYTES:
-            (target / name).parent.mkdir(parents=True, exist_ok=True)
-            (target / name).write_text(entry.split()[2])
-    _fill(source, [path for path in target.rglob("*.pddl") if path.is_file()])
+            files.append(target / name)
+            files[-1].parent.mkdir(parents=True, exist_ok=True)
+            files[-1].write_text(entry.split()[2])
+    _fill(source, files)
     return target
 
 
@@ -86,8 +90,29 @@ def pairs(folder: Path, n: int, seed: int, *, middle: bool = False) -> list[Pair
     rng = random.Random(seed)
     keys = sorted(domains, key=str)
     rng.shuffle(keys)
-    chosen = (_pair(folder, rng.choice(domains[key]), key[1], problems, middle) for key in keys)
-    return list(islice((pair for pair in chosen if pair is not None), n))
+    all_of = (_pair(folder, rng.choice(domains[key]), key[1], problems, middle) for key in keys)
+    chosen = islice((pair for pair in all_of if pair is not None), n)
+    plans = _plans(folder)
+    return [replace(pair, plan=_plan(folder, pair, plans)) for pair in chosen]
+
+
+def _plans(folder: Path) -> dict[str, list[Path]]:
+    """Return the plan files of an archive by the name that they share with their problem."""
+    plans: dict[str, list[Path]] = {}
+    for path in sorted(folder.rglob("*")):
+        if path.is_file() and (end := _PLAN.search(path.name)):
+            plans.setdefault(path.name[: end.start()], []).append(path)
+    return plans
+
+
+def _plan(folder: Path, pair: Pair, plans: dict[str, list[Path]]) -> Path | None:
+    """Return the plan beside a problem, or at the same place of a folder with solutions."""
+    place = pair.problem.relative_to(folder).parent.parts
+    for path in plans.get(pair.problem.stem, []):
+        parts = path.relative_to(folder).parent.parts
+        if parts in (place, ("solutions", *place)):
+            return path
+    return None
 
 
 def _pair(
