@@ -7,6 +7,7 @@ import os
 import random
 import re
 import subprocess
+import sys
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -38,6 +39,7 @@ COLUMNS = (
     "not judged by VAL",
 )
 TOLERANCE = 1e-3  # of a metric: VAL prints few digits
+_NO_CONDITION = re.compile(r"(:parameters \([^()]*\)\s*)(?=:effect\b)")
 _VALUE = re.compile(r"Final value: (\S+)")
 
 
@@ -53,18 +55,27 @@ class Judgement:
 def val(pair: Pair, problem: Problem, plan: str) -> Judgement:
     """Return what VAL says of a plan; where it gives no verdict, of files that hrcplan writes.
 
-    Its type check and its parser end with an error on some files that others read: the same task
-    in the plain form of hrcplan's writer is judged.
+    Its type check and its parser end with an error on some files that others read, such as actions
+    without a condition: the same task in the plain form of hrcplan's writer is judged.
     """
     first = _judged(pair.domain, pair.problem, plan)
     if first.valid is not None:
         return first
     with TemporaryDirectory() as folder:
         domain, task = Path(folder, "domain.pddl"), Path(folder, "problem.pddl")
-        domain.write_text(domain_text(problem.domain))
+        domain.write_text(_with_conditions(domain_text(problem.domain)))
         task.write_text(problem_text(problem))
         second = _judged(domain, task, plan)
     return first if second.valid is None else replace(second, is_rewritten=True)
+
+
+def _with_conditions(text: str) -> str:
+    """Return a domain in which no action lacks a condition: VAL reads none that does.
+
+    >>> _with_conditions("(:action a :parameters (?x - t) :effect (p ?x))")
+    '(:action a :parameters (?x - t) :precondition (and) :effect (p ?x))'
+    """
+    return _NO_CONDITION.sub(r"\1:precondition (and) ", text)
 
 
 def _judged(domain: Path, task: Path, plan: str) -> Judgement:
@@ -178,6 +189,7 @@ def report(readable: Sequence[Pair], n: int, seed: int) -> None:
         for candidate in _candidates(pair, problem, rng):
             for outcome in _outcomes(pair, problem, candidate):
                 tally[candidate.kind][outcome] += 1
+        print(dict(sum(tally.values(), Counter[str]())), file=sys.stderr, flush=True)
     print(f"\n| plans | {' | '.join(COLUMNS)} |\n|{'---|' * (len(COLUMNS) + 1)}")
     for kind, counter in (*tally.items(), ("all", sum(tally.values(), Counter[str]()))):
         print(f"| {kind} | {' | '.join(map(str, _cells(counter)))} |", flush=True)
