@@ -124,10 +124,8 @@ def read(source: SourceText) -> GroupNode | None:
     root = next((group for group in groups if group.head == "define"), None)
     outside = next((n for n in nodes if n is not root and not _is_lisp(n, source)), None)
     if outside is not None:
-        message, hint = _outside(source.text, root is not None)
-        if root is not None and isinstance(outside, WordNode):
-            message = f"{quote(outside)} stands outside the (define …)"
-        source.error(outside.at, "outside-define", message, hint)
+        word = outside if isinstance(outside, WordNode) and root is not None else None
+        source.error(outside.at, "outside-define", *_outside(source.text, root is not None, word))
     elif root is None and not source.has_errors:
         source.error(0, "empty", "the file holds no (define …)")
     return root
@@ -166,7 +164,7 @@ def _is_lisp(node: ParseNode, source: SourceText) -> bool:
     return True
 
 
-def _outside(text: str, has_define: bool) -> tuple[str, str | None]:
+def _outside(text: str, has_define: bool, word: str | None = None) -> tuple[str, str | None]:
     """Return message and hint for a file with more than a ``(define …)``."""
     start = text.lstrip()[:20].lower()
     if "```" in text:
@@ -178,6 +176,8 @@ def _outside(text: str, has_define: bool) -> tuple[str, str | None]:
         hint = (
             "remove the rest, or write ; before its lines; a second (define …) needs its own file"
         )
+    if word is not None:
+        return f"{quote(word)} stands outside the (define …)", hint
     return "a file holds one (define …) and nothing outside it", hint
 
 

@@ -52,7 +52,7 @@ def main() -> None:
         if options.mutants:
             breaking.report(readable, options.mutants, options.seed)
         if options.plans:
-            judging.report(readable, options.plans, options.seed)
+            judging.report(readable, options.plans, options.rounds, options.seed)
         if options.tasks:
             racing.report(readable, options.tasks, options.seed, options.time or RACE_S)
         if options.qualities:
@@ -105,6 +105,7 @@ def _options() -> argparse.Namespace:
     parser.add_argument("--alone", action="store_true", help="do not ask other readers")
     parser.add_argument("--mutants", type=int, default=0, help="broken mutants to refuse")
     parser.add_argument("--plans", type=int, default=0, help="plans to validate beside VAL")
+    parser.add_argument("--rounds", type=int, default=1, help="changes of each kind of every plan")
     parser.add_argument("--tasks", type=int, default=0, help="tasks to plan beside planners")
     words = "tasks of middle size to ground beside Fast Downward's translator, and nothing else"
     parser.add_argument("--groundings", type=int, default=0, help=words)

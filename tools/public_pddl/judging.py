@@ -146,13 +146,15 @@ class _Candidate:
     text: str
 
 
-def _candidates(pair: Pair, problem: Problem, rng: random.Random) -> Iterator[_Candidate]:
+def _candidates(
+    pair: Pair, problem: Problem, rounds: int, rng: random.Random
+) -> Iterator[_Candidate]:
     """Yield a plan of a pair, the archive's where it has one, and changes of it."""
     first = _reference(pair, problem) if pair.plan else _quick(problem)
     if first is None or not first.plan.actions:
         return
     yield first
-    for kind in MUTANTS:
+    for kind in MUTANTS * rounds:
         mutant = changed(first.plan, kind, problem, rng)
         if mutant is not None:
             yield _Candidate(kind, mutant, format_plan(mutant))
@@ -176,8 +178,11 @@ def _quick(problem: Problem) -> _Candidate | None:
     return None if plan is None else _Candidate("plan", plan, format_plan(plan))
 
 
-def report(readable: Sequence[Pair], n: int, seed: int) -> None:
-    """Print how often both verdicts agree for the plans of ``n`` problems, and each difference."""
+def report(readable: Sequence[Pair], n: int, rounds: int, seed: int) -> None:
+    """Print how often both verdicts agree for the plans of ``n`` problems, and each difference.
+
+    Every plan is changed ``rounds`` times in each way.
+    """
     rng = random.Random(seed)
     tally = {kind: Counter[str]() for kind in KINDS}
     for pair in rng.sample(readable, len(readable)):
@@ -186,7 +191,7 @@ def report(readable: Sequence[Pair], n: int, seed: int) -> None:
         problem = read(pair.domain, pair.problem)
         if problem.domain.is_continuous:
             continue  # hrcplan says by name that it cannot judge processes and events
-        for candidate in _candidates(pair, problem, rng):
+        for candidate in _candidates(pair, problem, rounds, rng):
             for outcome in _outcomes(pair, problem, candidate):
                 tally[candidate.kind][outcome] += 1
         print(dict(sum(tally.values(), Counter[str]())), file=sys.stderr, flush=True)
