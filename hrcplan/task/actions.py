@@ -178,9 +178,11 @@ class _Builder:
         if not start:
             return []
         at_start, later = self._changes(instance, "start", values)
-        over = self._conditions(instance, "all", later)
-        end = self._conditions(instance, "end", later)
-        at_end, _ = self._changes(instance, "end", later)
+        over, end, at_end = ALWAYS, ALWAYS, _NO_EFFECTS
+        if instance.action.durative:
+            over = self._conditions(instance, "all", later)
+            end = self._conditions(instance, "end", later)
+            at_end, _ = self._changes(instance, "end", later)
         phases = _Phases(start, over, end, at_start, at_end)
         duration = values.get((DURATION,)) if instance.action.durative else 0
         before = phases.tests
