@@ -8,24 +8,28 @@ from __future__ import annotations
 
 import time
 from collections import defaultdict
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import cached_property
-from math import inf
+from itertools import chain, product
+from math import inf, prod
 
 from hrcplan.core.progress import counting
-from hrcplan.core.records import record
+from hrcplan.core.records import record, replace
 from hrcplan.errors import LimitError
 from hrcplan.pddl.joins import FactIndex, Join, JoinBinding, needed_atoms
 from hrcplan.pddl.model import (
     DURATION,
     Action,
+    And,
     Atom,
+    Condition,
     Domain,
     Effect,
     Equal,
     Fact,
     Formula,
     Not,
+    Or,
     Problem,
 )
 from hrcplan.pddl.rows import LiteralRows, Row, RowKey
@@ -34,6 +38,8 @@ from hrcplan.pddl.walks import conjuncts, lifted_names
 
 MIN_FREE_BYTES = 512 << 20
 """What grounding leaves to others: with less memory free it gives up."""
+MAX_ALTERNATIVES = 64
+"""Joins of one schema: where its static disjunctions give more, they are looked at last."""
 _CHECK = 256  # bindings between two looks at the clock
 _CHECK_MEMORY = 4096
 _HINT = "use a planner that does not need them: enhsp, kairos"
@@ -90,12 +96,12 @@ class _ReachabilitySearch:
         self._tell = tell
         self._n_bindings = self._n_instances = 0
         self.rules = [_ReachabilityRule(action, problem) for action in problem.domain.actions]
-        self._users: dict[str, list[tuple[_ReachabilityRule, int]]] = defaultdict(list)
+        self._users: dict[str, list[tuple[_ReachabilityRule, Join, int]]] = defaultdict(list)
         self._addable = {add.name for rule in self.rules for add in rule.adds}
-        for rule in self.rules:
-            for position, atom in enumerate(rule.join.atoms):
+        for rule, join in self._joins():
+            for position, atom in enumerate(join.atoms):
                 if atom.name in self._addable:
-                    self._users[atom.name].append((rule, position))
+                    self._users[atom.name].append((rule, join, position))
         self.index = FactIndex(fact for fact in problem.facts if fact[0] not in self._addable)
         self._facts = set(problem.facts)  # also those that wait
         self._waiting: dict[str, list[Fact]] = {}
@@ -104,15 +110,18 @@ class _ReachabilitySearch:
                 self._waiting.setdefault(fact[0], []).append(fact)
 
     def run(self) -> None:
-        for rule in self.rules:
-            if self._addable.isdisjoint(atom.name for atom in rule.join.atoms):
-                self._take(rule, rule.join.rows(self.index, look=self._look))
+        for rule, join in self._joins():
+            if self._addable.isdisjoint(atom.name for atom in join.atoms):
+                self._take(rule, join.rows(self.index, look=self._look))
         while self._waiting:
             name = next(iter(self._waiting))
             facts = self._waiting.pop(name)
             self.index.add(facts)
-            for rule, position in self._users[name]:
-                self._take(rule, rule.join.rows(self.index, position, facts, self._look))
+            for rule, join, position in self._users[name]:
+                self._take(rule, join.rows(self.index, position, facts, self._look))
+
+    def _joins(self) -> Iterator[tuple[_ReachabilityRule, Join]]:
+        return ((rule, join) for rule in self.rules for join in rule.joins)
 
     def _take(self, rule: _ReachabilityRule, rows: Iterator[Row]) -> None:
         for args in rows:
@@ -148,13 +157,17 @@ class _ReachabilityRule:
     def __init__(self, action: Action, problem: Problem) -> None:
         self.action = action
         self.instances: set[Row] = set()
-        self.join = Join(action, needed_atoms(action, problem.domain), problem)
         self.adds = [
             EffectFacts(action, effect, problem)
             for effect in action.effects
             if effect.kind == "add"
         ]
         self._static_parts = tuple(_static_parts(action, problem.domain))
+        self._names = [param.name for param in action.params]
+        self.joins = [
+            Join(one, needed_atoms(one, problem.domain), problem)
+            for one in _alternatives(action, self._static_parts)
+        ]
         self._start = LiftedState(problem.facts, problem.values)
         self._problem = problem
 
@@ -162,7 +175,7 @@ class _ReachabilityRule:
         """Return whether what no action can change holds for these objects."""
         if not self._static_parts:
             return True
-        binding = dict(zip(self.join.names, args, strict=True))
+        binding = dict(zip(self._names, args, strict=True))
         start, problem = self._start, self._problem
         return all(holds(part, start, binding, problem) for part in self._static_parts)
 
@@ -190,6 +203,32 @@ class EffectFacts:
             return [key(of(args))]
         choices = instances(self._params, {}, self._problem)
         return [key(of((*args, *choice.values()))) for choice in choices]
+
+
+def _alternatives(action: Action, static_parts: Sequence[Formula]) -> Iterator[Action]:
+    """Yield an action for each choice of what holds of its static disjunctions.
+
+    So these take part in joins: whole, they could only be looked at once all objects are chosen.
+    Where there are too many choices, that is done.
+    """
+    options = [_cases(part) for part in static_parts if isinstance(part, Or)]
+    if prod(map(len, options)) > MAX_ALTERNATIVES:
+        options = []
+    for choice in product(*options):
+        cases = tuple(Condition("start", And(case)) for case in choice)
+        yield replace(action, conditions=(*action.conditions, *cases)) if cases else action
+
+
+def _cases(formula: Formula) -> list[tuple[Formula, ...]]:
+    """Return conjunctions of which one holds where the formula does."""
+    match formula:
+        case Or(parts):
+            return [case for part in parts for case in _cases(part)]
+        case And(parts):
+            options = [_cases(part) for part in parts]
+            if prod(map(len, options)) <= MAX_ALTERNATIVES:
+                return [tuple(chain(*choice)) for choice in product(*options)]
+    return [(formula,)]
 
 
 def _static_parts(action: Action, domain: Domain) -> Iterator[Formula]:

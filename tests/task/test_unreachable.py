@@ -79,3 +79,26 @@ def test_grounding_looks_at_the_clock_where_every_binding_is_refused() -> None:
     text = f"(define (problem p) (:domain d) (:objects {names}) (:init {values}) (:goal (p)))"
     with pytest.raises(LimitError, match="no time for more than 0 ground actions"):
         reachable(problem_of(domain, text), deadline=time.monotonic() - 1)
+
+
+def test_static_disjunctions_take_part_in_joins() -> None:
+    """Each choice is joined by itself; whole they would be looked at for all pairs of objects."""
+    domain = """(define (domain line) (:requirements :adl) (:constants o0)
+      (:predicates (next ?a ?b) (wall ?a) (at ?a) (seen ?a ?b))
+      (:action step :parameters (?a ?b) :precondition (and (at ?a) (not (= ?a ?b))
+          (or (next ?a ?b) (and (next ?b ?a) (or (wall ?b) (not (wall ?a)))) (= ?b o0)))
+        :effect (and (at ?b) (seen ?a ?b))))"""
+    n = 40
+    facts = " ".join(f"(next o{i} o{i + 1})" for i in range(n - 1))
+    text = f"""(define (problem p) (:domain line)
+      (:objects {" ".join(f"o{i}" for i in range(1, n))})
+      (:init (at o3) (wall o5) (wall o6) {facts}) (:goal (at o9)))"""
+    rows = {i.args for i in reachable(problem_of(domain, text))[0]}
+    walls = {5, 6}
+    assert rows == {
+        (f"o{a}", f"o{b}")
+        for a in range(n)
+        for b in range(n)
+        if a != b
+        if b == a + 1 or (b == a - 1 and (b in walls or a not in walls)) or b == 0
+    }
