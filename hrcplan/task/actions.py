@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import contextlib
+import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence, Set
 from functools import cached_property
 from itertools import product
+from math import inf
 
 from hrcplan.core.bits import single_bits
 from hrcplan.core.numbers import Number
 from hrcplan.core.progress import counting
 from hrcplan.core.records import field, record, replace
-from hrcplan.errors import UnsupportedError
+from hrcplan.errors import LimitError, UnsupportedError
 from hrcplan.pddl.model import DURATION, TOTAL_COST, TRUE, Action, Constant, Expr, FluentKey
 from hrcplan.pddl.semantics import Undefined, Values, evaluate, ground_key, instances
 from hrcplan.pddl.walks import functions_in
@@ -26,9 +28,10 @@ from hrcplan.task.changing import (
 from hrcplan.task.conditions import ALWAYS, Grounder, Tests, all_of, any_of, negation
 from hrcplan.task.literal_schemas import LiteralSchema, changed_names, is_literal
 from hrcplan.task.numbers import ground_expression
-from hrcplan.task.reachable import SchemaInstance
+from hrcplan.task.reachable import NO_GROUNDING, SchemaInstance
 from hrcplan.task.transitions import BitEffect, Effects, Transition, net_effect
 
+_CHECK = 16  # instances between two looks at the clock: some have thousands of effects
 _TELL = 256  # instances between two reports of progress
 MAX_COST_CONDITIONS = 4
 """Conditions of one action's cost that the state decides: each doubles its ground actions."""
@@ -75,11 +78,15 @@ class GroundAction(Transition):
 
 
 def ground_actions(
-    grounder: Grounder, instances: Iterable[SchemaInstance], value_sets: ValueSets
+    grounder: Grounder,
+    instances: Iterable[SchemaInstance],
+    value_sets: ValueSets,
+    deadline: float = inf,
 ) -> tuple[GroundAction, ...]:
     """Return the ground actions of instances: those that can run and change something.
 
     Raises:
+        LimitError: at the deadline, a time of ``time.monotonic()``.
         UnsupportedError: if a condition or an effect cannot be held in bits.
     """
     builder = _Builder(grounder, value_sets)
@@ -88,6 +95,9 @@ def ground_actions(
         for count, instance in enumerate(instances):
             if count % _TELL == 0:
                 tell(len(actions))
+            if count % _CHECK == 0 and time.monotonic() > deadline:
+                message = f"no time for more than {len(actions)} ground actions"
+                raise LimitError(message, hint=NO_GROUNDING)
             schema = builder.literal_schema(instance.action)
             if schema is not None:
                 try:

@@ -142,7 +142,9 @@ def ground(problem: Problem, deadline: float = inf) -> Grounding:
     value_sets = reached_values(Grounder(problem, plain_bits, constant), schema_instances)
     facts = (*fluents, *(value_fact(key, value) for key in value_sets for value in value_sets[key]))
     bits = {fact: i for i, fact in enumerate(facts)}
-    actions = ground_actions(Grounder(problem, bits, constant), schema_instances, value_sets)
+    actions = ground_actions(
+        Grounder(problem, bits, constant), schema_instances, value_sets, deadline
+    )
     return Grounding(
         facts, bits, constant, value_sets,
         movers=tuple(i for i in schema_instances if any(numeric_effects(i.action))),

@@ -40,9 +40,10 @@ MIN_FREE_BYTES = 512 << 20
 """What grounding leaves to others: with less memory free it gives up."""
 MAX_ALTERNATIVES = 64
 """Joins of one schema: where its static disjunctions give more, they are looked at last."""
+_MOST_ADDED = 4096  # facts that effects add between two looks at the clock
 _CHECK = 256  # bindings between two looks at the clock
 _CHECK_MEMORY = 4096
-_HINT = "use a planner that does not need them: enhsp, kairos"
+NO_GROUNDING = "use a planner that does not need them: enhsp, kairos"
 
 
 @record
@@ -93,6 +94,7 @@ class _ReachabilitySearch:
 
     def __init__(self, problem: Problem, deadline: float, tell: Callable[[int], None]) -> None:
         self._deadline = deadline
+        self._n_added = 0
         self._tell = tell
         self._n_bindings = self._n_instances = 0
         self.rules = [_ReachabilityRule(action, problem) for action in problem.domain.actions]
@@ -128,12 +130,17 @@ class _ReachabilitySearch:
             self._n_bindings += 1
             if self._n_bindings % _CHECK == 0:
                 self._check()
+            if self._n_added > _MOST_ADDED:  # effects for all objects
+                self._n_added = 0
+                self._look()
             if args in rule.instances or not rule.can_hold(args):
                 continue
             rule.instances.add(args)
             self._n_instances += 1
             for add in rule.adds:
-                for fact in add.of(args):
+                added = add.of(args)
+                self._n_added += len(added)
+                for fact in added:
                     if fact not in self._facts:
                         self._facts.add(fact)
                         self._waiting.setdefault(fact[0], []).append(fact)
@@ -143,12 +150,12 @@ class _ReachabilitySearch:
         self._look()
         if self._n_bindings % _CHECK_MEMORY == 0 and available_bytes() < MIN_FREE_BYTES:
             message = f"no memory for more than {self._n_instances} ground actions"
-            raise LimitError(message, hint=_HINT)
+            raise LimitError(message, hint=NO_GROUNDING)
 
     def _look(self) -> None:
         if time.monotonic() > self._deadline:
             message = f"no time for more than {self._n_instances} ground actions"
-            raise LimitError(message, hint=_HINT)
+            raise LimitError(message, hint=NO_GROUNDING)
 
 
 class _ReachabilityRule:

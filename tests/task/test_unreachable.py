@@ -7,7 +7,10 @@ import pytest
 from hrcplan.errors import LimitError
 from hrcplan.planners.contract import Status
 from hrcplan.planners.solve import solve
+from hrcplan.task.actions import ground_actions
+from hrcplan.task.conditions import Grounder
 from hrcplan.task.reachable import reachable
+from hrcplan.task.task import Task
 from hrcplan.task.unreachable import is_out_of_reach
 from tests.texts import problem_of
 
@@ -102,3 +105,18 @@ def test_static_disjunctions_take_part_in_joins() -> None:
         if a != b
         if b == a + 1 or (b == a - 1 and (b in walls or a not in walls)) or b == 0
     }
+
+
+def test_the_clock_is_looked_at_while_instances_become_ground_actions() -> None:
+    domain = """(define (domain d) (:predicates (p ?x) (q ?x))
+      (:action a :parameters (?x) :effect (forall (?y) (when (q ?y) (and (p ?y) (not (q ?y)))))))"""
+    names = " ".join(f"o{i}" for i in range(20))
+    facts = " ".join(f"(q o{i})" for i in range(20))
+    text = f"(define (problem x) (:domain d) (:objects {names}) (:init {facts}) (:goal (p o1)))"
+    problem = problem_of(domain, text)
+    schema_instances, _ = reachable(problem)
+    grounding = Task(problem).grounding
+    grounder = Grounder(problem, grounding.bits, grounding.constant)
+    with pytest.raises(LimitError, match="no time for more than 0 ground actions"):
+        ground_actions(grounder, schema_instances, {}, deadline=time.monotonic() - 1)
+    assert len(ground_actions(grounder, schema_instances, {})) == 20
