@@ -82,6 +82,7 @@ def call(argv: Sequence[str], folder: Path, limit_s: float) -> Run:
         done = subprocess.run(argv, cwd=folder, capture_output=True, timeout=limit_s + LATE_S)
         solved = done.returncode == 0
         solved &= b"Problem unsolvable" not in done.stdout
+        solved &= b"SEVERE" not in done.stdout + done.stderr  # ENHSP failed on the way
     except subprocess.TimeoutExpired:
         solved = False
     return Run(solved, time.perf_counter() - start, _processor_s() - worked)
