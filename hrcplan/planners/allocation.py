@@ -129,6 +129,8 @@ def diagram(
         raise UsageError(f"from {least} to {most} there is nothing to look at", code="bad-range")
     best = _Best(problem, key, planner, timeout_s)
     pieces = _pieces(best, (least, best(least)), (most, best(most)))
+    if not best.is_proven:
+        pieces = lowest(best.lines, least, most, problem)
     return Diagram(key, problem.values[key], tuple(pieces), best.is_proven)
 
 
@@ -190,7 +192,7 @@ class _Best:
         self.problem, self.key = problem, key
         self._planner, self._timeout_s = planner, timeout_s
         self._groundings = Groundings()
-        self._lines: list[Line] = []
+        self.lines: list[Line] = []
         self.is_proven = True
 
     def _task(self, problem: Problem) -> Task | None:
@@ -214,8 +216,8 @@ class _Best:
             self.is_proven = False
         elif isinstance(self._planner, str):
             self._planner = registry.make(result.planner)  # it keeps what it found out
-        self._lines.append(line_of(problem, result.plan, self.key))
-        return min(self._lines, key=lambda line: (line.at(value), line is not self._lines[-1]))
+        self.lines.append(line_of(problem, result.plan, self.key))
+        return min(self.lines, key=lambda line: (line.at(value), line is not self.lines[-1]))
 
 
 def _no_plan(result: Result, where: str) -> HrcplanError:
@@ -229,10 +231,12 @@ def _pieces(best: _Best, first: tuple[Number, Line], last: tuple[Number, Line]) 
     waiting, pieces = [(first, last)], list[Piece]()
     while waiting:
         (start, left), (end, right) = waiting.pop()
-        if left == right:
+        if left == right or left.slope == right.slope:
             _extend(pieces, start, end, left, best.problem)
             continue
-        cross = exact(Fraction(right.intercept - left.intercept) / (left.slope - right.slope))
+        cross = _crossing(left, right)
+        if not start <= cross <= end:  # not proven: a plan that came later is better at one end
+            continue
         middle = best(cross)
         if middle.at(cross) >= left.at(cross):
             _extend(pieces, start, cross, left, best.problem)
@@ -241,6 +245,23 @@ def _pieces(best: _Best, first: tuple[Number, Line], last: tuple[Number, Line]) 
             waiting += [((cross, middle), (end, right)), ((start, left), (cross, middle))]
         if len(pieces) > MAX_PIECES:
             raise PlannerError(f"more than {MAX_PIECES} allocations", code="too-many-pieces")
+    return pieces
+
+
+def _crossing(left: Line, right: Line) -> Number:
+    return exact(Fraction(right.intercept - left.intercept) / (left.slope - right.slope))
+
+
+def lowest(lines: Sequence[Line], least: Number, most: Number, problem: Problem) -> Sequence[Piece]:
+    """Return the lowest of some lines from ``least`` to ``most``, as pieces."""
+    pieces = list[Piece]()
+    start = least
+    while start < most:
+        line = min(lines, key=lambda line: (line.at(start), line.slope))
+        crossings = (_crossing(line, other) for other in lines if other.slope < line.slope)
+        end = min([most, *(cross for cross in crossings if cross > start)])
+        _extend(pieces, start, end, line, problem)
+        start = end
     return pieces
 
 

@@ -9,7 +9,7 @@ from hrcplan.errors import HrcplanError, LimitError, UsageError
 from hrcplan.pddl.generate import with_goal
 from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import FluentKey, Problem
-from hrcplan.planners.allocation import Diagram, Line, diagram, line_of
+from hrcplan.planners.allocation import Diagram, Line, diagram, line_of, lowest
 from hrcplan.planners.exact import ExactPlanner
 from hrcplan.planners.solve import solve
 from hrcplan.plans import Plan
@@ -116,3 +116,19 @@ def test_no_plan_is_told_from_no_time(two_boxes: Problem) -> None:
     assert caught.value.exit_code == 1
     with pytest.raises(LimitError):
         diagram(two_boxes, MOTIVATION, timeout_s=1e-9)
+
+
+def test_of_plans_that_are_not_proven_the_best_ones_known_count_everywhere(
+    two_boxes: Problem,
+) -> None:
+    """The plan for one end may be beaten there by one that was found for the other end."""
+    lines = [
+        Line(Plan(), Fraction(59, 2), 5),
+        Line(Plan(), Fraction(55, 2), 4),
+        Line(Plan(), 45, 0),
+    ]
+    pieces = lowest(lines, 0, 10, two_boxes)
+    assert [(p.least, p.most, p.line.slope) for p in pieces] == [
+        (0, Fraction(35, 8), 4),
+        (Fraction(35, 8), 10, 0),
+    ]
