@@ -57,7 +57,8 @@ def executable(problem: Problem) -> Problem:
 def _refuse(problem: Problem, constructs_held: Set[str], what: str) -> None:
     for name in constructs(problem):
         if name not in constructs_held:
-            hint = "'plan' hands them to planners that know them"
+            commands = "'plan' and 'execute' hand" if name in EXECUTED else "'plan' hands"
+            hint = f"{commands} them to planners that know them"
             raise UnsupportedError(f"{name} {what}", hint=hint)
 
 
@@ -126,7 +127,7 @@ class _Inliner:
             same = {name for name, other in level.items() if other == level[axiom.name]}
             if any(name in same for name, _ in uses(axiom.body)):
                 message = f"'{axiom.name}' is derived from itself, which a ground task cannot hold"
-                hint = "'plan' hands it to planners that know axioms"
+                hint = "'plan' and 'execute' hand it to planners that know axioms"
                 raise UnsupportedError(message, hint=hint)
             body = replace(inliner, axioms=bodies).formula(axiom.body)
             bodies.setdefault(axiom.name, []).append(replace(axiom, body=body))

@@ -7,8 +7,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
+import hrcplan
 from hrcplan.agents import load_profile
+from hrcplan.errors import UnsupportedError
 from hrcplan.execution import events as ev
 from hrcplan.execution.execute import Execution, carry_out, prepare_run
 from hrcplan.execution.journal import read_journal
@@ -21,6 +25,7 @@ from hrcplan.execution.worlds.simulated import Nature
 from hrcplan.pddl.inputs import read
 from hrcplan.pddl.model import Problem
 from hrcplan.plans import parse_plan
+from hrcplan.validation import validate
 from tests.execution.scripted import Plans, carried_out
 
 HARBOR = """
@@ -238,3 +243,42 @@ def test_a_literal_that_touches_nothing_of_the_plan_is_no_obstacle() -> None:
     done, provider = carried_out(problem, TAKE_AND_GO + "12.002: (ship kim c1 quay) [3]")
     assert done.outcome.success
     assert len(provider.asks) == 1
+
+
+SWITCHES = ("(open quay)", "(not (open quay))", "(lit quay)", "(not (lit quay))", "(= (tide) 1)",
+            "(= (tide) 5)", "(= (pace) 20)", "(open pier)", "(not (open pier))")  # fmt: skip
+
+
+@given(
+    st.lists(st.tuples(st.integers(1, 45), st.sampled_from(SWITCHES)), max_size=6),
+    st.tuples(st.integers(0, 6), st.integers(0, 12), st.integers(0, 12)),
+)
+@settings(max_examples=120, deadline=None)
+def test_a_valid_plan_is_carried_out_without_a_replan(
+    literals: list[tuple[int, str]], delays: tuple[int, int, int]
+) -> None:
+    problem = harbor(" ".join(f"(at {t} {text})" for t, text in literals))
+    take_s, go_s = delays[0], delays[0] + 2 + delays[1]
+    plans = [
+        f"{take_s}.002: (take kim c1 store) [2]\n{go_s}.005: (go kim store quay) [{lasts_s}]\n"
+        f"{go_s + lasts_s + delays[2]}.007: (ship kim c1 quay) [3]"
+        for lasts_s in (10, 20)
+    ]
+    for plan in plans:
+        if validate(problem, plan).valid:
+            done, _ = carried_out(problem, plan)
+            assert done.outcome.success
+            assert (done.outcome.replans, done.outcome.failed_human) == (0, 0)
+            for bar, action in zip(
+                done.timeline.bars.values(), parse_plan(plan).actions, strict=True
+            ):
+                assert bar.start_s <= float(action.start_s or 0) + ev.INSTANT_S
+
+
+def test_what_cannot_hold_literals_declines_by_name() -> None:
+    problem = harbor("(at 20 (= (tide) 3))", tide=0)
+    with pytest.raises(UnsupportedError, match="'exact' does not know timed initial literals"):
+        hrcplan.plan(problem, planner="exact")
+    with pytest.raises(UnsupportedError, match="timed initial literals cannot be held") as error:
+        hrcplan.ground(problem)
+    assert "'execute'" in (error.value.hint or "")
