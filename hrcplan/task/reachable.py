@@ -98,12 +98,15 @@ class _ReachabilitySearch:
         self._tell = tell
         self._n_bindings = self._n_instances = 0
         self.rules = [_ReachabilityRule(action, problem) for action in problem.domain.actions]
-        self._users: dict[str, list[tuple[_ReachabilityRule, Join, int]]] = defaultdict(list)
+        # By predicate, and by the place and name of an object that the atom wants, if any:
+        # where every schema names its own objects, few of them are asked about a fact.
+        self._users: dict[str, dict[tuple[int, str], list[_User]]] = defaultdict(dict)
         self._addable = {add.name for rule in self.rules for add in rule.adds}
         for rule, join in self._joins():
             for position, atom in enumerate(join.atoms):
                 if atom.name in self._addable:
-                    self._users[atom.name].append((rule, join, position))
+                    key = _wanted_object(atom)
+                    self._users[atom.name].setdefault(key, []).append((rule, join, position))
         self.index = FactIndex(fact for fact in problem.facts if fact[0] not in self._addable)
         self._facts = set(problem.facts)  # also those that wait
         self._waiting: dict[str, list[Fact]] = {}
@@ -119,8 +122,14 @@ class _ReachabilitySearch:
             name = next(iter(self._waiting))
             facts = self._waiting.pop(name)
             self.index.add(facts)
-            for rule, join, position in self._users[name]:
-                self._take(rule, join.rows(self.index, position, facts, self._look))
+            users = self._users[name]
+            for place in {place for place, _ in users}:
+                groups: dict[str, list[Fact]] = defaultdict(list)
+                for fact in facts:
+                    groups[fact[place]].append(fact)
+                for value, group in groups.items():
+                    for rule, join, position in users.get((place, value), ()):
+                        self._take(rule, join.rows(self.index, position, group, self._look))
 
     def _joins(self) -> Iterator[tuple[_ReachabilityRule, Join]]:
         return ((rule, join) for rule in self.rules for join in rule.joins)
@@ -185,6 +194,16 @@ class _ReachabilityRule:
         binding = dict(zip(self._names, args, strict=True))
         start, problem = self._start, self._problem
         return all(holds(part, start, binding, problem) for part in self._static_parts)
+
+
+_User = tuple[_ReachabilityRule, Join, int]
+"""A rule, one of its joins, and the position of an atom there."""
+
+
+def _wanted_object(atom: Atom) -> tuple[int, str]:
+    """Return the first place of an atom with an object, and the object; else its predicate."""
+    places = enumerate((atom.name, *atom.args))
+    return next(((i, term) for i, term in places if i and term[0] != "?"), (0, atom.name))
 
 
 class EffectFacts:

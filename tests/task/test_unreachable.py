@@ -1,10 +1,13 @@
 """Goals that not even the relaxed problem reaches; and those that it must not give up."""
 
 import time
+from collections.abc import Iterator
+from typing import Any
 
 import pytest
 
 from hrcplan.errors import LimitError
+from hrcplan.pddl.joins import Join
 from hrcplan.planners.contract import Status
 from hrcplan.planners.solve import solve
 from hrcplan.task.actions import ground_actions
@@ -120,3 +123,23 @@ def test_the_clock_is_looked_at_while_instances_become_ground_actions() -> None:
     with pytest.raises(LimitError, match="no time for more than 0 ground actions"):
         ground_actions(grounder, schema_instances, {}, deadline=time.monotonic() - 1)
     assert len(ground_actions(grounder, schema_instances, {})) == 20
+
+
+def test_a_fact_is_joined_only_where_its_object_is_wanted(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A chain whose every step is a schema of its own: one join for each, not one for all."""
+    n, joins, rows = 50, list[str](), Join.rows
+    schemas = " ".join(
+        f"(:action a{i} :parameters () :precondition (at o{i}) :effect (at o{i + 1}))"
+        for i in range(n)
+    )
+    names = " ".join(f"o{i}" for i in range(n + 1))
+    domain = f"(define (domain chain) (:constants {names}) (:predicates (at ?x)) {schemas})"
+    text = f"(define (problem p) (:domain chain) (:init (at o0)) (:goal (at o{n})))"
+
+    def counted(join: Join, *args: Any, **options: Any) -> Iterator[tuple[str, ...]]:
+        joins.append(join.action.name)
+        return rows(join, *args, **options)
+
+    monkeypatch.setattr(Join, "rows", counted)
+    instances, _ = reachable(problem_of(domain, text))
+    assert [instance.action.name for instance in instances] == joins == [f"a{i}" for i in range(n)]
