@@ -1,11 +1,13 @@
-"""Problems as planners are given them: with guards, and without names that are keywords.
+"""Problems as planners are given them: with guards, and with names that any planner can read.
 
 Plans come back in the names of the task.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Set
+import re
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field, replace
 from itertools import count
 
@@ -25,13 +27,17 @@ KEYWORDS = frozenset([
     "sometime-before", "start", "when", "within",
 ])  # fmt: skip
 """Words that the grammar of some planner knows wherever they stand."""
+_PLAIN = re.compile(r"[a-z0-9_][a-z0-9_-]*")
+_STRANGE = re.compile(r"[^a-z0-9_-]")
+"""Characters that some planner takes for the end of a name, such as ``+`` and ``@``."""
 
 
 @dataclass(frozen=True)
 class Handover:
     """A problem as a planner is to read it, and the old names by the new ones.
 
-    What may have no value is guarded, and nothing is called like a keyword.
+    What may have no value is guarded, nothing is called like a keyword, and names are of plain
+    characters.
     """
 
     problem: Problem
@@ -62,10 +68,10 @@ class Handover:
         problem = with_memory_facts(problem) if memory_facts else problem
         problem = with_single_types(problem) if single_types else problem
         words = set(_names(problem))
-        unsafe = sorted(words & KEYWORDS)
+        unsafe = sorted(word for word in words if word in KEYWORDS or not _PLAIN.fullmatch(word))
         if not unsafe:
             return cls(problem)
-        new = {word: _unused(word, words) for word in unsafe}
+        new = _new_names(unsafe, words)
         return cls(renamed(problem, new), {name: word for word, name in new.items()})
 
     @property
@@ -98,5 +104,14 @@ def _names(problem: Problem) -> Iterator[str]:
     yield from (domain.name, problem.name)
 
 
-def _unused(word: str, words: Set[str]) -> str:
-    return next(name for i in count(1) if (name := f"{word}-{i}") not in words)
+def _new_names(unsafe: Sequence[str], words: Set[str]) -> dict[str, str]:
+    """Return names of plain letters, digits, hyphens and underscores that nothing else has."""
+    numbers: dict[str, Iterator[int]] = defaultdict(lambda: count(1))
+    names = {}
+    for word in unsafe:
+        plain = _STRANGE.sub("-", word)
+        plain = plain if plain[:1].isalpha() else f"n{plain}"
+        names[word] = next(
+            name for i in numbers[plain] if (name := f"{plain}-{i}") not in words
+        )  # fmt: skip
+    return names

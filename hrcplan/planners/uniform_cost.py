@@ -11,6 +11,7 @@ import itertools
 import time
 from collections.abc import Hashable, Iterator
 from contextlib import suppress
+from dataclasses import replace
 from heapq import heappop, heappush
 from typing import NamedTuple
 
@@ -55,7 +56,13 @@ class UniformCost(OwnPlanner):
             raise UnsupportedError("uniform-cost plans without time")
         try:
             space = _space(request)
-            return _Search(space, path_metric(problem), request).answer()
+            try:
+                return _Search(space, path_metric(problem), request).answer()
+            except UnsupportedError:
+                steps = _Search(space, _STEPS, replace(request, any_plan=True)).answer()
+                if steps.status is not Status.UNSOLVABLE:
+                    raise
+                return steps
         except LimitError as error:
             return Answer(Status.UNSOLVED, note=error.message)
         except Undefined as error:
@@ -82,6 +89,9 @@ class PathMetric:
     step: Number
     sign: int
     on_state: bool
+
+
+_STEPS = PathMetric(0, 1, 1, False)
 
 
 def path_metric(problem: Problem) -> PathMetric:

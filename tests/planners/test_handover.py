@@ -62,3 +62,21 @@ def test_such_names_are_a_warning(tmp_path: Path) -> None:
     names = [d.message for d in found if d.code == "keyword-name"]
     assert len(names) == 5
     assert "many readers refuse a predicate called 'when'" in names
+
+
+ODD_DOMAIN = """(define (domain a/b) (:requirements :strips :durative-actions :typing)
+  (:types box.x) (:predicates (at@home ?b - box.x) (done! ?b - box.x))
+  (:durative-action lift+@ :parameters (?b - box.x) :duration (= ?duration 2)
+    :condition (at start (at@home ?b)) :effect (at end (done! ?b))))"""
+ODD_PROBLEM = """(define (problem p%) (:domain a/b) (:objects b+ b- b_ é - box.x)
+  (:init (at@home b+) (at@home b-) (at@home b_) (at@home é))
+  (:goal (and (done! b+) (done! b-) (done! b_) (done! é))))"""
+
+
+@pytest.mark.parametrize("planner", ["kairos", "fast-downward"])
+def test_names_of_any_characters_are_planned_with(planner: str) -> None:
+    result = solve(problem_of(ODD_DOMAIN, ODD_PROBLEM), planner, timeout_s=20, any_plan=True)
+    assert result.plan is not None
+    assert {(a.name, *a.args) for a in result.plan.actions} == {
+        ("lift+@", box) for box in ("b+", "b-", "b_", "é")
+    }

@@ -142,3 +142,10 @@ def test_numbers_and_derived_predicates_together() -> None:
     answer = solve(problem)
     assert answer.status is Status.OPTIMAL
     assert answer.objective == 4
+
+
+def test_no_plan_is_proven_although_the_metric_improves_without_end() -> None:
+    tolls = {"ab": "-1", "ba": "-1"}
+    assert solve(roads(tolls, goal="z")).status is Status.UNSOLVABLE
+    with pytest.raises(UnsupportedError, match="without end"):
+        solve(roads({**tolls, "bz": "1"}, goal="z"))
