@@ -440,3 +440,14 @@ def test_the_simulated_robot_from_the_command_line(tmp_path: Path) -> None:
     )  # fmt: skip
     assert finished.returncode == 0, finished.stderr
     assert json.loads(finished.stdout)["ending"] == ev.GOAL
+
+
+def test_the_simulated_robot_runs_no_code_of_the_current_folder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ("importlib", "json", "runpy", "click"):
+        (tmp_path / f"{name}.py").write_text("open('trap', 'w'); raise SystemExit('trapped')")
+    monkeypatch.chdir(tmp_path)
+    problem = read("transport", "handover")
+    assert execute(problem, robot="simulated", speed=SPEED).outcome.success
+    assert not (tmp_path / "trap").exists()

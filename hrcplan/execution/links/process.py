@@ -110,7 +110,9 @@ class SimulatedRobot(ProcessLink):
     """The robot of ``hrcplan robot --simulated``, in a process of its own."""
 
     def __init__(self) -> None:
-        super().__init__(shlex.join([sys.executable, "-m", "hrcplan", "robot", "--simulated"]))
+        super().__init__(
+            shlex.join([sys.executable, "-P", "-m", "hrcplan", "robot", "--simulated"])
+        )
 
     def _resources(self) -> Sequence[str]:
         """Return no names: any number of simulated robots may run."""
