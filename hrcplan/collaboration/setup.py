@@ -20,7 +20,12 @@ from hrcplan.pddl.inlining import plain
 from hrcplan.pddl.model import Formula, Problem
 from hrcplan.pddl.semantics import LiftedState, holds
 from hrcplan.pddl.source import SourceText
-from hrcplan.pddl.write import domain_text, problem_text
+from hrcplan.pddl.write import (
+    domain_text,
+    problem_text,
+    rounded_values,
+    with_rounded_values,
+)
 
 TURNS, FREE = "turns", "free"
 PACES = (TURNS, FREE)
@@ -107,6 +112,7 @@ class CollaborationSetup:
             "kind": "collaboration",
             "domain": domain_text(self.problem.domain),
             "goals": self._goal_texts(),
+            **({"values": values} if (values := rounded_values(self.problem)) else {}),
             "pddl_sha256": self.pddl_sha256,
             "profile": self.profile.to_json(),
             "pace": self.pace,
@@ -160,7 +166,8 @@ def setup_in(table: Mapping[str, Any], path: str) -> CollaborationSetup:
     try:
         domain = domain_in(SourceText("domain", table["domain"]))
         problems = [problem_in(domain, SourceText("problem", t)) for t in table["goals"].values()]
-        first = replace(problems[0], path="", domain=replace(domain, path=""))
+        first = with_rounded_values(problems[0], table.get("values", {}))
+        first = replace(first, path="", domain=replace(domain, path=""))
         return CollaborationSetup(
             first,
             {problem.name: problem.goal for problem in problems},

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-import subprocess
 import sys
 import tempfile
 from collections.abc import Iterator, Sequence
@@ -16,6 +15,7 @@ from hrcplan.core.files import reason_of
 from hrcplan.core.json_values import json_of
 from hrcplan.core.text import quote
 from hrcplan.errors import UsageError
+from hrcplan.planners.process import ProcessEnd, ProcessLimits, run
 
 MAX_SECONDS = 300.0
 _MARGIN_S = 30.0  # what a command may take besides its own limit
@@ -41,21 +41,19 @@ class FolderCommands:
                 without an answer.
         """
         command = [sys.executable, "-P", "-m", "hrcplan", *words, "--json"]
+        limits = ProcessLimits(timeout_s + _MARGIN_S, memory_bytes=None)
         try:
-            done = subprocess.run(
-                command, cwd=self.folders[0], stdin=subprocess.DEVNULL, capture_output=True,
-                timeout=timeout_s + _MARGIN_S, check=False,
-            )  # fmt: skip
-        except subprocess.TimeoutExpired:
-            raise UsageError(f"'{words[0]}' was stopped after {timeout_s:g} s") from None
+            done = run(command, cwd=self.folders[0], limits=limits)
         except (OSError, ValueError) as error:  # too many words, or a NUL in one of them
             raise UsageError(f"'{words[0]}' cannot be called: {reason_of(error)}") from None
+        if done.end is ProcessEnd.TIMEOUT:
+            raise UsageError(f"'{words[0]}' was stopped after {timeout_s:g} s")
         try:
             document: dict[str, Any] = json_of(done.stdout)
         except ValueError:  # it was killed
-            message = f"'{words[0]}' ended with exit code {done.returncode} and without an answer"
+            message = f"'{words[0]}' ended with exit code {done.code} and without an answer"
             raise UsageError(message) from None
-        return document | {"exit_code": done.returncode}
+        return document | {"exit_code": done.code}
 
     @contextmanager
     def files(self, *inputs: str) -> Iterator[list[str]]:

@@ -11,7 +11,8 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import groupby
 
-from hrcplan.core.numbers import Number, decimal_of, number_text
+from hrcplan.core.json_values import JsonValue
+from hrcplan.core.numbers import Number, decimal_of, exact, fraction_of, number_text
 from hrcplan.pddl.dialect import symbolic, without_numbers
 from hrcplan.pddl.model import (
     OBJECT,
@@ -59,6 +60,39 @@ def decimal_text(value: Number) -> str:
     if is_exact or (value and abs(Fraction(value)) < Fraction(1, 10**12)):
         return decimal_of(value, MAX_DECIMALS)
     return number_text(value)
+
+
+def rounded_values(problem: Problem) -> dict[str, str]:
+    """Return the initial values that `problem_text` has to round, as fractions by their function.
+
+    No file has such values; callers may set them.
+
+    >>> from fractions import Fraction
+    >>> from hrcplan.pddl.inputs import read
+    >>> problem = read("transport/two-boxes")
+    >>> rounded_values(problem.with_values({("motivation", "human"): Fraction(1, 3)}))
+    {'motivation human': '1/3'}
+    """
+    scale = 10**MAX_DECIMALS
+    return {
+        " ".join(key): str(value) for key, value in problem.values.items()
+        if value.denominator != 1 and (value * scale).denominator != 1
+    }  # fmt: skip
+
+
+def with_rounded_values(problem: Problem, values: Mapping[str, JsonValue]) -> Problem:
+    """Return a problem that was read from a text, with the values that the text has rounded.
+
+    Raises:
+        ValueError: if a value is no number.
+    """
+    numbers: dict[FluentKey, Number] = {}
+    for name, text in values.items():
+        number = fraction_of(text)
+        if number is None:
+            raise ValueError(f"{text!r} is no number")
+        numbers[tuple(name.split(" "))] = exact(number)
+    return replace(problem, values={**problem.values, **numbers}) if numbers else problem
 
 
 def domain_text(domain: Domain, *, strip_costs: bool = False) -> str:

@@ -9,6 +9,7 @@ import tempfile
 import time
 from collections.abc import Callable
 from contextlib import suppress
+from fractions import Fraction
 from functools import lru_cache
 from pathlib import Path
 
@@ -289,3 +290,14 @@ def test_a_line_that_holds_something_else_is_an_input_error(
 def test_a_table_in_place_of_a_value_is_no_event():
     with pytest.raises(ValueError, match="a table stands for a value"):
         from_json({"kind": "ended", "t": 0.0, "number": 1, "outcome": {"done": {}}})
+
+
+def test_values_that_no_file_can_hold_are_in_the_journal(tmp_path: Path) -> None:
+    third = {("motivation", "human"): Fraction(1, 3)}
+    problem = read("transport", "two-boxes").with_values(third)
+    path = tmp_path / "run.jsonl"
+    done = execute(problem, journal=path)
+    assert replay(read_journal(path)).difference is None
+    lines = path.read_text().splitlines(keepends=True)
+    path.write_text("".join(lines[: len(lines) // 2]))
+    assert execute(problem, journal=path, resume=True).outcome == done.outcome

@@ -17,7 +17,12 @@ from hrcplan.execution.codec import from_json, to_json
 from hrcplan.execution.worlds.simulated import FactChange, Nature, StateChange
 from hrcplan.pddl import check
 from hrcplan.pddl.model import Fact, Problem
-from hrcplan.pddl.write import domain_text, problem_text
+from hrcplan.pddl.write import (
+    domain_text,
+    problem_text,
+    rounded_values,
+    with_rounded_values,
+)
 
 
 @dataclass(frozen=True)
@@ -36,6 +41,7 @@ class RunSetup:
         return {
             "domain": domain_text(self.problem.domain),
             "problem": problem_text(self.problem),
+            **({"values": values} if (values := rounded_values(self.problem)) else {}),
             "profile": self.profile.to_json(),
             "sensing": self.sensing,
             "nature": _nature_to_json(self.nature),
@@ -52,7 +58,9 @@ def setup_from_json(table: Mapping[str, Any], path: str) -> RunSetup:
     """
     try:
         return RunSetup(
-            _problem(table["domain"], table["problem"]),
+            with_rounded_values(
+                _problem(table["domain"], table["problem"]), table.get("values", {})
+            ),
             profile_from_table(table["profile"], path),
             bool(table["sensing"]),
             _nature(table["nature"]),

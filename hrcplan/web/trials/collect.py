@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,6 +23,9 @@ from hrcplan.studies.store import Store
 from hrcplan.studies.study import Episode, StudyRow
 from hrcplan.web.trials.participants import Participant
 from hrcplan.web.trials.trial_desk import TrialDesk
+
+_FORMULA = re.compile(r"[=+@\t\r]|-(?![\d.]+$)")
+"""How a text begins that a spreadsheet may take for a formula; negative numbers are none."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,4 +135,4 @@ def _csv(lines: list[list[str]]) -> str:
 
 def _harmless(cells: list[str]) -> list[str]:
     """Return cells that a spreadsheet does not take for a formula."""
-    return [f"'{cell}" if cell[:1] in ("=", "+", "@") else cell for cell in cells]
+    return [f"'{cell}" if _FORMULA.match(cell) else cell for cell in cells]
