@@ -27,6 +27,7 @@ from hrcplan.bank.store import save
 from hrcplan.collaboration import events as shared
 from hrcplan.collaboration.collaborate import collaborate
 from hrcplan.collaboration.events import KINDS as COLLABORATION_KINDS
+from hrcplan.collaboration.setup import setup_in
 from hrcplan.errors import LimitError
 from hrcplan.execution import FactChange, Nature, StateChange
 from hrcplan.execution import events as ev
@@ -105,7 +106,8 @@ def journals(tmp_path_factory: pytest.TempPathFactory) -> list[list[dict[str, An
     folder = tmp_path_factory.mktemp("journals")
     hrcplan.execute(PROBLEM, human="uncooperative", seed=5, journal=folder / "1", planner="exact")
     hrcplan.execute(PROBLEM, human=Eventful(), journal=folder / "2", profile="estimated")
-    hrcplan.execute(PROBLEM, changes=["motivation human=2@0"], journal=folder / "3")
+    rounded = PROBLEM.with_values({("motivation", "human"): Fraction(1, 3)})
+    hrcplan.execute(rounded, changes=["motivation human=2@0"], journal=folder / "3")
     return [
         [json.loads(line) for line in path.read_text("utf-8").splitlines()]
         for path in sorted(folder.iterdir())
@@ -171,7 +173,11 @@ def collaboration(tmp_path_factory: pytest.TempPathFactory) -> list[dict[str, An
 
 def test_the_journal_of_a_collaboration(collaboration: list[dict[str, Any]]) -> None:
     first, *others = collaboration
-    schema.check([first], SECTIONS["Collaboration: first line"])
+    setup = setup_in(first, "")
+    values = {("motivation", "human"): Fraction(1, 3)}
+    rounded = replace(setup, problem=setup.problem.with_values(values)).to_json()
+    schema.check([first, {**first, **rounded}], SECTIONS["Collaboration: first line"])
+    assert setup_in(rounded, "").to_json() == rounded
     items = [item for line in others for item in line.get("decided", [line.get("event")]) if item]
     own = [item for item in items if item["kind"] not in KINDS]
     assert own
