@@ -27,6 +27,7 @@ import numpy as np
 
 from hrcplan.bank import Bank
 from hrcplan.core.arrays import Floats
+from hrcplan.core.json_values import DOCUMENT_FAULTS
 from hrcplan.core.text import cut, harmless
 from hrcplan.errors import LimitError, MissingPlannerError, PlannerError, UsageError
 from hrcplan.inference.belief import IMPOSSIBLE
@@ -136,12 +137,13 @@ class CommandAssistant:
             posterior = np.array(answer["posterior"], dtype=np.float64)
             action, declared = answer["action"], answer.get("declared", 0)
             is_whole = type(declared) is int and declared >= 0
-            if posterior.shape != (len(self.names),) or not is_whole:
+            is_one = posterior.shape == (len(self.names),) and bool((posterior >= 0).all())
+            if not is_one or not np.isfinite(posterior).all() or not is_whole:
                 raise ValueError("one probability for each goal, and a number of changes, are due")
             if action is not None and action not in options:
                 raise ValueError(f"'{action}' is none of the options")
             return CommandAnswer(posterior, None if action is None else options[action], declared)
-        except (ValueError, KeyError, TypeError, RecursionError) as error:
+        except DOCUMENT_FAULTS as error:
             shown = cut(harmless(line), 120)
             message = f"{self._name} answers {shown}: {type(error).__name__}: {error}"
             raise PlannerError(message, code="bad-answer") from None

@@ -26,9 +26,9 @@ from hrcplan.bank.goals import SourceFile
 from hrcplan.bank.graph import PlanGraph, Team
 from hrcplan.bank.sources import goals_in
 from hrcplan.bank.team import turn_order
-from hrcplan.core.array_file import HEADER_FAULTS, Arrays, Format, array
+from hrcplan.core.array_file import Arrays, Format, array
 from hrcplan.core.files import read_bytes, write_atomically
-from hrcplan.core.json_values import JsonValue
+from hrcplan.core.json_values import DOCUMENT_FAULTS, JsonValue
 from hrcplan.core.numbers import exact, fraction_of, int_text
 from hrcplan.errors import InputError, UsageError
 from hrcplan.pddl import library
@@ -120,7 +120,7 @@ def load(path: str | Path) -> Bank:
                              hint="it was made by another hrcplan: build it again")  # fmt: skip
         graphs = tuple(_graph(entry, body) for entry in header["goals"])
         build_s = _seconds(header["build_s"])
-    except (*HEADER_FAULTS, UsageError) as error:
+    except (*DOCUMENT_FAULTS, UsageError) as error:
         raise InputError(f"'{name}' has a header that makes no sense: {error!r}", code="bad-bank",
                          path=name, hint="build it again") from None  # fmt: skip
     bank = Bank(goals, table, graphs, recipe, build_s)

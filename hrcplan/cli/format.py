@@ -34,7 +34,7 @@ def command(files: tuple[str, ...], only_check: bool) -> int:
     if output.JSON:
         output.document({"files": len(texts), "changed": changed, "written": not only_check})
     elif STDIN in texts and not only_check:
-        click.echo(layouts[STDIN], nl=False)
+        output.text(layouts[STDIN])
     else:
         verb = "would change" if only_check else "changed"
         for name in changed:
@@ -45,10 +45,13 @@ def command(files: tuple[str, ...], only_check: bool) -> int:
 
 def _read(name: str) -> str:
     from hrcplan.core.files import read_bytes
-    from hrcplan.errors import PddlError
+    from hrcplan.errors import InputError, PddlError
     from hrcplan.pddl.source import MAX_BYTES, decode
 
-    data = sys.stdin.buffer.read() if name == STDIN else read_bytes(name, MAX_BYTES)
+    data = sys.stdin.buffer.read(MAX_BYTES + 1) if name == STDIN else read_bytes(name, MAX_BYTES)
+    if len(data) > MAX_BYTES:
+        message = f"standard input holds more than {MAX_BYTES >> 20} MiB"
+        raise InputError(message, code="too-large")
     source = decode(name, data)
     if source.has_errors:
         raise PddlError(source.diagnostics)

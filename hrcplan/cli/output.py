@@ -37,11 +37,13 @@ class PrintError(Exception):
         self.is_closed = isinstance(cause, BrokenPipeError)
 
 
-def _echo(text: str, err: bool = False) -> None:
+def _echo(text: str, err: bool = False, end: str = "\n") -> None:
+    """Print a line; only of a result it matters that it cannot be printed."""
     try:
-        click.echo(text, err=err)
+        click.echo(text + end, nl=False, err=err)
     except OSError as error:
-        raise PrintError(error) from None
+        if not err:
+            raise PrintError(error) from None
 
 
 def common_options(function: F) -> F:
@@ -92,6 +94,11 @@ def _json_character(character: str) -> str:
 def result(text: str) -> None:
     """Print a result in words on stdout."""
     _echo(harmless(text))
+
+
+def text(content: str) -> None:
+    """Print a text on stdout as it is, with its own ends of lines."""
+    _echo(content, end="")
 
 
 def prompt(text: str) -> None:

@@ -6,6 +6,7 @@ import os
 import time
 from abc import ABC, abstractmethod
 from collections.abc import Callable
+from contextlib import suppress
 from typing import TextIO
 
 from hrcplan.core import progress
@@ -43,13 +44,14 @@ class _ProgressWriter(ABC):
         now = self._clock()
         if os.getpid() != self._pid or self._stream.closed:
             return
-        if count is None:
-            self._end()
-        elif self._next_s is None:
-            self._next_s = now + self.delay_s
-        elif now >= self._next_s:
-            self._next_s = now + self.every_s
-            self._write(harmless(f"{count:,} {what} …"))
+        with suppress(OSError):  # the work goes on where its progress cannot be shown
+            if count is None:
+                self._end()
+            elif self._next_s is None:
+                self._next_s = now + self.delay_s
+            elif now >= self._next_s:
+                self._next_s = now + self.every_s
+                self._write(harmless(f"{count:,} {what} …"))
 
     @abstractmethod
     def _write(self, text: str) -> None:

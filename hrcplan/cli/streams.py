@@ -12,27 +12,33 @@ def prepare() -> None:
     """Make standard streams safe to use, before anything else opens a file.
 
     A descriptor below 3 that is free would go to the next file that is opened, and what a child
-    process prints would land there. Characters that a stream cannot show become escapes.
+    process prints would land there. A stream that is closed becomes one without content, and
+    characters that a stream cannot show become escapes.
     """
     while (handle := os.open(os.devnull, os.O_RDWR)) < 3:
         os.set_inheritable(handle, True)
     os.close(handle)
+    # Python has None in place of a stream that was closed.
+    sys.stdin = sys.stdin or os.fdopen(0, encoding="utf-8", closefd=False)
+    sys.stdout = sys.stdout or os.fdopen(1, "w", encoding="utf-8", closefd=False)
+    sys.stderr = sys.stderr or os.fdopen(2, "w", encoding="utf-8", closefd=False)
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
 
 
 def flush() -> OSError | None:
-    """Write out what is left; return why that is impossible, after which nothing is left."""
+    """Write out what is left; return why the result cannot be, after which nothing is left.
+
+    What is said on standard error is no result: that it cannot be written is not reported.
+    """
     fault = None
     for stream in (sys.stdout, sys.stderr):
-        if stream is None:
-            continue
         try:
             stream.flush()
         except (OSError, ValueError) as error:
-            if isinstance(error, OSError):
-                fault = fault or error
+            if isinstance(error, OSError) and stream is sys.stdout:
+                fault = error
             _discard(stream)
     return fault
 

@@ -12,6 +12,7 @@ from hrcplan.agents import Profile
 from hrcplan.agents.profile import profile_from_table
 from hrcplan.bank import Goals
 from hrcplan.collaboration.robots import JOINT_ROBOTS
+from hrcplan.core.json_values import DOCUMENT_FAULTS
 from hrcplan.errors import InputError, UsageError
 from hrcplan.execution.model import ExecutionModel
 from hrcplan.pddl.check import domain_in, problem_in
@@ -178,6 +179,6 @@ def setup_in(table: Mapping[str, Any], path: str) -> CollaborationSetup:
             dict(table["human"]),
             int(table["seed"]),
         )
-    except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
+    except DOCUMENT_FAULTS as error:
         message = f"the first line of the journal is no beginning: {error!r}"
         raise InputError(message, code="bad-journal", path=path, line=1) from None

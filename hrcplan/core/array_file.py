@@ -27,15 +27,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hrcplan.core.files import UNPACK_HINT, archive_kind
+from hrcplan.core.json_values import json_of
 from hrcplan.core.records import record
 from hrcplan.errors import InputError
 
 _PREFIX = struct.Struct("<8sIIQQ")
 _HASH = hashlib.sha256().digest_size
 _ALIGN = 8
-HEADER_FAULTS = (KeyError, TypeError, ValueError, IndexError, AttributeError, OverflowError,
-                 RecursionError)  # fmt: skip
-"""What reading a header raises that is JSON but does not say what it should."""
 
 
 class Arrays:
@@ -158,8 +156,8 @@ class Format:
 
     def _header(self, text: bytes, name: str) -> dict[str, Any]:
         try:
-            header = json.loads(text)
-        except HEADER_FAULTS as error:
+            header = json_of(text)
+        except ValueError as error:
             message = f"has a header that is no JSON: {type(error).__name__}"
             raise self._refusal(name, f"{self.noun}-damaged", message) from None
         if not isinstance(header, dict):

@@ -11,6 +11,10 @@ JsonValue: TypeAlias = (
 )
 """A value of a JSON document. Read `Any` only where the keys of a document were checked before."""
 
+DOCUMENT_FAULTS = (LookupError, TypeError, ValueError, AttributeError, ArithmeticError,
+                   RecursionError)  # fmt: skip
+"""What the reading of a document raises that does not say what it should."""
+
 
 def json_of(text: str | bytes) -> Any:
     """Return the value of a JSON document.

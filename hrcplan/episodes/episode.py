@@ -233,7 +233,7 @@ def _checked(posterior: Floats, n_goals: int) -> Floats:
     answer = np.asarray(posterior, dtype=object)
     try:
         numbers: Floats = answer.astype(np.float64)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         numbers = np.zeros(0)
     is_one = numbers.shape == (n_goals,) and (numbers >= 0).all()
     if not is_one or abs(numbers.sum() - 1) > NEAR:

@@ -8,7 +8,7 @@ from dataclasses import Field, fields
 from fractions import Fraction
 from typing import Any, ClassVar, Protocol
 
-from hrcplan.core.json_values import JsonValue
+from hrcplan.core.json_values import DOCUMENT_FAULTS, JsonValue
 from hrcplan.core.numbers import Number, exact, nearest_float
 from hrcplan.errors import PlanFormatError
 from hrcplan.execution import events as ev
@@ -81,7 +81,7 @@ def from_json(document: Mapping[str, Any], kinds: Mapping[str, type] = KINDS) ->
         if item.t >= 0 and isinstance(getattr(item, "number", 0), int):
             return item
         raise ValueError(f"no event: {document}")
-    except (KeyError, TypeError, AttributeError, PlanFormatError) as error:
+    except (*DOCUMENT_FAULTS, PlanFormatError) as error:
         raise ValueError(f"no event: {error}") from None
 
 

@@ -17,6 +17,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
+from hrcplan.core.json_values import DOCUMENT_FAULTS
 from hrcplan.errors import InputError
 from hrcplan.pddl.inlining import plain
 from hrcplan.pddl.model import TRUE, Problem
@@ -184,7 +185,7 @@ def read_trace(text: str, path: str | None = None) -> ActionTrace:
             raise InputError(message, code="bad-trace", path=path, line=1)
         episode = _episode(head["episode"]) if "episode" in head else None
         return ActionTrace(str(head["domain"]), str(head["pddl_sha256"]), actions, episode)
-    except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
+    except DOCUMENT_FAULTS as error:
         message = f"the first line is no beginning of a trace: {error!r}"
         raise InputError(message, code="bad-trace", path=path, line=1) from None
 
@@ -225,7 +226,7 @@ def _actions(lines: list[str], path: str | None) -> Iterator[TraceAction]:
                 raise ValueError(f"no outcome {action.outcome!r}")
             if action.declared is not None and type(action.declared) is not int:
                 raise ValueError("declared is a whole number")
-        except (ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
+        except DOCUMENT_FAULTS as error:
             message = f"this line is no action of a trace: {error!r:.80}"
             raise InputError(message, code="bad-trace", path=path, line=number) from None
         yield action

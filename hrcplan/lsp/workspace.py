@@ -90,8 +90,7 @@ class PddlWorkspace:
         """Return the PDDL files of the folder of a file, the open ones first."""
         folder = Path(path).parent
         files = [name for name in self.texts if Path(name).parent == folder]
-        with suppress(OSError):
-            files += sorted(str(file) for file in folder.glob("*.pddl"))[:MAX_FILES]
+        files += _files_in(folder)
         return list(dict.fromkeys(files))
 
 
@@ -105,12 +104,17 @@ def _in_project(path: str) -> list[str]:
     """Return the files of ``domains`` and ``problems/NAME``, if that is where a file stands."""
     file = Path(path)
     if file.parent.name == "domains":
-        files = (file.parents[1] / "problems" / file.stem).glob("*.pddl")
-    elif len(file.parents) > 2 and file.parents[1].name == "problems":
-        files = (file.parents[2] / "domains").glob("*.pddl")
-    else:
-        return []
-    return sorted(map(str, files))[:MAX_FILES]
+        return _files_in(file.parents[1] / "problems" / file.stem)
+    if len(file.parents) > 2 and file.parents[1].name == "problems":
+        return _files_in(file.parents[2] / "domains")
+    return []
+
+
+def _files_in(folder: Path) -> list[str]:
+    """Return the PDDL files of a folder; none if it may not be read. No pipe is among them."""
+    with suppress(OSError):
+        return sorted(str(file) for file in folder.glob("*.pddl") if file.is_file())[:MAX_FILES]
+    return []
 
 
 def _is_same(name: Name, other: Name) -> bool:

@@ -12,7 +12,7 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from hrcplan.core.extras import missing as missing_package
-from hrcplan.core.json_values import json_of
+from hrcplan.core.json_values import DOCUMENT_FAULTS, json_of
 from hrcplan.core.records import record
 from hrcplan.errors import LimitError, MissingPlannerError, PlannerError, UnsupportedError
 from hrcplan.planners.lowering import Lowering
@@ -104,5 +104,5 @@ def _plans(
     try:
         for plan in json_of(path.read_bytes())["plans"]:
             yield tuple(lowering.actions[word.split()[0]] for word in plan["actions"])
-    except (LookupError, TypeError, AttributeError, ValueError) as error:
+    except DOCUMENT_FAULTS as error:
         raise PlannerError(f"K* answered what cannot be read: {error!r}") from None

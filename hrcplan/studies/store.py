@@ -18,7 +18,7 @@ from types import TracebackType
 from typing import Any
 
 from hrcplan.core.files import make_folder
-from hrcplan.core.json_values import JsonValue
+from hrcplan.core.json_values import DOCUMENT_FAULTS, JsonValue
 from hrcplan.core.text import cut, harmless
 from hrcplan.errors import InputError, UsageError
 from hrcplan.studies.study import Episode, StudyRow, StudyTable
@@ -139,7 +139,7 @@ class Store:
             raise InputError(f"not a file of rows: {error}", code="bad-rows", path=path) from None
         try:
             about = {key: json.loads(value) for key, value in pairs}
-        except (ValueError, TypeError, RecursionError) as error:
+        except DOCUMENT_FAULTS as error:
             raise self._damage(f"what they depend on is no JSON: {error}") from None
         if fault := _about_fault(about):
             raise self._damage(fault)

@@ -14,7 +14,7 @@ from itertools import pairwise
 from pathlib import Path
 
 from hrcplan.core.files import read_bytes
-from hrcplan.core.json_values import JsonValue
+from hrcplan.core.json_values import DOCUMENT_FAULTS, JsonValue
 from hrcplan.core.svg import COLORS
 from hrcplan.errors import InputError
 from hrcplan.web.pages import card, document, save_data
@@ -70,7 +70,7 @@ def read_diagram(path: Path) -> DiagramDocument:
     """
     try:
         return _diagram(json.loads(read_bytes(path, MAX_BYTES)))
-    except (LookupError, TypeError, ValueError, AttributeError, OverflowError, RecursionError):
+    except DOCUMENT_FAULTS:
         message = f"{path.name} is no allocation diagram"
         hint = "write it again: hrcplan allocation ... --json > FILE"
         raise InputError(message, code="bad-diagram", path=str(path), hint=hint) from None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import math
 import random
 import re
 from typing import Any
@@ -28,6 +29,9 @@ VALUES: tuple[Any, ...] = (
         -1,
         1.5,
         10**30,
+        10**400,
+        math.inf,
+        math.nan,
         -(2**63),
         2**63,
         1e308,

@@ -10,7 +10,7 @@ from typing import Any
 
 from hrcplan.agents import Profile
 from hrcplan.agents.profile import profile_from_table
-from hrcplan.core.json_values import JsonValue
+from hrcplan.core.json_values import DOCUMENT_FAULTS, JsonValue
 from hrcplan.errors import InputError
 from hrcplan.execution import events as ev
 from hrcplan.execution.codec import from_json, to_json
@@ -67,7 +67,7 @@ def setup_from_json(table: Mapping[str, Any], path: str) -> RunSetup:
             tuple(map(_text, table["planners"])),
             str(table.get("world", "simulated")),
         )
-    except (KeyError, TypeError, ValueError, AttributeError) as error:
+    except DOCUMENT_FAULTS as error:
         message = f"the first line of the journal is no beginning: {error!r}"
         raise InputError(message, code="bad-journal", path=path, line=1) from None
 

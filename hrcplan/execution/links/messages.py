@@ -21,7 +21,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from hrcplan.core.json_values import JsonValue, json_of
+from hrcplan.core.json_values import DOCUMENT_FAULTS, JsonValue, json_of
 from hrcplan.core.text import cut, harmless
 from hrcplan.execution import events as ev
 from hrcplan.pddl.model import Fact, FluentKey
@@ -155,7 +155,7 @@ def message_of(line: str | None) -> LinkMessage:
         return BadLine(f"no event of a link: {quoted}")
     try:
         return read(document)
-    except (KeyError, TypeError, ValueError, ArithmeticError, RecursionError) as error:
+    except DOCUMENT_FAULTS as error:
         return BadLine(f"{_fault(error)}: {quoted}")
 
 

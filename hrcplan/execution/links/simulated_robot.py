@@ -15,7 +15,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from hrcplan.core.json_values import JsonValue, json_of
+from hrcplan.core.json_values import DOCUMENT_FAULTS, JsonValue, json_of
 from hrcplan.core.text import quote
 from hrcplan.errors import InputError
 
@@ -95,7 +95,7 @@ class SimulatedRobotProgram:
             if command["do"] == "end":
                 return False
             self._take(command)
-        except (LookupError, TypeError, ValueError, ArithmeticError) as error:
+        except DOCUMENT_FAULTS as error:
             shown = quote(line.decode("utf-8", "replace"))
             message = f"this line is no command of a robot link: {shown} ({error!r})"
             raise InputError(message, code="bad-line") from None
@@ -104,9 +104,8 @@ class SimulatedRobotProgram:
     def _say(self, event: str, **values: JsonValue) -> None:
         if event != "ready" and self._chance.random() < self.faults.lost:
             return
-        if sys.stdout is not None:  # it was closed from the start
-            sys.stdout.write(json.dumps({"event": event, **values}) + "\n")
-            sys.stdout.flush()
+        sys.stdout.write(json.dumps({"event": event, **values}) + "\n")
+        sys.stdout.flush()
 
     def _is_deaf(self) -> bool:
         after = self.faults.deaf_after

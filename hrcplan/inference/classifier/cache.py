@@ -22,8 +22,9 @@ import numpy as np
 
 from hrcplan.bank import Bank
 from hrcplan.bank.store import digest
-from hrcplan.core.array_file import HEADER_FAULTS, Arrays, Format, array, map_file
+from hrcplan.core.array_file import Arrays, Format, array, map_file
 from hrcplan.core.files import write_atomically
+from hrcplan.core.json_values import DOCUMENT_FAULTS
 from hrcplan.errors import InputError, UsageError
 from hrcplan.inference.classifier.flat_forest import FlatForest
 from hrcplan.inference.classifier.training import (
@@ -108,7 +109,7 @@ def load(path: Path, key: Key) -> TrainedClassifier:
         )
         classes = np.array(header["classes"], dtype=np.int64)
         return TrainedClassifier(model, classes, Training(**header["training"]), is_from_cache=True)
-    except HEADER_FAULTS as error:
+    except DOCUMENT_FAULTS as error:
         message = f"'{path}' has a header that makes no sense: {error!r}"
         raise InputError(message, code="not-a-forest", path=str(path)) from None
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from hrcplan.core.extras import require
 from hrcplan.core.files import read_bytes
-from hrcplan.core.json_values import json_of
+from hrcplan.core.json_values import DOCUMENT_FAULTS, json_of
 from hrcplan.errors import InputError, PlannerError, UsageError
 
 if TYPE_CHECKING:
@@ -44,7 +44,7 @@ def find_scheduler(place: str) -> str:
     try:
         parse_host_port(parse_address(address)[1])
         kind = asyncio.run(asyncio.wait_for(_kind_at(address), ANSWER_S))
-    except (ValueError, TypeError) as error:
+    except (ValueError, TypeError, ArithmeticError, ImportError) as error:
         message = f"'{address}' is no address of a scheduler: {error}"
         raise UsageError(message, code="bad-address", hint=HINT) from None
     except (TimeoutError, OSError) as error:
@@ -87,6 +87,6 @@ def _address_in(path: str) -> str:
     """
     try:
         return str(json_of(read_bytes(Path(path)))["address"])
-    except (ValueError, TypeError, KeyError) as error:
+    except DOCUMENT_FAULTS as error:
         message = f"{path} names no address of a scheduler: {error!r}"
         raise InputError(message, code="bad-address", path=path) from None

@@ -142,7 +142,7 @@ def trace_paths(place: Path) -> list[Path]:
         InputError: if there are none.
     """
     if place.is_dir():
-        paths = sorted(place.rglob(f"*{SUFFIX}"))
+        paths = sorted(path for path in place.rglob(f"*{SUFFIX}") if not path.is_fifo())
         if not paths:
             message = f"no traces in {harmless(str(place))}"
             hint = "hrcplan study run switch -o DIR --traces FOLDER writes some"

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from hrcplan.core.files import make_folder, read_bytes, write_atomically
-from hrcplan.core.json_values import json_of
+from hrcplan.core.json_values import DOCUMENT_FAULTS, json_of
 from hrcplan.errors import InputError, UsageError
 from hrcplan.web.trials.study_file import AFTER, BEFORE, TRIAL, TrialStudy
 
@@ -178,7 +178,7 @@ def _participant(table: dict[str, Any], path: Path, study: TrialStudy) -> Partic
     """
     try:
         person = Participant(**{**table, "sessions": tuple(table["sessions"])})
-    except (KeyError, TypeError) as error:
+    except DOCUMENT_FAULTS as error:
         raise _damage(path, str(error)) from None
     answers = person.answers
     is_whole = (

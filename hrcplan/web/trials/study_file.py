@@ -12,7 +12,7 @@ from typing import Any
 from hrcplan.assistance.assistant import KnowsGoal
 from hrcplan.assistance.registry import ASSISTANTS
 from hrcplan.core.files import read_bytes
-from hrcplan.core.json_values import JsonValue
+from hrcplan.core.json_values import DOCUMENT_FAULTS, JsonValue
 from hrcplan.core.text import nearest
 from hrcplan.core.toml import read_toml
 from hrcplan.errors import HrcplanError, InputError
@@ -139,7 +139,7 @@ def read_study_file(path: Path) -> TrialStudy:
     table = read_toml(path, _CODE)
     try:
         return _study(table, hashlib.sha256(read_bytes(path)).hexdigest())
-    except (KeyError, TypeError, ValueError, HrcplanError) as error:
+    except (*DOCUMENT_FAULTS, HrcplanError) as error:
         what = f"'{error.args[0]}' is missing" if isinstance(error, KeyError) else str(error)
         raise InputError(f"{path}: {what}", code=_CODE, path=str(path)) from None
 

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from hrcplan.core.json_values import JsonValue
+from hrcplan.core.json_values import DOCUMENT_FAULTS, JsonValue
 from hrcplan.core.text import cut, harmless
 from hrcplan.errors import HrcplanError, PlannerError, UsageError
 from hrcplan.execution.links import RobotLink
@@ -175,7 +175,7 @@ class RosLink(ProcessLink):
             if document["event"] == "topic":
                 return self.filled.read(document["n"], document["fields"])
             return self._observed(document["topics"])
-        except (KeyError, TypeError, ValueError, IndexError) as error:
+        except DOCUMENT_FAULTS as error:
             return BadLine(f"the bridge to ROS: {error}")
 
     def _observed(self, topics: Mapping[str, Mapping[str, JsonValue]]) -> FactsObserved:
