@@ -74,7 +74,7 @@ def command() -> None:
 )
 @click.option(
     "--sample",
-    type=click.IntRange(min=1),
+    type=click.IntRange(1, 1_000_000),
     metavar="N",
     help="Include N optimal plans that the planner K* lists, if the whole does not fit.",
 )

@@ -61,7 +61,7 @@ command.add_command(trials.collect_command)
 )
 @click.option(
     "--limit",
-    type=click.IntRange(1),
+    type=click.IntRange(1, 1_000_000_000),
     metavar="N",
     help="Run only N episodes of all tables together, spread evenly over cells; the main table "
     "comes first.",

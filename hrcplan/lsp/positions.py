@@ -52,8 +52,11 @@ class Positions:
 
 
 def path_of(uri: str) -> str:
-    """Return the path of a file's address."""
-    return unquote(urlparse(uri).path)
+    """Return the path of a file's address; of what is no address, the text itself."""
+    try:
+        return unquote(urlparse(uri).path)
+    except ValueError:
+        return uri
 
 
 def uri_of(path: str) -> str:

@@ -50,12 +50,25 @@ def make_server() -> LanguageServer:
     return server
 
 
+def document_of(server: LanguageServer, files: PddlWorkspace, uri: str) -> TextDocument:
+    """Return an open document, or the file of an address; empty if it cannot be read.
+
+    All questions are then answered with the text of the open one.
+    """
+    open_document: TextDocument | None = server.workspace.text_documents.get(uri)
+    if open_document is not None:
+        files.texts[path_of(uri)] = open_document.source
+        return open_document
+    path, codec = path_of(uri), server.workspace.position_codec
+    return TextDocument(uri_of(path), files.text(path), position_codec=codec)
+
+
 def _add_documents(server: LanguageServer, files: PddlWorkspace) -> None:
     """Follow what is opened, changed, saved and closed, and publish faults."""
 
     def publish(uri: str, with_folder: bool) -> None:
         path = path_of(uri)
-        files.texts[path] = server.workspace.get_text_document(uri).source
+        document_of(server, files, uri)
         show(path, with_folder)
 
     def show(path: str, with_folder: bool) -> None:
@@ -77,7 +90,7 @@ def _add_documents(server: LanguageServer, files: PddlWorkspace) -> None:
     @server.feature(lsp.TEXT_DOCUMENT_DID_CHANGE)
     def changed(params: lsp.DidChangeTextDocumentParams) -> None:
         document = params.text_document
-        if len(server.workspace.get_text_document(document.uri).source) < LONG:
+        if len(document_of(server, files, document.uri).source) < LONG:
             publish(document.uri, False)
         else:  # checked once for several changes
             asyncio.get_running_loop().call_later(PAUSE_S, publish_last, document)
@@ -107,10 +120,9 @@ def _add_questions(server: LanguageServer, files: PddlWorkspace) -> None:
     def question(
         place: lsp.TextDocumentIdentifier, position: lsp.Position
     ) -> tuple[str, str, int, Name | None]:
-        document = server.workspace.get_text_document(place.uri)
+        document = document_of(server, files, place.uri)
         offset = document.offset_at_position(position)
         path = path_of(place.uri)
-        files.texts[path] = document.source
         return path, document.source, offset, name_at(document.source, offset)
 
     def locations(places: Sequence[Place]) -> list[lsp.Location]:
@@ -155,7 +167,7 @@ def _add_questions(server: LanguageServer, files: PddlWorkspace) -> None:
 
     @server.feature(lsp.TEXT_DOCUMENT_DOCUMENT_SYMBOL)
     def symbols(params: lsp.DocumentSymbolParams) -> list[lsp.DocumentSymbol]:
-        text = server.workspace.get_text_document(params.text_document.uri).source
+        text = document_of(server, files, params.text_document.uri).source
         positions = Positions(server, text)
         return [
             lsp.DocumentSymbol(
@@ -171,9 +183,8 @@ def _add_edits(server: LanguageServer, files: PddlWorkspace) -> None:
 
     @server.feature(lsp.TEXT_DOCUMENT_RENAME)
     def rename(params: lsp.RenameParams) -> lsp.WorkspaceEdit | None:
-        document = server.workspace.get_text_document(params.text_document.uri)
+        document = document_of(server, files, params.text_document.uri)
         path = path_of(params.text_document.uri)
-        files.texts[path] = document.source
         name = name_at(document.source, document.offset_at_position(params.position))
         if name is None or not _WORD.fullmatch(params.new_name) or not params.new_name:
             return None
@@ -189,7 +200,7 @@ def _add_edits(server: LanguageServer, files: PddlWorkspace) -> None:
 
     @server.feature(lsp.TEXT_DOCUMENT_FORMATTING)
     def layout(params: lsp.DocumentFormattingParams) -> list[lsp.TextEdit]:
-        document = server.workspace.get_text_document(params.text_document.uri)
+        document = document_of(server, files, params.text_document.uri)
         try:
             text = format_text(document.source, path_of(params.text_document.uri))
         except HrcplanError as error:
@@ -206,7 +217,7 @@ def _add_edits(server: LanguageServer, files: PddlWorkspace) -> None:
     )
     def fixes(params: lsp.CodeActionParams) -> list[lsp.CodeAction]:
         uri = params.text_document.uri
-        document = server.workspace.get_text_document(uri)
+        document = document_of(server, files, uri)
         return [action for fault in params.context.diagnostics
                 for action in _fixes(uri, document, fault)]  # fmt: skip
 

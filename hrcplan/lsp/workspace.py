@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
@@ -52,6 +53,8 @@ class PddlWorkspace:
         """Return the text of a file, as the editor has it; empty if it cannot be read."""
         if path in self.texts:
             return self.texts[path]
+        if not os.path.isfile(path):  # the reading of a pipe would not end
+            return ""
         try:
             return read_bytes(path, MAX_BYTES).decode(errors="replace")
         except InputError:

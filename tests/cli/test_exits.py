@@ -250,3 +250,22 @@ def test_a_planner_in_this_process_leaves_no_words_at_the_exit(tmp_path: Path) -
         [sys.executable, "-P", "-m", "hrcplan", *words], capture_output=True, text=True, check=False
     )
     assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_standard_input_without_an_end_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("hrcplan.pddl.source.MAX_BYTES", 1 << 20)
+    done = CliRunner().invoke(main, ["format", "-"], input=b" " * (2 << 20))
+    assert done.exit_code == 3
+    assert "more than 1 MiB" in done.output
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "study run changed-mind -o x --limit 18446744073709551616",
+        "new-problem transport --from two-boxes --vary --name x --new-objects 1000000000",
+        f"bank build transport -o x --sample 1{'0' * 30}",
+    ],
+)
+def test_a_number_of_things_has_a_bound(words: str) -> None:
+    assert run(*words.split()).exit_code == 2

@@ -70,3 +70,18 @@ def test_a_run_of_execute_is_a_trace(tmp_path: Path) -> None:
     actions = trace_of(journal.lines, journal.setup().problem).actions
     rows = [(row["action"], row["args"], row["outcome"]) for row in done.rows()]
     assert [(a.action, " ".join(a.args), a.outcome) for a in actions] == rows
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        '{"t": 1%s, "agent": "human", "action": "a", "args": []}' % ("0" * 400),
+        '{"t": 1, "agent": "human", "action": "a", "args": [], "posterior": [1%s]}' % ("0" * 400),
+        "[" * 100_000,
+    ],
+    ids=["time", "posterior", "deep"],
+)
+def test_a_number_beyond_every_float_is_refused_with_its_line(line: str) -> None:
+    with pytest.raises(InputError, match="no action of a trace") as error:
+        read_trace('{"trace": 1, "domain": "d", "pddl_sha256": ""}\n' + line)
+    assert error.value.line == 2

@@ -1,6 +1,7 @@
 """The language server as editors see it: real processes that speak the protocol."""
 
 import json
+import os
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -274,3 +275,17 @@ def test_a_long_file_is_checked_once_after_several_changes(editor: Editor, folde
         editor._receive()
     assert [fault["code"] for fault in editor.faults["domain.pddl"]] == ["unknown-predicate"]
     assert editor.n_published - n_before < n_changes
+
+
+@pytest.mark.parametrize("uri", ["file:///no/such.pddl", "file://[", "untitled:1", "pipe"])
+def test_a_question_about_a_file_that_cannot_be_read_has_an_answer(
+    editor: Editor, folder: Path, uri: str
+) -> None:
+    if uri == "pipe":
+        os.mkfifo(folder / "pipe.pddl")
+        uri = (folder / "pipe.pddl").as_uri()
+    document = {"textDocument": {"uri": uri}}
+    place = {**document, "position": {"line": 3, "character": 5}}
+    assert editor.ask("textDocument/hover", place) is None
+    assert editor.ask("textDocument/documentSymbol", document) == []
+    assert editor.ask("textDocument/definition", place) == []
