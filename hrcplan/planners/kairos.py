@@ -319,7 +319,7 @@ class _Portfolio:
 
 
 def _without_time(metric: Expr) -> Expr:
-    """Return a metric with 0 for total-time where it only stands in sums and differences."""
+    """Return a metric with 0 for total-time where it is only part of sums and differences."""
     match metric:
         case Function(name) if name == TOTAL_TIME:
             return Constant(0)
