@@ -129,6 +129,8 @@ def _parts(node: GroupNode, source: SourceText, durative: bool) -> dict[str, Par
             if isinstance(key, WordNode) and key in ("and", "or"):
                 hint = f"the word stands first: ({key} …)"
             source.error(key.at, "stray-word", "a keyword such as :effect is expected here", hint)
+            while rest and isinstance(rest[0], GroupNode):
+                rest.popleft()
             continue
         name = _part_name(key, part_names, source)
         if key in _TYPED_PARTS:

@@ -37,30 +37,50 @@ def read_axioms(root: GroupNode, scope: Scope) -> Iterator[Axiom]:
                 axioms_by_place.append((node.at, axiom))
     axioms = [axiom for _, axiom in axioms_by_place]
     level = levels(axioms)
-    for at, axiom in axioms_by_place:
-        if axiom.name not in level:
-            message = f"{quote(axiom.name)} is derived from its own negation"
-            scope.source.error(at, "not-stratified", message)
+    unstratified = [(at, axiom) for at, axiom in axioms_by_place if axiom.name not in level]
+    if unstratified:
+        at, axiom = unstratified[0]
+        message = f"{quote(axiom.name)} is derived from its own negation"
+        hint = "derive it from facts that actions change, or remove one 'not'"
+        scope.source.error(at, "not-stratified", message, hint)
     yield from axioms
 
 
 def _axiom(node: GroupNode, scope: Scope) -> Axiom | None:
     source, head = scope.source, node[1] if len(node) > 1 else node
     if len(node) != 3 or not isinstance(head, GroupNode) or not head.head:
-        source.error(node.at, "bad-axiom", "(:derived (p ?x) CONDITION) is expected here")
+        hint = "put the conditions in one (and …)"
+        if len(node) < 4 or not isinstance(head, GroupNode) or isinstance(node[2], WordNode):
+            hint = "write the predicate with its variables, then one condition"
+        message = "(:derived (p ?x) CONDITION) is expected here"
+        source.error(node.at, "bad-axiom", message, hint)
+        return None
+    other = next((term for i, term in enumerate(head) if i and _is_constant(head, i)), None)
+    if other is not None:
+        message = "a derived predicate has variables only"
+        hint = "write (:derived (p ?x) (and (= ?x a) …)), and one (:derived …) for each predicate"
+        source.error(other.at, "bad-axiom", message, hint)
         return None
     name = head[0]
     assert isinstance(name, WordNode)
     signature = scope.signature(name, "predicate")
     params = params_of(head[1:], source, scope.domain.types)
-    body = read_formula(node[2], scope.binding(params))
-    if signature is None:
-        return None
-    if len(signature.params) != len(params):
+    if signature is not None and len(signature.params) != len(params):
         message = f"{quote(name)} is declared as {signature}"
-        source.error(head.at, "wrong-arity", message)
+        source.error(head.at, "wrong-arity", message, "derive it with as many variables")
         return None
-    return Axiom(str(name), _with_types(params, signature), body)
+    if signature is not None:
+        params = _with_types(params, signature)
+    body = read_formula(node[2], scope.binding(params))
+    return None if signature is None else Axiom(str(name), params, body)
+
+
+def _is_constant(head: GroupNode, i: int) -> bool:
+    """Whether a part of the head of an axiom is neither a variable nor behind a dash."""
+    term, before = head[i], head[i - 1]
+    if isinstance(term, GroupNode):
+        return term.head != "either"
+    return term[0] not in "?-" and not (isinstance(before, WordNode) and before[-1] == "-")
 
 
 def _with_types(params: Sequence[Param], signature: Signature) -> tuple[Param, ...]:

@@ -257,6 +257,7 @@ def _check_problem(file: _File, domains: _Domains) -> None:
     domain = None if name is None else domains.find(str(name), Path(file.source.path))
     domain = domain or domains.only  # a wrong name is reported, and the rest is still checked
     if domain is not None and domain.domain is not None:
+        file.source.reported_types = domain.source.unknown_types
         file.problem = read_problem(file.root, file.source, domain.domain)
         if domain.source.has_errors and domain not in domains.by_name.values():
             _report_faulty(file, file.root.at if name is None else name.at, domain)

@@ -10,7 +10,6 @@ from hrcplan.pddl import conventions
 from hrcplan.pddl.actions import PLUS, PROCESS, read_actions
 from hrcplan.pddl.annotations import read_notes
 from hrcplan.pddl.axioms import DERIVED, read_axioms
-from hrcplan.pddl.foreign import is_comment
 from hrcplan.pddl.formulas import OBJECT_FLUENTS
 from hrcplan.pddl.model import OBJECT, Domain, Signature
 from hrcplan.pddl.parentheses import ACTIONS
@@ -38,6 +37,8 @@ _UNSUPPORTED = {
 }
 _CURES = {
     ":axiom": "write (:derived (p ?x) CONDITION)",
+    **dict.fromkeys((":task", ":method", ":htn"), "write (:action …) and a (:goal …)"),
+    ":free_functions": "write the value as a parameter or as an action that changes it",
     ":constraint": "add its condition to the actions, or write (:constraints (always …))",
 }
 _KEYWORDS = frozenset([
@@ -45,16 +46,26 @@ _KEYWORDS = frozenset([
     "decrease", "assign", "scale-up", "scale-down", "is-violated", "always", "sometime",
     "within",
 ])  # fmt: skip
+_NO_TYPES = frozenset(["number", "either"])
 _ELSEWHERE = {
     ":objects": "a domain's own objects stand in (:constants …)",
     ":constants": "a problem's objects stand in (:objects …)",
     **dict.fromkeys((":init", ":goal", ":metric"), "that belongs into a problem"),
     **dict.fromkeys(
+        (":minimize", ":maximize"), "write (:metric minimize …) or (:metric maximize …)"
+    ),
+    **dict.fromkeys(
+        (":precondition", ":effect", ":parameters"), "that belongs into an (:action …)"
+    ),
+    **dict.fromkeys(
         (":types", ":predicates", ":functions", ":action", ":durative-action", ":derived"),
         "that belongs into a domain",
     ),
 }
+_OPERATORS = frozenset(["=", "<", ">", "<=", ">=", "+", "*", "/"])
 _REPEATED = ACTIONS | PLUS | {DERIVED}
+_LISTS = frozenset([":requirements", ":types", ":constants", ":predicates", ":functions",
+                    ":objects", ":init"])  # fmt: skip
 _SECTIONS = (":requirements", ":types", ":constants", ":predicates", ":functions", SECTION,
              *_REPEATED)  # fmt: skip
 
@@ -62,7 +73,7 @@ _SECTIONS = (":requirements", ":types", ":constants", ":predicates", ":functions
 def read_domain(root: GroupNode, source: SourceText) -> Domain:
     """Return the domain that a ``(define (domain …) …)`` tree describes."""
     name = declared_name(root, "domain", source)
-    sections = dict(sections_of(root, source, _SECTIONS))
+    sections = sections_of(root, source, _SECTIONS)
     types = _types(sections.get(":types"), source)
     constants = read_objects(sections.get(":constants"), source, types, {})
     base = Domain(
@@ -88,9 +99,7 @@ def read_domain(root: GroupNode, source: SourceText) -> Domain:
         events=tuple(action for node, action in plus if node.head != PROCESS),
     )
     domain = replace(domain, notes=read_notes(source, domain))
-    report_types(source, types, ":types" in sections)
-    if ":types" not in sections:  # reported once: problems then find the types declared
-        domain = replace(domain, types={**types, **dict.fromkeys(source.unknown_types, (OBJECT,))})
+    report_types(source, types)
     check_requirements(domain.requirements, source)
     conventions.check_domain(domain, actions, source)
     return domain
@@ -98,44 +107,47 @@ def read_domain(root: GroupNode, source: SourceText) -> Domain:
 
 def sections_of(
     root: GroupNode, source: SourceText, section_names: Sequence[str]
-) -> Iterator[tuple[str, GroupNode]]:
-    """Yield the sections of a file by name, reporting unknown, unsupported and repeated ones.
+) -> dict[str, GroupNode]:
+    """Return the sections of a file by name, reporting unknown, unsupported and repeated ones.
 
-    A misspelt section is reported and then read as the one that was meant.
+    A misspelt section is reported and then read as the one that was meant; a second list is read
+    as a part of the first one.
     """
-    names: set[str] = set()
-    after = 0
+    sections: dict[str, GroupNode] = {}
     for node in root[2:]:
-        if node.at < after:
-            continue
-        if isinstance(node, WordNode) and is_comment(node):
-            after = source.line_end(node.at)
-            source.error(node.at, "stray-word", "a comment of PDDL begins with ;", "write ; here")
-            continue
+        word = node.head if isinstance(node, GroupNode) else ""
         name = _section_name(node, source, section_names)
         if name is None or isinstance(node, WordNode):
             continue
-        if name in names and name not in _REPEATED:
-            source.error(node.at, "repeated-section", f"a second {name} section")
+        if name in sections and name not in _REPEATED:
+            if word == name:  # else it is misspelt, and reported for that
+                hint = f"{'put all of it into' if name in _LISTS else 'write'} one section"
+                source.error(node.at, "repeated-section", f"a second {name} section", hint)
+            if name in _LISTS:
+                sections[name].extend(node[1:])
         else:
-            names.add(name)
-            yield name, node
+            sections.setdefault(name, node)
+    return sections
 
 
 def _section_name(node: ParseNode, source: SourceText, section_names: Sequence[str]) -> str | None:
     name = node.head if isinstance(node, GroupNode) else ""
     if isinstance(node, WordNode) or not name:
-        source.error(node.at, "stray-word", "a section such as (:init …) is expected here")
+        message = "a section such as (:predicates …) or (:init …) is expected here"
+        is_keyword = isinstance(node, WordNode) and node.startswith(":")
+        cure = f"the parenthesis stands first: ({node} …)" if is_keyword else "remove it"
+        source.error(node.at, "stray-word", message, cure)
     elif name in section_names:
         return name
     elif name in _UNSUPPORTED:
         message = f"{_UNSUPPORTED[name]} are not supported"
         source.once(node.at, "unsupported", message, _CURES.get(name))
     elif name == ":length":
-        source.warn(node.at, "ignored-section", "hrcplan takes no notice of :length")
+        source.warn(node.at, "ignored-section", "hrcplan takes no notice of :length", "remove it")
     else:
         message = f"there is no section {quote(name)} here"
         hint = _ELSEWHERE.get(name) or nearest(name, section_names)
+        hint = hint or f"sections are: {', '.join(section_names)}"
         source.error(node.at, "unknown-section", message, hint)
         right = nearest_name(name, section_names, SECTION_SIMILARITY)
         if right is not None:
@@ -156,8 +168,14 @@ def declared_name(root: GroupNode, kind: str, source: SourceText) -> str:
     name = node[1] if isinstance(node, GroupNode) and len(node) == 2 and node.head == kind else None
     if isinstance(name, WordNode):
         return str(name)
-    source.error(node.at, "no-name", f"({kind} NAME) is expected here")
+    source.error(node.at, "no-name", f"({kind} NAME) is expected here", _name_cure(node, kind))
     return ""
+
+
+def _name_cure(node: ParseNode, kind: str) -> str:
+    if isinstance(node, GroupNode) and node.head == kind and len(node) > 2:
+        return "a name has no spaces: write - or _ instead"
+    return f"a file begins with (define ({kind} NAME)"
 
 
 def read_objects(
@@ -178,9 +196,11 @@ def read_objects(
             hint = "declare a type below both, and give the object that type"
             source.error(name.at, "duplicate-object", message, hint)
         elif name in objects:
-            source.warn(name.at, "duplicate-object", f"object {quote(name)} is declared twice")
+            message = f"object {quote(name)} is declared twice"
+            source.warn(name.at, "duplicate-object", message, "remove one of the two")
         elif name.startswith("?"):
-            source.error(name.at, "not-a-name", f"an object's name cannot be {quote(name)}")
+            message = f"an object's name cannot be {quote(name)}"
+            source.error(name.at, "not-a-name", message, f"write {name.lstrip('?') or 'a name'}")
         else:
             objects[str(name)] = kinds[0]
     return objects
@@ -197,14 +217,17 @@ def _types(section: GroupNode | None, source: SourceText) -> dict[str, tuple[str
     for name, parents in entries:
         if name == OBJECT:
             continue
-        if name in types:
+        if name in types and name not in (*parents, *types[name]):
             above = dict.fromkeys(p for p in (*types[name], *parents) if p != OBJECT)
             all_above = " ".join(above) if len(above) == 1 else f"(either {' '.join(above)})"
-            hint = f"write '{name} - {all_above}' once" if above else "remove one of the two"
+            cure = f"write '{name} - {all_above}' once" if above else "remove one of the two"
             message = f"type {quote(name)} is declared twice"
-            source.warn(name.at, "duplicate-type", message, hint)
+            source.warn(name.at, "duplicate-type", message, cure)
         both = [*types.get(str(name), ()), *parents]
         types[str(name)] = tuple(dict.fromkeys(p for p in both if p != OBJECT)) or (OBJECT,)
+        if name in _NO_TYPES:
+            message = f"many readers refuse a type called {quote(name)}"
+            source.warn(name.at, "keyword-name", message, "give it another name")
     declared = [str(name) for name, _ in entries]
     for name, parents in entries:
         for parent in parents:
@@ -268,7 +291,7 @@ def _signatures(
         if isinstance(node, FlatNode):
             word, *words = node.words()
             plain = plain_params(words, source, types)
-            if plain is not None and word not in _KEYWORDS and word not in signatures:
+            if plain is not None and not _is_odd(word) and word not in signatures:
                 signatures[word] = Signature(word, plain)
                 continue
         if isinstance(node, GroupNode) and node.head == ":private":
@@ -280,21 +303,42 @@ def _signatures(
             signatures |= _signatures(private, source, types, kind)
             continue
         if not isinstance(node, GroupNode) or not node.head:
-            source.error(node.at, f"bad-{kind}", f"a {kind} such as (name ?x - type) is expected")
+            message = f"a {kind} such as (name ?x - type) is expected"
+            hint = f"write ({node})" if isinstance(node, WordNode) else "the name stands first"
+            source.error(node.at, f"bad-{kind}", message, hint)
             continue
         name = node[0]
         assert isinstance(name, WordNode)
         params = params_of(node[1:], source, types, declaration=True)
-        if name in _KEYWORDS:
-            message = f"many readers refuse a {kind} called {quote(name)}"
-            source.warn(name.at, "keyword-name", message, "give it another name")
+        if _is_odd(name):
+            _report_odd_name(name, kind, source)
+        if name == "=" and kind == "predicate":
+            continue
         if name in signatures:
             same = [p.types for p in params] == [p.types for p in signatures[name].params]
             report = source.warn if same else source.error
-            report(name.at, f"duplicate-{kind}", f"{kind} {quote(name)} is declared twice")
+            hint = "remove one of the two" if same else "give one of them another name"
+            report(name.at, f"duplicate-{kind}", f"{kind} {quote(name)} is declared twice", hint)
         else:
             signatures[str(name)] = Signature(str(name), params)
     return signatures
+
+
+def _is_odd(word: str) -> bool:
+    """Whether a word is a keyword or no name."""
+    return word in _KEYWORDS or word in _OPERATORS or word[0] in "?-"
+
+
+def _report_odd_name(name: WordNode, kind: str, source: SourceText) -> None:
+    """Report a declaration of what is no name; a keyword, and ``=``, is only a warning."""
+    if name == "=" and kind == "predicate":
+        source.warn(name.at, "keyword-name", "'=' needs no declaration", "remove it")
+    elif name in _KEYWORDS:
+        message = f"many readers refuse a {kind} called {quote(name)}"
+        source.warn(name.at, "keyword-name", message, "give it another name")
+    else:
+        message = f"a {kind} cannot be called {quote(name)}"
+        source.error(name.at, "not-a-name", message, "a name begins with a letter")
 
 
 def _without_result_types(section: GroupNode | None, source: SourceText) -> Iterator[ParseNode]:

@@ -6,11 +6,9 @@ from collections.abc import Iterable, Iterator
 
 from hrcplan.core.records import replace
 from hrcplan.core.text import quote
+from hrcplan.pddl.cures import COMPARISONS, groups_of, has_parts, is_unsupported, report_loose
 from hrcplan.pddl.formulas import (
-    COMPARISONS,
-    has_parts,
-    is_unsupported,
-    loose_cure,
+    is_fact,
     read_atom,
     read_conditions,
     read_expression,
@@ -19,13 +17,22 @@ from hrcplan.pddl.formulas import (
     time_of,
 )
 from hrcplan.pddl.model import CONTINUOUS, TOTAL_COST, TRUE, And, Effect, Formula
-from hrcplan.pddl.reader import GroupNode, ParseNode
+from hrcplan.pddl.reader import GroupNode, ParseNode, WordNode
 from hrcplan.pddl.scope import Scope
 from hrcplan.pddl.typed_lists import read_params
 
 ASSIGNMENTS = frozenset(["assign", "increase", "decrease", "scale-up", "scale-down"])
 _LOGIC = frozenset(["and", "forall", "when"])
 _NO_EFFECTS = COMPARISONS | _LOGIC | {"or", "imply", "exists", "not", "over"}
+
+_CURES = {
+    "=": "write (assign (f) VALUE) to set a function",
+    "imply": "write (when CONDITION EFFECT)",
+    "or": "the effect of an action is certain: write one action for each",
+    "exists": "write (forall …) for all of them, or make one of them a parameter",
+    "over": "write (at start …) or (at end …)",
+}
+"""How to write what cannot be an effect."""
 
 
 def read_effects(node: ParseNode, scope: Scope, when: str | None) -> Iterable[Effect]:
@@ -35,8 +42,7 @@ def read_effects(node: ParseNode, scope: Scope, when: str | None) -> Iterable[Ef
         return (Effect(when, "add", atom),)
     head = node.head if isinstance(node, GroupNode) else ""
     if not isinstance(node, GroupNode) or (node and not head):
-        message = "an effect such as (p ?x) is expected here"
-        scope.source.error(node.at, "not-an-effect", message, loose_cure(node, "effects"))
+        report_loose([node], scope, "effect")
         return ()
     pair = time_of(node) if when is None else None
     if pair is not None and pair[0] != "all":
@@ -47,7 +53,8 @@ def read_effects(node: ParseNode, scope: Scope, when: str | None) -> Iterable[Ef
         case _ if when is not None and scope.is_atom(node):
             return _literal(node, scope, when)
         case "and":
-            return [effect for part in node[1:] for effect in read_effects(part, scope, when)]
+            parts = groups_of(node[1:], scope, "effect")
+            return [effect for part in parts for effect in read_effects(part, scope, when)]
         case "not" if when is not None:
             return _literal(node, scope, when)
         case "forall":
@@ -61,7 +68,7 @@ def read_effects(node: ParseNode, scope: Scope, when: str | None) -> Iterable[Ef
             return _assignment(node, scope.knowing(CONTINUOUS), "all")
         case _ if when is None:
             message = "a durative effect needs (at start …) or (at end …)"
-            scope.source.error(node.at, "no-time", message)
+            scope.source.error(node.at, "no-time", message, "write (at end (p ?x))")
             return ()
         case _ if head in ASSIGNMENTS:
             return _assignment(node, scope, when)
@@ -132,6 +139,9 @@ def _literal(node: GroupNode, scope: Scope, when: str) -> tuple[Effect, ...]:
     inner: ParseNode = node
     if node.head == "not" and len(node) == 2 and not scope.is_atom(node):
         inner = node[1]
+    if inner is node and node.head == "=" and len(node) > 1 and is_fact(node[1], scope):
+        read_function(node[1], scope)
+        return ()
     atom = scope.plain_atom(inner)
     if atom is None:
         if not isinstance(inner, GroupNode) or not inner.head or _is_no_effect(inner, scope):
@@ -146,7 +156,8 @@ def _literal(node: GroupNode, scope: Scope, when: str) -> tuple[Effect, ...]:
         scope.source.error(inner.at, "not-an-effect", message, "an event can change facts")
     elif atom is not None and atom.name in scope.derived:
         message = f"{quote(atom.name)} is derived: no action can change it"
-        scope.source.error(inner.at, "derived-predicate", message)
+        hint = "change what it is derived from"
+        scope.source.error(inner.at, "derived-predicate", message, hint)
     elif atom is not None:
         return (Effect(when, "add" if inner is node else "delete", atom),)
     return ()
@@ -158,22 +169,22 @@ def _is_no_effect(node: GroupNode, scope: Scope) -> bool:
 
 def _cure(node: GroupNode, inner: ParseNode) -> str | None:
     """Return how to write what was meant, where that is plain."""
-    head = inner.head if isinstance(inner, GroupNode) else ""
-    if node.head == "not" and inner is not node and head == "not":
-        return "a fact that is not deleted is added: write (p)"
-    if node.head == "not" and (inner is node or head in _LOGIC):
-        return "'not' of an effect takes one fact: write (and (not (p)) (not (q)))"
-    if head == "=":
-        return "write (assign (f) VALUE) to set a function"
-    if head == "imply":
-        return "write (when CONDITION EFFECT)"
     if not isinstance(inner, GroupNode):
-        return f"write (not ({inner}))"
-    return None
+        return f"write (not ({' '.join(str(word) for word in node[1:])}))"
+    if node.head == "not" and inner is not node and inner.head == "not":
+        return "a fact that is not deleted is added: write (p)"
+    if node.head == "not" and len(node) > 2 and isinstance(node[1], WordNode):
+        return f"write (not ({' '.join(str(w) for w in node[1:] if isinstance(w, WordNode))}))"
+    if node.head == "not" and (inner is node or inner.head in _LOGIC):
+        return "'not' of an effect takes one fact: write (and (not (p)) (not (q)))"
+    return _CURES.get(str(inner.head), "a condition stands in :precondition or :condition")
 
 
 def _assignment(node: GroupNode, scope: Scope, when: str) -> Iterator[Effect]:
     if not has_parts(node, 2, scope):
+        return
+    if is_fact(node[1], scope):
+        read_function(node[1], scope)
         return
     value = read_expression(node[2], scope)
     function = read_function(node[1], scope)

@@ -4,57 +4,52 @@ from __future__ import annotations
 
 from hrcplan.pddl.reader import GroupNode, WordNode
 
-FOREIGN = {
-    "==": "write = instead",
-    "!=": "write (not (= …)) instead",
-    "<>": "write (not (= …)) instead",
-    "&&": "write and instead",
-    "||": "write or instead",
-    "!": "write not instead",
-    "implies": "write imply instead",
-    "=>": "write imply instead",
-    "->": "write imply instead",
-    "if": "write (imply …) in a condition, (when CONDITION EFFECT) in an effect",
-    "+=": "write (increase (f) AMOUNT) instead",
-    "-=": "write (decrease (f) AMOUNT) instead",
-    ":=": "write (assign (f) VALUE) instead",
-    "set": "write (assign (f) VALUE) instead",
-    "*=": "write (scale-up (f) FACTOR) instead",
-    "/=": "write (not (= …)) in a condition, (scale-down (f) FACTOR) in an effect",
-    "inc": "write (increase (f) AMOUNT) instead",
-    "dec": "write (decrease (f) AMOUNT) instead",
-    "add": "an effect such as (p) adds the fact",
-    "del": "write (not (p)) instead",
-    "delete": "write (not (p)) instead",
-    "remove": "write (not (p)) instead",
-    "~": "write not instead",
-    "xor": "write (or (and A (not B)) (and (not A) B)) instead",
-    "iff": "write (and (imply A B) (imply B A)) instead",
-    "<=>": "write (and (imply A B) (imply B A)) instead",
-    "<->": "write (and (imply A B) (imply B A)) instead",
-    "neq": "write (not (= …)) instead",
-    "not=": "write (not (= …)) instead",
-    "not-equal": "write (not (= …)) instead",
-    "≠": "write (not (= …)) instead",
-    "eq": "write = instead",
-    "equal": "write = instead",
-    "equals": "write = instead",
-    "gt": "write > instead",
-    "lt": "write < instead",
-    "ge": "write >= instead",
-    "le": "write <= instead",
-    "≥": "write >= instead",
-    "≤": "write <= instead",
-    "∧": "write and instead",
-    "\u2228": "write or instead",
-    "¬": "write not instead",
-    "∀": "write forall instead",
-    "∃": "write exists instead",
-    "for-all": "write forall instead",
-    "foreach": "write forall instead",
-    "there-exists": "write exists instead",
+_INSTEAD = {
+    "=": "== eq equal equals is",
+    "(not (= …))": "!= <> neq not= not-equal ≠",
+    "and": "&& ∧ &",
+    "or": "|| \u2228 |",
+    "not": "! ~ ¬",
+    "imply": "implies -> →",
+    "<": "lt less less-than smaller",
+    ">": "gt greater greater-than",
+    "<=": "le leq lte =< ≤",
+    ">=": "ge geq gte ≥",
+    "forall": "for-all foreach for every all each ∀",
+    "exists": "there-exists exist some any ∃",
+    "(not (and …))": "nand",
+    "(not (or …))": "nor",
+    "(or (and A (not B)) (and (not A) B))": "xor",
+    "(and (imply A B) (imply B A))": "iff <=> <->",
+    "(increase (f) AMOUNT)": "+= inc increment ++",
+    "(decrease (f) AMOUNT)": "-= dec decrement",
+    "(assign (f) VALUE)": ":= <- ← set change update",
+    "(scale-up (f) FACTOR)": "*= scale multiply",
+    "(not (p))": "del delete remove",
 }
-"""Each operator with a hint."""
+FOREIGN = {
+    word: f"write {right} instead" for right, words in _INSTEAD.items() for word in words.split()
+} | {
+    "=>": "write (imply A B) for conditions, >= for numbers",
+    "if": "write (imply …) in a condition, (when CONDITION EFFECT) in an effect",
+    "/=": "write (not (= …)) in a condition, (scale-down (f) FACTOR) in an effect",
+    "add": "an effect such as (p) adds the fact",
+    "true": "write (and), which always holds",
+    "false": "write (or), which never holds",
+    "nil": "write ()",
+    "--": "a comment of PDDL begins with ;",
+}
+"""Each operator of other languages with a hint."""
+
+EFFECTS_ONLY = {
+    "when": "write (imply A B)",
+    **dict.fromkeys(
+        ("increase", "decrease", "assign", "scale-up", "scale-down"), "move it into :effect"
+    ),
+    "minimize": "write (:metric minimize …)",
+    "maximize": "write (:metric maximize …)",
+}
+"""Words of PDDL that no condition has, with a hint."""
 
 NO_ARITHMETIC = frozenset(
     [
@@ -82,29 +77,27 @@ NO_ARITHMETIC = frozenset(
 PREFIXES = {"-": "write (not (p))", "!": "write (not (p))", "~": "write (not (p))"}
 """What other languages write before a fact that is taken away."""
 
-OF_FACTS = frozenset(["if", "set", "inc", "dec", "add", "del", "delete", "remove", "implies"])
+OF_FACTS = frozenset(word for word in FOREIGN if word.isascii() and word[0].isalpha()) - {
+    "not=", "eq", "equal", "equals", "neq", "not-equal", "gt", "lt", "ge", "le", "true", "false",
+    "nil",
+}  # fmt: skip
 """Foreign words that have groups as operands; with objects they are undeclared predicates."""
 
 _INFIX = frozenset(["=", "<", ">", "<=", ">=", "==", "!=", "<>", "+", "-", "*", "/", "+=", "-=",
                     "*=", ":=", "&&", "||", "and", "or"])  # fmt: skip
 
 
-def is_comment(word: str) -> bool:
-    """Return whether a comment of another language begins with a word.
+def infix_cure(group: GroupNode, is_effect: bool = False) -> str | None:
+    """Return how to write a group with an operator between two operands; None if it has none.
 
-    >>> is_comment("//"), is_comment("goal")
-    (True, False)
-    """
-    return word.startswith(("//", "#", "/*"))
-
-
-def is_infix(group: GroupNode) -> bool:
-    """Whether a group has an operator between two operands, as in ``(f > 3)``.
-
-    >>> word = [WordNode(text) for text in ("f", ">", "3")]
     >>> group = GroupNode(0)
-    >>> group.extend(word)
-    >>> is_infix(group)
-    True
+    >>> group.extend(WordNode(text) for text in ("f", ">", "3"))
+    >>> infix_cure(group)
+    'write (> A B)'
     """
-    return len(group) == 3 and isinstance(group[1], WordNode) and group[1] in _INFIX
+    operator = group[1] if len(group) == 3 else None
+    if not isinstance(operator, WordNode) or operator not in _INFIX:
+        return None
+    if is_effect and operator == "=":
+        return "write (assign (f) VALUE)"
+    return FOREIGN.get(str(operator), f"write ({operator} A B)")

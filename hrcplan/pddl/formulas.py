@@ -5,8 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator, Set
 
 from hrcplan.core.numbers import to_number
-from hrcplan.core.text import plural, quote
-from hrcplan.pddl.foreign import FOREIGN, NO_ARITHMETIC, OF_FACTS, PREFIXES, is_infix
+from hrcplan.core.text import quote
+from hrcplan.pddl.cures import (
+    ARITHMETIC,
+    COMPARISONS,
+    groups_of,
+    has_parts,
+    is_foreign,
+    is_unsupported,
+    report_loose,
+)
+from hrcplan.pddl.foreign import NO_ARITHMETIC, infix_cure
 from hrcplan.pddl.model import (
     CONTINUOUS,
     DURATION,
@@ -30,27 +39,10 @@ from hrcplan.pddl.reader import GroupNode, ParseNode, WordNode
 from hrcplan.pddl.scope import Scope, decimal_cure, looks_numeric
 from hrcplan.pddl.typed_lists import read_params
 
-COMPARISONS = frozenset(["<", "<=", "=", ">=", ">"])
-ARITHMETIC = frozenset("+-*/")
-UNSUPPORTED = {
-    "preference": "preferences inside of another condition than and, forall",
-    "is-violated": "preferences outside of the metric",
-    "probabilistic": "probabilistic effects",
-    "oneof": "non-deterministic effects",
-    "always": "trajectory constraints",
-    "sometime": "trajectory constraints",
-    "within": "trajectory constraints",
-    "at-most-once": "trajectory constraints",
-    "sometime-after": "trajectory constraints",
-    "sometime-before": "trajectory constraints",
-    "always-within": "trajectory constraints",
-    "hold-during": "trajectory constraints",
-    "hold-after": "trajectory constraints",
-}
-_ONE_BODY = frozenset(["when", "forall", "exists", "not"])  # whose last part is one group
 OBJECT_FLUENTS = (
     "functions with objects as values are not supported: use a predicate such as (f-is ?x ?value)"
 )
+_NO_NUMBERS = frozenset(["true", "false", "nil", "null", "none", "undefined"])
 _TIMES = {("at", "start"): "start", ("at", "end"): "end", ("over", "all"): "all"}
 
 
@@ -61,8 +53,7 @@ def read_formula(node: ParseNode, scope: Scope) -> Formula:
         return atom
     head = "" if isinstance(node, WordNode) else node.head
     if isinstance(node, WordNode) or (node and not head):
-        message = "a condition such as (p ?x) is expected"
-        scope.source.error(node.at, "not-a-condition", message, loose_cure(node, "conditions"))
+        report_loose([node], scope, "condition")
         return TRUE
     match head:
         case "":
@@ -70,10 +61,10 @@ def read_formula(node: ParseNode, scope: Scope) -> Formula:
         case _ if scope.is_atom(node):
             return read_atom(node, scope) or TRUE
         case "and":
-            return And(tuple([read_formula(part, scope) for part in node[1:]]))
+            return And(_formulas(node, scope))
         case "or":
             scope.source.use(":disjunctive-preconditions", node.at)
-            return Or(tuple(read_formula(part, scope) for part in node[1:]))
+            return Or(_formulas(node, scope))
         case "not":
             return _negation(node, scope)
         case "imply":
@@ -93,7 +84,8 @@ def read_atom(node: GroupNode, scope: Scope) -> Atom | None:
         return None
     if _has_time(node):
         message = "only a durative action says 'at start', 'over all' or 'at end', and only once"
-        scope.source.error(node.at, "unexpected-time", message)
+        hint = "write what stands inside of it alone, or write (:durative-action …)"
+        scope.source.error(node.at, "unexpected-time", message, hint)
         return None
     head = node[0]
     assert isinstance(head, WordNode)
@@ -110,39 +102,8 @@ def shown(node: GroupNode) -> str:
     return f"({' '.join(word for word in node if isinstance(word, WordNode))})"
 
 
-def loose_cure(node: ParseNode, kind: str) -> str | None:
-    """Return how to write what has no head: a bare word, or a group of groups."""
-    if isinstance(node, WordNode):
-        if node in FOREIGN or node in ("and", "or"):
-            return FOREIGN.get(str(node), f"write ({node} A B)")
-        return PREFIXES.get(str(node), f"write ({node})")
-    if len(node) == 1:
-        return "one pair of parentheses is too much"
-    return f"put the {kind} in one (and …)"
-
-
-def is_foreign(node: GroupNode, scope: Scope) -> bool:
-    """Report an operator of another language, with what PDDL writes instead."""
-    head = node.head
-    cure = FOREIGN.get(head)
-    if cure is None or head in scope.domain.predicates or head in scope.domain.functions:
-        return _is_infix(node, scope)
-    takes_terms = not any(isinstance(part, GroupNode) for part in node[1:])
-    if takes_terms and head in OF_FACTS:
-        return _is_infix(node, scope)
-    scope.source.error(node[0].at, "foreign-operator", f"PDDL has no {quote(head)}", cure)
-    return True
-
-
-def _is_infix(node: GroupNode, scope: Scope) -> bool:
-    """Report an operator between its operands."""
-    if not is_infix(node) or node[1] in scope.objects:
-        return False
-    operator = node[1]
-    assert isinstance(operator, WordNode)
-    hint = FOREIGN.get(str(operator), f"write ({operator} A B)")
-    scope.source.error(operator.at, "foreign-operator", "in PDDL the operator stands first", hint)
-    return True
+def _formulas(node: GroupNode, scope: Scope) -> tuple[Formula, ...]:
+    return tuple([read_formula(part, scope) for part in groups_of(node[1:], scope, "condition")])
 
 
 def _has_time(node: GroupNode) -> bool:
@@ -150,21 +111,12 @@ def _has_time(node: GroupNode) -> bool:
     return time_of(node) is not None and isinstance(node[2], GroupNode)
 
 
-def is_unsupported(node: GroupNode, scope: Scope) -> bool:
-    """Report a construct that hrcplan does not know, unless its word is a predicate here."""
-    head = node.head
-    if head not in UNSUPPORTED or head in scope.domain.predicates or head in scope.domain.functions:
-        return False
-    scope.source.error(node.at, "unsupported", f"{UNSUPPORTED[head]} are not supported")
-    return True
-
-
 def read_conditions(node: ParseNode, scope: Scope, durative: bool) -> Iterator[Condition]:
     """Yield the conditions of an action; those of a durative one say ``at`` or ``over`` when."""
     if not durative:
         yield Condition("start", read_formula(node, scope))
     elif isinstance(node, GroupNode) and node.head == "and":
-        for part in node[1:]:
+        for part in groups_of(node[1:], scope, "condition"):
             yield from read_conditions(part, scope, durative)
     elif isinstance(node, GroupNode) and node.head == "forall" and len(node) == 3:
         scope.source.use(":universal-preconditions", node.at)
@@ -175,7 +127,8 @@ def read_conditions(node: ParseNode, scope: Scope, durative: bool) -> Iterator[C
         yield Condition(pair[0], read_formula(pair[1], scope))
     elif not (isinstance(node, GroupNode) and (not node or is_unsupported(node, scope))):
         message = "a durative condition needs (at start …), (over all …) or (at end …)"
-        scope.source.error(node.at, "no-time", message)
+        hint = "write (at start (p ?x)), and (over all (p ?x)) for what holds all the time"
+        scope.source.error(node.at, "no-time", message, hint)
 
 
 def time_of(node: ParseNode) -> tuple[str, ParseNode] | None:
@@ -203,7 +156,8 @@ def read_expression(node: ParseNode, scope: Scope) -> Expr:
         return _violation_count(node, scope, scope.preferences)
     if node.head:
         return read_function(node, scope) or Constant(0)
-    scope.source.error(node.at, "not-a-number", "a numeric expression is expected here")
+    hint = infix_cure(node) or ("leave one pair of parentheses out" if len(node) == 1 else None)
+    scope.source.error(node.at, "not-a-number", "a numeric expression is expected here", hint)
     return Constant(0)
 
 
@@ -214,7 +168,11 @@ def _violation_count(node: GroupNode, scope: Scope, preferences: Set[str]) -> Ex
         return Constant(0)
     if name not in preferences:
         message = f"there is no preference {quote(name)}"
-        scope.source.unknown(name.at, "unknown-preference", message, str(name), preferences)
+        otherwise = f"write (preference {name} …) in the goal"
+        names = preferences
+        scope.source.unknown(
+            name.at, "unknown-preference", message, str(name), names, cure=otherwise
+        )
         return Constant(0)
     return Function(VIOLATED, (str(name),))
 
@@ -237,13 +195,17 @@ def read_function(node: ParseNode, scope: Scope) -> Function | None:
         return None
     if is_unsupported(node, scope) or is_foreign(node, scope):
         return None
+    if len(node) == 1 and looks_numeric(head):
+        message = "a number stands without parentheses"
+        scope.source.error(node.at, "not-a-function", message, f"write {head}")
+        return None
     if head in NO_ARITHMETIC and head not in scope.domain.functions:
         message = f"PDDL has no {quote(head)} for numbers"
         scope.source.error(head.at, "foreign-operator", message, "it knows + - * / only")
         return None
     if head in scope.domain.predicates and head not in scope.domain.functions:
         message = f"{quote(head)} is a predicate, not a function"
-        hint = f"as a condition write {shown(node)} or (not {shown(node)}), without a value"
+        hint = f"write {shown(node)} or (not {shown(node)}), without a value"
         scope.source.error(head.at, "unknown-function", message, hint)
         return None
     signature = scope.signature(head, "function")
@@ -257,25 +219,12 @@ def read_function(node: ParseNode, scope: Scope) -> Function | None:
 def _arithmetic(node: GroupNode, scope: Scope) -> Expr:
     parts = tuple(read_expression(part, scope) for part in node[1:])
     if not parts:
-        scope.source.error(node.at, "wrong-arity", f"{quote(node.head)} needs operands")
+        hint = f"write ({node.head} A B)"
+        scope.source.error(node.at, "wrong-arity", f"{quote(node.head)} needs operands", hint)
         return Constant(0)
     if node.head == "/" and any(isinstance(n, WordNode) and to_number(n) == 0 for n in node[2:]):
         scope.source.error(node.at, "bad-number", "division by zero")
     return Arithmetic(str(node.head), parts)
-
-
-def has_parts(node: GroupNode, n_parts: int, scope: Scope) -> bool:
-    """Whether a group has ``n_parts`` elements after its head; if not, that is an error."""
-    if len(node) == n_parts + 1:
-        return True
-    message = f"{quote(node.head)} takes {plural(n_parts, 'part')}, not {len(node) - 1}"
-    hint = None
-    if node.head in ("forall", "exists") and len(node) > 1 and isinstance(node[1], WordNode):
-        hint = f"write ({node.head} (?x - type) …), the variables in parentheses"
-    elif node.head in _ONE_BODY and len(node) > n_parts + 1:
-        hint = "put them in one (and …)"
-    scope.source.error(node.at, "wrong-arity", message, hint)
-    return False
 
 
 def _number_or_name(word: WordNode, scope: Scope) -> Expr:
@@ -290,6 +239,9 @@ def _number_or_name(word: WordNode, scope: Scope) -> Expr:
     elif looks_numeric(word):
         message = f"{quote(word)} is not a number"
         scope.source.error(word.at, "bad-number", message, decimal_cure(word))
+    elif word in _NO_NUMBERS:
+        message, hint = f"{quote(word)} is not a number", "a function has a number, such as 0 or 1"
+        scope.source.error(word.at, "bad-number", message, hint)
     elif word == DURATION:
         scope.source.error(word.at, "unbound", "only a durative action has a ?duration")
     elif word.startswith("?") or word in scope.objects:
@@ -331,7 +283,7 @@ def _comparison(node: GroupNode, scope: Scope) -> Formula:
         return TRUE
     left, right = node[1], node[2]
     for side, other in ((left, right), (right, left)):
-        if isinstance(other, WordNode) and _is_fact(side, scope):
+        if isinstance(other, WordNode) and is_fact(side, scope):
             read_function(side, scope)
             return TRUE
     if node.head == "=" and _is_term(left, scope) and _is_term(right, scope):
@@ -344,7 +296,7 @@ def _comparison(node: GroupNode, scope: Scope) -> Formula:
     return Compare(str(node.head), read_expression(left, scope), read_expression(right, scope))
 
 
-def _is_fact(node: ParseNode, scope: Scope) -> bool:
+def is_fact(node: ParseNode, scope: Scope) -> bool:
     """Whether a group is a predicate, which has no value to compare."""
     if not isinstance(node, GroupNode) or node.head in scope.domain.functions:
         return False
@@ -361,5 +313,5 @@ def _is_term(node: ParseNode, scope: Scope) -> bool:
 def _check_terms(node: GroupNode, scope: Scope) -> None:
     """Look at the arguments of an unknown name: they may hold faults of their own."""
     for term in node[1:]:
-        if isinstance(term, WordNode):
+        if isinstance(term, WordNode) and not looks_numeric(term):
             scope.types_of(term)

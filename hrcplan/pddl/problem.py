@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from hrcplan.core.numbers import Number, to_number
+from hrcplan.core.numbers import Number, number_text, to_number
 from hrcplan.core.text import nearest, quote
 from hrcplan.pddl.annotations import read_problem_notes
 from hrcplan.pddl.conventions import check_problem
+from hrcplan.pddl.cures import groups_of, report_loose
 from hrcplan.pddl.domain import declared_name, read_objects, sections_of
 from hrcplan.pddl.effects import ASSIGNMENTS
 from hrcplan.pddl.formulas import (
@@ -56,12 +57,12 @@ def named_domain(root: GroupNode) -> WordNode | None:
 def read_problem(root: GroupNode, source: SourceText, domain: Domain) -> Problem:
     """Return the problem that a ``(define (problem …) …)`` tree describes."""
     name = declared_name(root, "problem", source)
-    sections = dict(sections_of(root, source, _SECTIONS))
+    sections = sections_of(root, source, _SECTIONS)
     flags = read_requirements(sections.get(":requirements"), source)
     objects = read_objects(sections.get(":objects"), source, domain.types, domain.constants)
     scope = Scope(source, domain, {**domain.constants, **objects}, {})
     init = _Init(scope)
-    for node in _consume(sections.get(":init")):
+    for node in groups_of(_consume(sections.get(":init")), scope, "fact"):
         init.take(node)
     goal, preferences = _goal(sections.get(":goal"), root, scope)
     constraints = read_constraints(sections.get(SECTION), scope)
@@ -84,7 +85,7 @@ def read_problem(root: GroupNode, source: SourceText, domain: Domain) -> Problem
     )
     if domain.requirements:
         check_requirements([*domain.requirements, *flags], source)
-    report_types(source, domain.types, bool(domain.types))
+    report_types(source, domain.types)
     _check_domain(root, source, domain)
     at = sections.get(":init", root).at
     check_problem(problem, at, source)
@@ -105,7 +106,7 @@ def _consume(section: GroupNode | None) -> Iterator[ParseNode]:
 def _check_domain(root: GroupNode, source: SourceText, domain: Domain) -> None:
     name = named_domain(root)
     if name is None:
-        source.error(root.at, "no-domain", "the problem does not say its (:domain NAME)")
+        source.error(root.at, "no-domain", "the problem does not say its (:domain NAME)", "add it")
     elif domain.name and name != domain.name:
         message = f"the problem is for domain {quote(name)}, not {quote(domain.name)}"
         # Two files that fit each other are meant together, whatever the names say.
@@ -121,7 +122,6 @@ class _Init:
         self.facts: set[Fact] = set()
         self.values: dict[FluentKey, Number] = {}
         self.places: dict[FluentKey, int] = {}
-        self.has_loose_word = False
         self.timed_changes: list[TimedChange] = []
         self.negative_facts: set[FluentKey] = set()
         self._terms: dict[tuple[str, ...], dict[str, str]] = {}
@@ -144,31 +144,31 @@ class _Init:
             self._terms[types] = {name: name for name, kind in objects.items() if kind in kinds}
         return self._terms[types]
 
-    def take(self, node: ParseNode) -> None:
+    def take(self, node: GroupNode) -> None:
         source = self.scope.source
         if isinstance(node, FlatNode):
             fact = self._plain_fact(node)
             if fact is not None:
                 self._add(fact, node)
                 return
-        if isinstance(node, WordNode):
-            self._loose_word(node)
-            return
         if self.scope.is_atom(node):
             self._fact(node)
         elif node.head == "and":
             message = "facts of :init are listed one after the other"
             source.error(node.at, "not-a-fact", message, "leave the (and …) out")
-            for part in node[1:]:
+            for part in groups_of(node[1:], self.scope, "fact"):
                 self.take(part)
-        elif not node.head or node.head in _LOGIC:
-            source.error(node.at, "not-a-fact", "a fact such as (p a b) is expected here")
+        elif not node.head:
+            report_loose([node], self.scope, "fact")
+        elif node.head in _LOGIC:
+            message = "a fact such as (p a b) is expected here"
+            source.error(node.at, "not-a-fact", message, "list every fact that holds at first")
         elif self._is_value(node):
             message = f"{quote(node.head)} cannot stand in :init"
             source.error(node.at, "not-a-fact", message, "a function is set by (= (f a) NUMBER)")
         elif node.head == "=":
             self._value(node)
-        elif node.head == "at" and len(node) == 3 and _is_time(node[1], node[2]):
+        elif node.head == "at" and any(map(_is_timed, node[1:])):
             self._timed_literal(node)
         elif node.head == "not":
             self._negative_fact(node)
@@ -187,13 +187,6 @@ class _Init:
         except (KeyError, ValueError):
             return None
 
-    def _loose_word(self, word: WordNode) -> None:
-        """Report a word between the facts, once."""
-        if not self.has_loose_word:
-            message = "a fact such as (p a b) is expected here"
-            self.scope.source.error(word.at, "not-a-fact", message, f"write ({word} …)")
-        self.has_loose_word = True
-
     def _is_value(self, node: GroupNode) -> bool:
         """Return whether a group was meant to set a function: ``(f 1)``, ``(increase (f) 1)``."""
         domain = self.scope.domain
@@ -204,14 +197,17 @@ class _Init:
 
     def _timed_literal(self, node: GroupNode) -> None:
         """Take a change that comes by itself, such as ``(at 9 (open))``."""
-        source, (_, word, change) = self.scope.source, node
+        source, word, change = self.scope.source, node[1], node[-1]
         source.use(":timed-initial-literals", node.at)
-        time = to_number(str(word))
-        if time is None or time < 0 or not isinstance(change, GroupNode):
-            source.error(word.at, "bad-number", "a time is not below zero")
+        time = to_number(word) if isinstance(word, WordNode) else None
+        if time is None or time < 0 or len(node) != 3 or not isinstance(change, GroupNode):
+            cure = decimal_cure(word) if isinstance(word, WordNode) else None
+            hint = cure or "write (at TIME (p a b)), with a time that is not below zero"
+            message = "a change at a time has a number and one fact"
+            source.error(word.at, "bad-number" if len(node) == 3 else "not-a-fact", message, hint)
         elif change.head == "=":
             if len(change) != 3:
-                source.error(change.at, "not-a-fact", "(= (f a) NUMBER) is expected here")
+                self._report_value(change)
                 return
             function = read_function(change[1], self.scope)
             value = self._number(change[2])
@@ -221,8 +217,9 @@ class _Init:
         else:
             positive = change.head != "not"
             inner = change if positive else change[-1]
-            if not isinstance(inner, GroupNode) or not inner.head:
-                source.error(node.at, "not-a-fact", "(at TIME (p a b)) is expected here")
+            if not isinstance(inner, GroupNode) or not inner.head or inner.head in _LOGIC:
+                message, hint = "(at TIME (p a b)) is expected here", "write one for each fact"
+                source.error(node.at, "not-a-fact", message, hint)
                 return
             atom = self._base_atom(inner)
             if atom is not None:
@@ -245,7 +242,7 @@ class _Init:
     def _add(self, fact: Fact, node: GroupNode) -> None:
         if fact in self.facts:
             message = f"{quote(fact_text(fact))} stands twice"
-            self.scope.source.warn(node.at, "duplicate-fact", message)
+            self.scope.source.warn(node.at, "duplicate-fact", message, "remove one of the two")
         self.facts.add(fact)
         if self.negative_facts:
             self._check_negative(fact, node)
@@ -258,7 +255,8 @@ class _Init:
                 self.negative_facts.add((atom.name, *atom.args))
                 self._check_negative((atom.name, *atom.args), node)
         else:
-            self.scope.source.error(node.at, "not-a-fact", "(not (p a b)) is expected here")
+            message, hint = "(not (p a b)) is expected here", "what is not listed does not hold"
+            self.scope.source.error(node.at, "not-a-fact", message, hint)
 
     def _check_negative(self, fact: FluentKey, node: GroupNode) -> None:
         if fact in self.facts and fact in self.negative_facts:
@@ -268,7 +266,11 @@ class _Init:
     def _value(self, node: GroupNode) -> None:
         source = self.scope.source
         if len(node) != 3:
-            source.error(node.at, "not-a-fact", "(= (f a) NUMBER) is expected here")
+            self._report_value(node)
+            return
+        if all(isinstance(part, WordNode) and part in self.scope.objects for part in node[1:]):
+            message = "objects are not set equal"
+            source.error(node.at, "not-a-fact", message, "remove it: an object equals itself only")
             return
         function = self.scope.plain_function(node[1])
         if function is None:
@@ -287,6 +289,13 @@ class _Init:
         domain = self.scope.domain
         return isinstance(node, GroupNode) and node.head in domain.predicates
 
+    def _report_value(self, node: GroupNode) -> None:
+        hint = "write (= (f a) NUMBER)"
+        if "-" in [part for part in node if isinstance(part, WordNode)]:
+            hint = "the sign touches its number: -5"
+        message = "(= (f a) NUMBER) is expected here"
+        self.scope.source.error(node.at, "not-a-fact", message, hint)
+
     def _number(self, node: ParseNode) -> Number | None:
         value = to_number(node) if isinstance(node, WordNode) else None
         if value is None:
@@ -297,9 +306,10 @@ class _Init:
         source, text = self.scope.source, quote(f"({' '.join(key)})")
         before = self.values.setdefault(key, value)
         if before != value:
-            source.error(at, "duplicate-value", f"{text} gets a second value")
+            hint = f"it is {number_text(before)} before: remove one of the two"
+            source.error(at, "duplicate-value", f"{text} gets a second value", hint)
         elif key in self.places:
-            source.warn(at, "duplicate-fact", f"{text} is set twice")
+            source.warn(at, "duplicate-fact", f"{text} is set twice", "remove one of the two")
         self.places[key] = at
 
 
@@ -309,14 +319,15 @@ def _report_no_number(node: ParseNode, scope: Scope) -> None:
         message = f"{word} is an object, not a number"
         scope.source.error(node.at, "not-a-number", message, OBJECT_FLUENTS)
     else:
-        cure = decimal_cure(node) if isinstance(node, WordNode) else None
+        cure = "write the number itself"
+        if isinstance(node, WordNode):
+            cure = decimal_cure(node) or cure
         scope.source.error(node.at, "bad-number", f"{word} is not a number", cure)
 
 
-def _is_time(word: ParseNode, what: ParseNode) -> bool:
-    return (
-        isinstance(word, WordNode) and to_number(word) is not None and isinstance(what, GroupNode)
-    )
+def _is_timed(part: ParseNode) -> bool:
+    """Whether a part of ``(at 9 (open))`` is its time or its change."""
+    return isinstance(part, GroupNode) or looks_numeric(part)
 
 
 def _goal(
@@ -349,6 +360,12 @@ def _metric(section: GroupNode | None, scope: Scope) -> tuple[Expr | None, bool]
 
 def _metric_cure(section: GroupNode) -> str | None:
     word = section[1] if len(section) > 1 else None
+    if word in _SENSES:
+        return (
+            f"write (:metric {word} (+ A B))" if len(section) > 3 else f"write (:metric {word} (f))"
+        )
+    if isinstance(word, GroupNode) and word.head not in _SENSES:
+        return f"write (:metric minimize ({word.head} …))"
     if isinstance(word, GroupNode) and word.head in _SENSES:
         return f"write (:metric {word.head} …): the word takes no parentheses of its own"
     if isinstance(word, WordNode) and word not in _SENSES:

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import Concatenate, ParamSpec, TypeVar
 
 from hrcplan.core.text import quote
+from hrcplan.pddl.characters import without_foreign
 from hrcplan.pddl.parentheses import PARTS, SECTIONS, Token, mend
 from hrcplan.pddl.source import MAX_FAULTS, SourceText
 
@@ -26,15 +27,7 @@ _GROUP_OR_TOKEN = re.compile(_FLAT + r"|[()]|\?*:*[^\s();?:]+|[?:]+|;[^\r\n]*")
 _TOKEN = re.compile(r"[()]|\?*[^\s();?]+|\?+|;[^\r\n]*")
 _DEFINE = re.compile(r"\((?:\s|;[^\r\n]*+)*+define\b", re.IGNORECASE)
 _COMMENT_OR_TEMPLATE = re.compile(r";[^\r\n]*|\{\{|\{%")
-_COMMENT_OR_COMMA = re.compile(r";[^\r\n]*|(?<![0-9]),|,(?![0-9])")  # 1,5 is meant as a number
 _NOTE = re.compile(r"(?<!;);++[ \t]*+hrcplan:[ \t]*+([^\r\n;]*)", re.IGNORECASE)
-# Control characters, marks that hide or reverse text, and halves of characters.
-_HIDDEN = (
-    r"\x00-\x08\x0e-\x1f\x7f-\x84\x86-\x9f\xad\u200b-\u200f\u202a-\u202e\u2060-\u206f"
-    r"\ufeff\ufff9-\ufffb\ud800-\udfff"
-)
-_COMMENT_OR_HIDDEN = re.compile(rf";[^\r\n]*|[{_HIDDEN}]")
-_PLAIN = re.compile(rf"(?:[^;,{_HIDDEN}]++|;[^\r\n]*+)*+")  # neither comma nor hidden character
 _BEFORE_A_WORD = frozenset(" \t\r\n\f\v()")
 
 P = ParamSpec("P")
@@ -183,10 +176,7 @@ def _outside(text: str, has_define: bool, word: str | None = None) -> tuple[str,
 
 def read_nodes(source: SourceText) -> list[ParseNode]:
     """Return everything that a text holds side by side; faults go into ``source``."""
-    text = source.text
-    if not _PLAIN.fullmatch(text):
-        text = _without_commas(source)
-        _report_hidden(text, source)
+    text = without_foreign(source)
     try:
         return _read_even(text, source)
     except _UnevenError as uneven:
@@ -196,20 +186,6 @@ def read_nodes(source: SourceText) -> list[ParseNode]:
         source.error(at, "unclosed", message, "the file is not read any further")
         return []
     return _build(mend(_tokens(text), source), source)
-
-
-def _report_hidden(text: str, source: SourceText) -> None:
-    """Report each invisible character outside of comments, at its first place.
-
-    Names with such characters look like others, and could steer a terminal.
-    """
-    characters: set[str] = set()
-    for match in _COMMENT_OR_HIDDEN.finditer(text):
-        character = match[0]
-        if character[0] != ";" and character not in characters:
-            characters.add(character)
-            message = f"the character U+{ord(character):04X} is not printable"
-            source.error(match.start(), "not-printable", message, "remove it")
 
 
 class _UnevenError(Exception):
@@ -267,8 +243,8 @@ def _read_even(text: str, source: SourceText) -> list[ParseNode]:
                     _report_gap(word, source)
             elif kind == ":":
                 if word.at and text[word.at - 1] not in _BEFORE_A_WORD:
-                    if word not in PARTS:  # a name with a colon in it
-                        group[-1] = _joined(group[-1], word)
+                    if word not in PARTS and not str(group[-1]).startswith(":"):
+                        group[-1] = _joined(group[-1], word)  # a name with a colon in it
                         continue
                     _report_gap(word, source)
                 if not _is_in_place(word, group, len(stack)):
@@ -297,24 +273,13 @@ def _is_in_place(word: WordNode, group: GroupNode, depth: int) -> bool:
 
 def _report_gap(word: WordNode, source: SourceText) -> None:
     """Warn about ``pier?p`` and ``go:effect``: two words for most readers, without a space."""
-    source.warn(word.at, "missing-space", f"a space is missing before {word}")
+    source.warn(word.at, "missing-space", f"a space is missing before {word}", "add it")
 
 
 def _allow_depth(depth: int) -> None:
     """Let Python recurse as deep as a text is nested."""
     if depth > _PLAIN_DEPTH:
         sys.setrecursionlimit(max(sys.getrecursionlimit(), 1000 + _FRAMES * MAX_DEPTH))
-
-
-def _without_commas(source: SourceText) -> str:
-    """Return the text with a space for every comma, which is one error."""
-    text = source.text
-    commas = (m.start() for m in _COMMENT_OR_COMMA.finditer(text) if m.group() == ",")
-    first = next(commas, None)
-    if first is None:
-        return text
-    source.error(first, "comma", "PDDL has no commas", "put spaces between words")
-    return _COMMENT_OR_COMMA.sub(lambda m: " " if m.group() == "," else m.group(), text)
 
 
 def notes(source: SourceText) -> Iterator[tuple[int, str]]:

@@ -14,6 +14,8 @@ _INCLUDES = {
     ":adl": (":strips", ":typing", ":conditional-effects", *_ADL),
     ":quantified-preconditions": _QUANTIFIED,
     ":fluents": (":numeric-fluents",),
+    ":domain-axioms": (":derived-predicates",),
+    ":durative-inequalities": (":duration-inequalities",),
 }
 REQUIREMENTS = frozenset(
     [
@@ -41,11 +43,14 @@ def read_requirements(section: GroupNode | None, source: SourceText) -> tuple[st
     flags: list[str] = []
     for node in section[1:] if section else ():
         if not isinstance(node, WordNode):
-            source.error(node.at, "not-a-name", "a requirement flag is expected here")
+            source.error(
+                node.at, "not-a-name", "a requirement flag is expected here", "write :strips"
+            )
             continue
         if node not in REQUIREMENTS:
             message = f"requirement {quote(node)} is unknown"
-            source.warn(node.at, "unknown-requirement", message, nearest(node, REQUIREMENTS))
+            hint = nearest(node, REQUIREMENTS) or "remove it"
+            source.warn(node.at, "unknown-requirement", message, hint)
         flags.append(str(node))
     return tuple(flags)
 

@@ -5,19 +5,22 @@ Looks a name up, reports an unknown one with a hint, and checks number and types
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence, Set
+from collections.abc import Collection, Mapping, Sequence, Set
 from functools import cached_property
-from itertools import count
+from itertools import count, pairwise
 
 from hrcplan.core.numbers import fraction_of, number_text, to_number
 from hrcplan.core.records import field, record, replace
-from hrcplan.core.text import plural, quote
+from hrcplan.core.text import cut, plural, quote
 from hrcplan.pddl.foreign import FOREIGN
 from hrcplan.pddl.model import OBJECT, TOTAL_TIME, Atom, Domain, Function, Param, Signature
 from hrcplan.pddl.reader import FlatNode, GroupNode, ParseNode, WordNode
 from hrcplan.pddl.source import SourceText
 
 _BINDING = "list it in :parameters, or in an (exists …) or (forall …) around this"
+_TIME_WORDS = frozenset(["makespan", "totaltime", "total_time", "time", "duration", "length",
+                         "plan-length", "steps"])  # fmt: skip
+"""What a metric calls the time of a plan in other languages."""
 
 
 @record
@@ -148,6 +151,8 @@ class Scope:
                 self.source.unknown(term.at, "unbound", message, term, variables, hint, _BINDING)
             return self.variables.get(term)
         if term not in self.objects:
+            if term in self.source.unknown_types:  # it was read as the type of others
+                return None
             message = f"there is no object {quote(term)}"
             hint, cure = self._other_meaning(term), self._object_cure()
             self.source.unknown(term.at, "unknown-object", message, term, self.objects, hint, cure)
@@ -156,8 +161,14 @@ class Scope:
 
     def _other_meaning(self, term: WordNode) -> str | None:
         """Return a hint where an unknown object is a word of another kind."""
-        if f"?{term}" in self.variables:
-            return f"did you mean {quote(f'?{term}')}?"
+        variable = f"?{term.lstrip('$@%')}"
+        if variable in self.variables:
+            return f"did you mean {quote(variable)}?"
+        if looks_numeric(term):
+            return "arguments are objects, not numbers"
+        joined = next((name for name in self.objects if name.startswith(f"{term}-")), "")
+        if joined.removeprefix(f"{term}-") in self.domain.types:
+            return f"spaces are missing around the '-' of {quote(joined)}"
         if term in self.domain.types:
             return f"it is a type: write a variable of it, such as ?x, declared as ?x - {term}"
         if term in self.domain.functions:
@@ -174,14 +185,17 @@ class Scope:
         if len(terms) < len(group) - 1:
             inner = next(t for t in group[1:] if isinstance(t, GroupNode))
             message = "a variable or object is expected here"
-            self.source.error(inner.at, "not-a-term", message, _bare_term(inner))
+            self.source.error(inner.at, "not-a-term", message, self._bare_term(inner))
             return None
         if len(terms) != len(signature.params):
             expectation = (
                 f"{quote(signature.name)} takes {plural(len(signature.params), 'argument')}"
             )
-            message = f"{expectation}, not {len(terms)}"
-            self.source.error(group.at, "wrong-arity", message, f"declared as {signature}")
+            message, hint = f"{expectation}, not {len(terms)}", f"declared as {signature}"
+            for sign, name in pairwise(terms):
+                if sign == "?":
+                    hint = f"write ?{name} without a space"
+            self.source.error(group.at, "wrong-arity", message, hint)
             return None
         fits = [self._fits(t, p) for t, p in zip(terms, signature.params, strict=True)]
         if not all(fits):
@@ -202,7 +216,8 @@ class Scope:
         if any(is_a(wanted, types) for wanted in param.types):  # it may be one, as others read it
             self.source.warn(term.at, "wrong-type", message, f"declare it as {want}")
             return True
-        self.source.error(term.at, "wrong-type", message)
+        hint = f"declare it as {want}, or {have} below {want} in (:types …)"
+        self.source.error(term.at, "wrong-type", message, hint)
         return False
 
     def _declares(self, *types: str) -> bool:
@@ -221,22 +236,37 @@ class Scope:
         if self.source.is_reported(code, word):
             return None
         if word == TOTAL_TIME:
-            self.source.error(word.at, code, "total-time is known in the metric only")
+            hint = "remove it; a cost that actions increase is called total-cost"
+            self.source.error(word.at, code, "total-time is known in the metric only", hint)
         elif word in other:
-            wrong = "function" if is_predicate else "predicate"
-            self.source.error(word.at, code, f"{quote(word)} is a {wrong}, not a {kind}")
+            wrong, hint = "predicate", "leave the number out"
+            if is_predicate:
+                wrong, hint = "function", f"write (= ({cut(word, 40)} …) NUMBER)"
+            self.source.error(word.at, code, f"{quote(word)} is a {wrong}, not a {kind}", hint)
         else:
             message = f"{kind} {quote(word)} is not declared"
-            cure = f"declare it in (:{kind}s …)"
-            self.source.unknown(word.at, code, message, word, names, FOREIGN.get(word), cure)
+            cure = FOREIGN.get(word) or _negated(word, names)
+            if TOTAL_TIME in self.numbers and word in _TIME_WORDS:
+                cure = "write (total-time)"
+            otherwise = f"declare it in (:{kind}s …)"
+            self.source.unknown(word.at, code, message, word, names, cure, otherwise)
+        return None
+
+    def _bare_term(self, group: GroupNode) -> str | None:
+        """Return a hint for a term in parentheses, or for an argument list such as ``p(?x)``."""
+        if group.head in self.domain.predicates or group.head in self.domain.functions:
+            return "arguments are variables and objects: conditions stand beside each other"
+        if all(isinstance(word, WordNode) for word in group):
+            inside = " ".join(str(word) for word in group)
+            return f"write {inside} without parentheses" if inside else "leave the parentheses out"
         return None
 
 
-def _bare_term(group: GroupNode) -> str | None:
-    """Return a hint for a term in parentheses, or for an argument list such as ``p(?x)``."""
-    if all(isinstance(word, WordNode) for word in group):
-        inside = " ".join(str(word) for word in group)
-        return f"write {inside} without parentheses" if inside else "leave the parentheses out"
+def _negated(word: str, names: Collection[str]) -> str | None:
+    """Return a hint for a name with a sign for "not" before it."""
+    for prefix in ("!", "~", "-", "¬", "not-", "not_"):
+        if word.startswith(prefix) and word.removeprefix(prefix) in names:
+            return f"write (not ({word.removeprefix(prefix)} …))"
     return None
 
 

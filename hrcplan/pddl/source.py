@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from hrcplan.core.files import UNPACK_HINT, archive_kind, read_bytes
@@ -33,6 +33,7 @@ class SourceText:
         self.diagnostics: list[Diagnostic] = []
         self.uses: dict[str, int] = {}
         self.unknown_types: dict[str, int] = {}
+        self.reported_types: Collection[str] = ()  # unknown ones that the domain has a fault for
         self._unknown: set[tuple[str, str]] = set()
         self._counts: dict[str, int] = {}
         self._lines: list[int] = []
@@ -71,7 +72,7 @@ class SourceText:
     ) -> None:  # fmt: skip
         """Note once that ``word`` is none of ``names``.
 
-        The hint is the nearest of them, or ``cure`` where none is near.
+        The hint is the nearest of them, unless there is a better one; or ``cure`` if none is near.
         """
         if self.is_reported(code, word) and code != "unbound":  # each action has its own variables
             return

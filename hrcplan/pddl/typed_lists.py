@@ -30,18 +30,19 @@ def read_typed(
     rest = iter(with_dashes(nodes, source, types))
     for node in rest:
         if isinstance(node, GroupNode):
-            source.error(node.at, "not-a-name", "a name is expected here, not a group")
+            hint = "leave its parentheses out"
+            source.error(node.at, "not-a-name", "a name is expected here, not a group", hint)
         elif node[0] in ":\"'" and types is not None:
             _report_odd_name(node, source)
             waiting += [_part(node, 1, len(node.rstrip("\"'")))]
         elif node != "-":
             waiting.append(node)
         else:
-            if not waiting:
+            words = _type_words(_after_dashes(rest, source), node, source)
+            if words and not waiting:
                 message = "no name stands before this '-', so it declares nothing"
                 hint = "names stand before it, their type behind it: 'NAME - type'"
                 source.warn(node.at, "empty-typed-list", message, hint)
-            words = _type_words(next(rest, None), node, source)
             if types is not None:
                 check_types(words, types, source)
             source.use(":typing", node.at)
@@ -49,7 +50,16 @@ def read_typed(
                 yield name, tuple(map(str, words)) or (OBJECT,)
             waiting = []
     for name in waiting:
+        _warn_of_joined(name, types or (), source)
         yield name, (OBJECT,)
+
+
+def _warn_of_joined(name: WordNode, types: Collection[str], source: SourceText) -> None:
+    """Warn about ``?c-crane`` without a type, if ``crane`` is one."""
+    start, dash, kind = name.rpartition("-")
+    if dash and kind in types and len(start) > name.startswith("?"):
+        message = f"{quote(name)} is one name, of no type"
+        source.warn(name.at, "missing-space", message, f"write '{start} - {kind}' if that is meant")
 
 
 def _flat(nodes: Sequence[ParseNode], source: SourceText) -> Iterator[ParseNode]:
@@ -83,6 +93,8 @@ def _no_variable(name: WordNode, types: Collection[str]) -> tuple[str, str]:
     if name == "?":
         return "a variable needs a name behind its '?'", "write the name without a space: ?name"
     hint = f"the type stands behind: ?x - {name}" if name in types else f"write ?{name}"
+    if name in ("in", "of", "is", "as", "isa"):
+        hint = "a '-' stands before a type"
     return f"{quote(name)} should start with '?'", hint
 
 
@@ -102,6 +114,8 @@ def with_dashes(
         assert node is not None
         if isinstance(node, GroupNode) or node == "-" or "-" not in (node[0], node[-1]):
             yield node
+        elif node == "--":
+            yield from (_part(node, 0, 1), _part(node, 1, 2))
         elif node[0] == "-":
             message, hint = f"a space is missing after the '-' of {quote(node)}", "write '- type'"
             source.warn(node.at, "missing-space", message, hint)
@@ -122,16 +136,27 @@ def _part(word: WordNode, first: int, end: int) -> WordNode:
     return part
 
 
+def _after_dashes(rest: Iterator[ParseNode], source: SourceText) -> ParseNode | None:
+    """Return what follows a dash; a second dash is an error, and read over."""
+    for node in rest:
+        if node != "-":
+            return node
+        source.error(node.at, "bad-typed-list", "one '-' is enough", "write 'NAME - type'")
+    return None
+
+
 def _type_words(node: ParseNode | None, dash: WordNode, source: SourceText) -> list[WordNode]:
-    if node is None or node == "-":
-        source.error(dash.at, "bad-typed-list", "a type is missing after this '-'")
+    if node is None:
+        message, hint = "a type is missing after this '-'", "write '- type', or remove the '-'"
+        source.error(dash.at, "bad-typed-list", message, hint)
         return []
     if isinstance(node, WordNode):
         return [node]
     words = [word for word in node[1:] if isinstance(word, WordNode)]
     if node.head == "either" and words and len(words) == len(node) - 1:
         return words
-    source.error(node.at, "bad-typed-list", "a type or (either …) is expected here")
+    hint = "write '- type' or '- (either type type)'"
+    source.error(node.at, "bad-typed-list", "a type or (either …) is expected here", hint)
     return []
 
 
@@ -142,25 +167,21 @@ def check_types(words: Sequence[WordNode], types: Collection[str], source: Sourc
             source.unknown_types.setdefault(str(word), word.at)
 
 
-def report_types(source: SourceText, types: Collection[str], has_section: bool = True) -> None:
-    """Report the types that a file names without a declaration; without ``:types`` in one go."""
-    if has_section:
-        for name, at in source.unknown_types.items():
-            message = f"type {quote(name)} is not declared"
-            joined = next(
-                (t for above in (OBJECT, *types) if (t := f"{name}-{above}") in types), ""
-            )
-            if joined:
-                hint = f"the name {quote(joined)} has no spaces around its '-'"
-                source.error(at, "unknown-type", message, hint)
-            else:
-                cure = "declare it in (:types …)"
-                source.unknown(at, "unknown-type", message, name, [*types, OBJECT], cure=cure)
-    elif source.unknown_types:
-        names = " ".join(source.unknown_types)
-        message = "types are named, but the domain has no (:types …)"
-        at = min(source.unknown_types.values())
-        source.error(at, "unknown-type", message, f"add (:types {names})")
+def report_types(source: SourceText, types: Collection[str]) -> None:
+    """Report the types that a file names without a declaration; if there are none, in one go."""
+    names = {n: at for n, at in source.unknown_types.items() if n not in source.reported_types}
+    if not types and names:
+        message = "types are named, but the domain declares none"
+        cure = f"add (:types {' '.join(names)}) to the domain"
+        source.error(min(names.values()), "unknown-type", message, cure)
+        return
+    for name, at in names.items():
+        message = f"type {quote(name)} is not declared"
+        joined = (f"{name}-{above}" for above in (OBJECT, *types))
+        whole = next((word for word in joined if word in types), "")
+        hint = f"the name {quote(whole)} has no spaces around its '-'" if whole else None
+        otherwise = "declare it in (:types …)"
+        source.unknown(at, "unknown-type", message, name, [*types, OBJECT], hint, otherwise)
 
 
 def read_params(node: ParseNode, scope: Scope) -> tuple[Param, ...]:
@@ -195,7 +216,10 @@ def plain_params(
             return None
         kinds = (kind,)
         params += [Param(name, kinds) for name in names[len(params) :]]
-    params += [Param(name) for name in names[len(params) :]]
+    untyped = names[len(params) :]
+    if any(name.rpartition("-")[2] in types for name in untyped):
+        return None
+    params += map(Param, untyped)
     return tuple(params) if len(set(names)) == len(names) else None
 
 
@@ -221,12 +245,15 @@ def params_of(
             if wrong == 1:
                 source.error(name.at, "not-a-variable", *_no_variable(name, types))
         elif name in names and declaration:
-            source.warn(name.at, "repeated-parameter", f"parameter {quote(name)} is repeated")
+            message, hint = f"parameter {quote(name)} is repeated", "give each its own name"
+            source.warn(name.at, "repeated-parameter", message, hint)
             own = numbers.setdefault(text, count(2))
             text = next(n for i in own if (n := f"{name}-{i}") not in names)
         elif name in names:
             message = f"parameter {quote(name)} is repeated"
-            source.error(name.at, "repeated-parameter", message)
+            source.error(name.at, "repeated-parameter", message, "give each its own name")
         names.add(text)
         params.append(Param(f"?{text.lstrip('?')}", kinds))
+    if wrong:  # what is untyped in a faulty list may be of any type
+        return tuple(Param(p.name, ("?",) if p.types == (OBJECT,) else p.types) for p in params)
     return tuple(params)

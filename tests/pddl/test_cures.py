@@ -29,7 +29,8 @@ ONE_ACTION = """(define (domain d) (:requirements :adl :numeric-fluents)
         ("(xor (q) (p ?x))", "(q)", "write (or (and"),
         ("(neq ?x ?y)", "(q)", "write (not (= …))"),
         ("(gt (f) 2)", "(q)", "write >"),
-        ("((f) > 3)", "(q)", "put the conditions"),
+        ("((f) > 3)", "(q)", "write (> A B)"),
+        ("((q) and (p ?x))", "(q)", "write (and A B)"),
         ("(f > 3)", "(q)", "write (> A B)"),
         ("(?x != ?y)", "(q)", "write (not (= …))"),
         ("((q) (p ?x))", "(q)", "put the conditions in one (and …)"),
@@ -235,3 +236,43 @@ def test_private_objects_of_ma_pddl_are_named(tmp_path):
 def test_a_word_before_the_define_is_named(tmp_path):
     (fault,) = errors(tmp_path, f"lisp\n{TYPED.format('(p ?b)')}")
     assert fault.message == "'lisp' stands outside the (define …)"
+
+
+def test_an_unknown_type_of_a_domain_is_no_further_fault_of_its_problem(tmp_path):
+    texts = {
+        "d.pddl": "(define (domain d) (:requirements :typing) (:types box)"
+        " (:predicates (p ?x - boxx)))",
+        "p.pddl": "(define (problem p) (:domain d) (:objects a - boxx b - box)"
+        " (:init (p a) (p b)) (:goal (p a)))",
+    }
+    for name, text in texts.items():
+        (tmp_path / name).write_text(text)
+    (fault,) = check_files([tmp_path / name for name in texts])
+    assert (fault.code, fault.path) == ("unknown-type", str(tmp_path / "d.pddl"))
+
+
+DERIVED = """(define (domain d) (:requirements :adl :derived-predicates) (:types box)
+ (:predicates (open ?b - box) (free ?b - box) (shut ?b - box)) {}
+ (:action a :parameters (?b - box) :precondition (free ?b) :effect (open ?b)))"""
+
+
+@pytest.mark.parametrize(
+    ("axioms", "cure"),
+    [
+        ("(:derived (free ?b - box) (open ?b) (shut ?b))", "in one (and …)"),
+        ("(:derived (and (free ?b) (shut ?b)) (open ?b))", "for each predicate"),
+        ("(:derived (free left) (open left))", "(= ?x a)"),
+        ("(:derived free (?b - box) (open ?b))", "then one condition"),
+        ("(:derived (free ?a ?b - box) (open ?b))", "as many variables"),
+        ("(:derived (free ?b) (not (shut ?b))) (:derived (shut ?b) (not (free ?b)))", "one 'not'"),
+        ("(:derived (open ?b) (shut ?b))", "what it is derived from"),
+    ],
+)
+def test_a_fault_of_a_derived_predicate_is_one_message(tmp_path, axioms, cure):
+    (fault,) = faults(tmp_path, DERIVED.format(axioms))
+    assert fault.severity == "error"
+    assert cure in (fault.hint or "")
+
+
+def test_a_derived_predicate_without_types_has_those_of_its_declaration(tmp_path):
+    assert not faults(tmp_path, DERIVED.format("(:derived (free ?b) (not (open ?b)))"))

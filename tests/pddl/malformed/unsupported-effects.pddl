@@ -13,5 +13,5 @@
       (when (at end (p)) (at start (q)))))  ;; expect: not-an-effect
   (:action toss
     :parameters ()
-    :precondition (sometime (p))  ;; expect: unsupported
+    :precondition (sometime (p))  ;; expect: not-a-condition
     :effect (probabilistic 0.5 (p))))  ;; expect: unsupported
