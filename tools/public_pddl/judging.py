@@ -64,7 +64,7 @@ def val(pair: Pair, problem: Problem, plan: str) -> Judgement:
     with TemporaryDirectory() as folder:
         domain, task = Path(folder, "domain.pddl"), Path(folder, "problem.pddl")
         domain.write_text(_with_conditions(domain_text(problem.domain)))
-        task.write_text(problem_text(problem))
+        task.write_text(problem_text(replace(problem, name="task")))
         second = _judged(domain, task, plan)
     return first if second.valid is None else replace(second, is_rewritten=True)
 
