@@ -109,7 +109,7 @@ def is_foreign(node: GroupNode, scope: Scope) -> bool:
         scope.source.error(node[0].at, "not-a-condition", message, EFFECTS_ONLY[head])
         return True
     if head in OF_TRAJECTORIES:
-        message = f"{quote(head)} stands in (:constraints …) only"
+        message = f"{quote(head)} belongs into (:constraints …)"
         scope.source.error(
             node[0].at, "not-a-condition", message, f"write (:constraints ({head} …))"
         )

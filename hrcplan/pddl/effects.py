@@ -177,7 +177,7 @@ def _cure(node: GroupNode, inner: ParseNode) -> str | None:
         return f"write (not ({' '.join(str(w) for w in node[1:] if isinstance(w, WordNode))}))"
     if node.head == "not" and (inner is node or inner.head in _LOGIC):
         return "'not' of an effect takes one fact: write (and (not (p)) (not (q)))"
-    return _CURES.get(str(inner.head), "a condition stands in :precondition or :condition")
+    return _CURES.get(str(inner.head), "a condition belongs into :precondition or :condition")
 
 
 def _assignment(node: GroupNode, scope: Scope, when: str) -> Iterator[Effect]:

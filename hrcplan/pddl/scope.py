@@ -255,7 +255,7 @@ class Scope:
     def _bare_term(self, group: GroupNode) -> str | None:
         """Return a hint for a term in parentheses, or for an argument list such as ``p(?x)``."""
         if group.head in self.domain.predicates or group.head in self.domain.functions:
-            return "arguments are variables and objects: conditions stand beside each other"
+            return "arguments are variables and objects: write one condition after the other"
         if all(isinstance(word, WordNode) for word in group):
             inside = " ".join(str(word) for word in group)
             return f"write {inside} without parentheses" if inside else "leave the parentheses out"

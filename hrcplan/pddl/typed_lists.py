@@ -89,7 +89,7 @@ def _flat(nodes: Sequence[ParseNode], source: SourceText) -> Iterator[ParseNode]
 
 
 def _no_variable(name: WordNode, types: Collection[str]) -> tuple[str, str]:
-    """Return message and hint for what stands in place of a variable."""
+    """Return message and hint for a word where a variable is expected."""
     if name == "?":
         return "a variable needs a name behind its '?'", "write the name without a space: ?name"
     hint = f"the type stands behind: ?x - {name}" if name in types else f"write ?{name}"

@@ -80,7 +80,7 @@ PROBLEM = """(define (problem p) (:domain d)
         ("minimize (total-cost)", "minimize (makespan)", (5, 22), "write (total-time)"),
         ("(free ?r))\n", "(free r))\n", (8, 41), "did you mean '?r'?"),
         ("(free ?r))\n", "(free ? r))\n", (8, 35), "write ?r without a space"),
-        ("(free ?r))\n", "(at ?r (free ?r)))\n", (8, 42), "beside each other"),
+        ("(free ?r))\n", "(at ?r (free ?r)))\n", (8, 42), "one condition after the other"),
         ("(free ?r))\n", "(< 0 (n) 5))\n", (8, 35), "(and (< A B) (< B C))"),
         ("(free ?r))\n", "(increase (n) 1))\n", (8, 36), "move it into :effect"),
         ("(free ?r))\n", "(forall (?x in place) (at ?r ?x)))\n", (8, 47), "before a type"),
