@@ -53,7 +53,7 @@ def test_help_loads_no_numpy(tmp_path: Path) -> None:
 
 def test_a_task_is_grounded_without_what_only_others_need() -> None:
     """Each of these is a part of the time that a small task takes as a whole process."""
-    public = Path(__file__).parent / "data" / "public" / "aries" / "1998-gripper-round1-adl"
+    public = Path(__file__).parent / "data" / "public" / "whitemech-pddl" / "storage"
     code = """import sys
 from hrcplan import Task, read
 print(len(Task(read(*sys.argv[1:])).actions))

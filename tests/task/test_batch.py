@@ -160,8 +160,8 @@ def test_wrong_states() -> None:
 
 
 def test_tasks_with_other_numbers_are_refused_by_name() -> None:
-    folder = PUBLIC / "plansys2" / "charging"
-    with pytest.raises(UnsupportedError, match="changes \\(state_of_charge …\\)"):
+    folder = PUBLIC / "unified-planning" / "counters"
+    with pytest.raises(UnsupportedError, match="changes \\(value …\\)"):
         BatchSimulator(hrcplan.ground(folder / "domain.pddl", folder / "problem.pddl"))
 
 

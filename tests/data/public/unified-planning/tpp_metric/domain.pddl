@@ -1,10 +1,10 @@
 ; IPC5 Domain: TPP Metric
-; Authors: Alfonso Gerevini and Alessandro Saetti
+; Authors: Alfonso Gerevini and Alessandro Saetti 
 
 (define (domain TPP-Metric)
-(:requirements :typing :fluents :adl)
+(:requirements :typing :fluents :adl) 
 (:types place locatable - object
-	depot market - place
+	depot market - place 
 	truck goods - locatable)
 
 (:predicates (located ?t - truck ?p - place))
@@ -27,10 +27,10 @@
  :precondition (and (located ?t ?m) (> (on-sale ?g ?m) 0)
 		    (> (on-sale ?g ?m) (- (request ?g) (bought ?g))))
  :effect (and (decrease (on-sale ?g ?m) (- (request ?g) (bought ?g)))
-	      (increase (total-cost) (* (- (request ?g) (bought ?g))
+	      (increase (total-cost) (* (- (request ?g) (bought ?g)) 
 					(price ?g ?m)))
 	      ;(assign (bought ?g) (request ?g))))
-	      (increase (bought ?g) (- (request ?g) (bought ?g)))))
+	      (increase (bought ?g) (- (request ?g) (bought ?g)))))	
 
 (:action buy-all
  :parameters (?t - truck ?g - goods ?m - market)
