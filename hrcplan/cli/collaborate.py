@@ -87,6 +87,9 @@ def command(
 
     output.LINES = output.JSON
     bank = bank_for(goals_named(domain, goals))
+    for graph in bank.graphs:
+        if not graph.n_nodes:
+            output.warn(f"goal '{graph.goal}' has no plan")
     spec: dict[str, JsonValue] = {"name": "frontier" if human == SIMULATED else human}
     if robot is not None:
         spec[WITH_ROBOT] = True

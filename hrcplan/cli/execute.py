@@ -138,6 +138,7 @@ def command(
     from hrcplan.cli.arguments import problem_of, split_names
     from hrcplan.cli.live import Live
     from hrcplan.execution.execute import carry_out, prepare_run
+    from hrcplan.pddl.conventions import MARK_ROBOTS, robots
 
     options.check_picture(gantt, "--gantt")
     domain, name, _ = split_names(names, 0)
@@ -148,6 +149,8 @@ def command(
         planner=planner, seed=seed, replan_limit=replan_limit, timeout_s=timeout, world=world,
         robot=robot, speed=speed or 1.0, ros_python=ros_python,
     )  # fmt: skip
+    if problem.agents and not robots(problem):
+        output.warn(f"no agent is a robot, so every agent counts as human; {MARK_ROBOTS}")
     _check_initial(prepared_run.engine.model.agents, settings)
     live = Live(problem, None if robot else speed)
     watch = None if output.JSON else live.watch

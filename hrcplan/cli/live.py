@@ -153,10 +153,13 @@ class Live:
         }  # fmt: skip
         counts = ", ".join(f"{n} {kind}" for kind, n in reasons.items() if n)
         n_failed = row.failed_human + row.failed_robot
+        actions = f"{row.executed_human} human and {row.executed_robot} robot actions"
+        if not robots(self.problem):
+            actions = plural(row.executed_human + row.executed_robot, "action")
         counted = (
             f"{row.ending}{why}: {row.makespan_s:g}{unit}, {plural(row.replans, 'replan')}"
             f"{f' ({counts})' if counts else ''}, {plural(row.plans_confirmed, 'plan')} confirmed, "
-            f"{row.executed_human} human and {row.executed_robot} robot actions, {n_failed} failed"
+            f"{actions}, {n_failed} failed"
         )
         output.result(f"\n{output.fold(counted)}")
 

@@ -172,6 +172,8 @@ class Terminal:
             agent, text = name.strip().lower(), rest.strip()
             if not text:
                 return shared.Passed(run.t, agent)
+        elif colon and self._is_unknown(name.strip().lower()):
+            return self._say(f"· there is no {name.strip()}: {', '.join(self.setup.people)}")
         if not text.isdecimal():
             return shared.Said(run.t, agent, text)
         place = int(text[:6]) - 1
@@ -179,6 +181,11 @@ class Terminal:
             return self._say(f"· there is no step {text[:6]}; 'steps' lists them")
         action = self._listed[place]
         return shared.Begun(run.t, agent, action[0], action[1:])
+
+    def _is_unknown(self, name: str) -> bool:
+        """Return whether a name before a colon is no agent, where people have to be told apart."""
+        is_word = len(name.split()) == 1
+        return is_word and len(self.setup.people) > 1 and name not in self.setup.robots
 
     def _offer(self, run: CompanionRun, agents: tuple[str, ...]) -> None:
         """Print the likeliest steps, with numbers."""

@@ -29,7 +29,7 @@ from hrcplan.collaboration.history import (
     composed_in,
 )
 from hrcplan.collaboration.joint_adviser import JointAdviser
-from hrcplan.collaboration.reading import ActionWords, Reader, read_exactly, reader_of
+from hrcplan.collaboration.reading import ActionWords, Reader, named_agent, read_exactly, reader_of
 from hrcplan.collaboration.robots import JOINT_ROBOTS, assistant_maker
 from hrcplan.collaboration.run import CompanionRun
 from hrcplan.collaboration.setup import TURNS, CollaborationSetup
@@ -308,17 +308,24 @@ class Adviser:
 
     def read(self, ask: shared.AskReading) -> shared.Read:
         """Return what a person means; of an action that cannot begin, what it needs."""
+        other = named_agent(ask.text, self.setup.problem)
+        if other is not None and other not in ask.agents:
+            note = f"these words name {other}; they are read for {' or '.join(ask.agents)}"
+            return shared.Read(ask.t, shared.NONE, (), note)
         steps = self.possible(ask.agents)
         reading = self.reader(ask.text, steps, self.prior(steps))
         options = tuple(map(fact_text, reading.options))
-        if reading.outcome != shared.ACT and (note := self._why_not(ask, reading.options)):
+        if reading.outcome != shared.ACT and (note := self._why_not(ask, steps, reading.options)):
             return shared.Read(ask.t, shared.NONE, (), note)
         return shared.Read(ask.t, reading.outcome, options, "")
 
-    def _why_not(self, ask: shared.AskReading, options: Sequence[ActionWords]) -> str:
+    def _why_not(
+        self, ask: shared.AskReading, steps: Sequence[ActionWords], options: Sequence[ActionWords]
+    ) -> str:
         """Return what an action needs that the words say better than any of the ``options``.
 
         Where the words leave objects open, the action is the one that lacks the fewest conditions.
+        None of the possible ``steps`` is one that needs something.
         """
         actions = list(self._actions(ask.agents))
         named = read_exactly(ask.text, actions, {}).options
@@ -331,8 +338,10 @@ class Adviser:
         obstacles = {
             words: self._obstacles(words, state)
             for words in actions
-            if words[0] == named[0][0] and objects <= set(words)
+            if words[0] == named[0][0] and objects <= set(words) and words not in steps
         }
+        if not obstacles:
+            return ""
         words = min(obstacles, key=lambda words: len(obstacles[words]))
         needs = f"needs {obstacles[words][0]}" if obstacles[words] else "changes nothing now"
         return f"{fact_text(words)} {needs}"

@@ -59,6 +59,23 @@ def read_exactly(
     return StepReading(ASK, tuple(likeliest[:MAX_OPTIONS]))
 
 
+def named_agent(text: str, problem: Problem) -> str | None:
+    """Return the agent that a text names as the one who acts; None if it names none.
+
+    It is the first word (``bob: wash``, ``bob washes``), or the second of an action in PDDL. In
+    other places an agent's name may be an object: "hand bob the soup".
+    """
+    words = text.lower().replace("(", " ").replace(")", " ").split()
+    if not words:
+        return None
+    agents = {*problem.agents} - problem.domain.schemas.keys()
+    if words[0].rstrip(":,") in agents:
+        return words[0].rstrip(":,")
+    schema = problem.domain.schemas.get(words[0])
+    is_whole = schema is not None and len(words) == len(schema.params) + 1 > 1
+    return words[1] if is_whole and words[1] in agents else None
+
+
 def reader_of(problem: Problem) -> Reader:
     """Return the reader of a problem: exact words first, then free text (`hrcplan.reading`)."""
     lexicon = make_lexicon(problem)

@@ -16,7 +16,7 @@ from hrcplan.core.json_values import DOCUMENT_FAULTS
 from hrcplan.errors import InputError, UsageError
 from hrcplan.execution.model import ExecutionModel
 from hrcplan.pddl.check import domain_in, problem_in
-from hrcplan.pddl.conventions import people, robots
+from hrcplan.pddl.conventions import MARK_ROBOTS, people, robots
 from hrcplan.pddl.inlining import plain
 from hrcplan.pddl.model import Formula, Problem
 from hrcplan.pddl.semantics import LiftedState, holds
@@ -137,7 +137,7 @@ def slots_of(goals: Goals, team: tuple[str, ...]) -> Slots:
     humans, machines = people(goals.problem), robots(goals.problem)
     for agents, who, hint in (
         (humans, "human", "an agent that is not (controllable ...)"),
-        (machines, "robot", "mark an agent with (controllable AGENT) in :init, or call it robot"),
+        (machines, "robot", MARK_ROBOTS),
     ):
         if not agents:
             message = f"'{goals.problem.domain.name}' has no {who} to collaborate with"

@@ -17,6 +17,8 @@ from hrcplan.pddl.walks import functions_in
 AGENT = "agent"
 ROBOT = "robot"
 CONTROLLABLE = "controllable"
+MARK_ROBOTS = f"mark an agent with ({CONTROLLABLE} AGENT) in :init, or call it {ROBOT}"
+"""The hint where no agent is a robot."""
 _INTERACTIONS = frozenset(["decrease", "assign"])
 
 
@@ -54,7 +56,7 @@ def check_problem(problem: Problem, at: int, source: SourceText) -> None:
     """Warn, at the offset of ``:init``, if agents are there and none of them is the robot."""
     if problem.agents and not robots(problem):
         message = f"no agent is marked ({CONTROLLABLE} …) and none is called '{ROBOT}'"
-        source.warn(at, "no-robot", message)
+        source.warn(at, "no-robot", message, MARK_ROBOTS)
 
 
 def agent_state_functions(domain: Domain) -> frozenset[str]:

@@ -16,7 +16,7 @@ from typing import Any
 
 import pytest
 
-from tests.worlds import PACKED, PARCELS, WORKSHOP
+from tests.worlds import ERRAND, ERRANDS, HALL, PACKED, PARCELS, WORKSHOP
 
 COMMAND = [sys.executable, "-m", "hrcplan", "collaborate"]
 PIPE_BLUE = "cut pipe\nunfold blue\npack pipe blue\ncut rope\npack rope blue\n"
@@ -98,6 +98,27 @@ def test_a_goal_within_another_ends_with_who_confirms_it(
     assert "done: small. Was that all?" in done.stdout
     assert f"goal reached ({reached})" in done.stdout or not reached
     assert ("say no, and the robot goes on" in done.stdout) == ("no" in text)
+
+
+def test_words_that_name_another_agent_are_no_step_of_the_one_who_is_asked(tmp_path: Path) -> None:
+    goals = {"rope": "(cut rope)", "never": "(cut rope) (whole rope)"}
+    folder = written(tmp_path, TWO, goals)
+    lines = ["robo cut rope", "(cut robo rope)", "robo: cut rope", "zoe: cut rope", "quit"]
+    done = collaborate(folder, "\n".join(lines))
+    assert done.stdout.count("these words name robo") == 3
+    assert "there is no zoe" in done.stdout
+    assert "0 human" in done.stdout
+    assert "warning: goal 'never' has no plan" in done.stderr
+
+
+def test_what_an_action_needs_is_not_said_of_one_that_is_possible(tmp_path: Path) -> None:
+    folder = tmp_path
+    (folder / "goals").mkdir()
+    (folder / "domain.pddl").write_text(HALL)
+    for name, goal in ERRANDS.items():
+        (folder / "goals" / f"{name}.pddl").write_text(ERRAND.format(name=name, goal=goal))
+    done = collaborate(folder, "go a b\nquit\n")
+    assert "(go ann a b) needs (at ann a)" in done.stdout
 
 
 def test_stop_and_go_are_confirmed(folder: Path) -> None:

@@ -201,3 +201,20 @@ def test_a_domain_without_agents_is_executed_too(tmp_path: Path) -> None:
     nobody = hrcplan("execute", str(domain), str(problem), "--human", "uncooperative")
     assert nobody.returncode == 2
     assert "no human" in nobody.stderr
+
+
+def test_without_a_robot_the_actions_of_people_and_robots_are_not_told_apart(
+    tmp_path: Path,
+) -> None:
+    """A type called robot makes no robot; the message says what does."""
+    domain, problem = tmp_path / "lamps.pddl", tmp_path / "one.pddl"
+    domain.write_text("""(define (domain lamps) (:requirements :strips :typing)
+      (:types agent lamp - object robot - agent) (:predicates (lit ?l - lamp))
+      (:action light :parameters (?a - robot ?l - lamp) :effect (lit ?l)))""")
+    problem.write_text("""(define (problem one) (:domain lamps) (:objects r1 - robot l - lamp)
+      (:init) (:goal (lit l)))""")
+    run = hrcplan("execute", str(domain), str(problem))
+    assert run.returncode == 0, run.stderr
+    assert "no agent is a robot" in run.stderr
+    assert "(controllable AGENT)" in run.stderr
+    assert ", 1 action, 0 failed" in run.stdout
