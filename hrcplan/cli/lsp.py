@@ -11,10 +11,12 @@ def command() -> int:
 
     The page on editors says how to set up VS Code, Neovim, Emacs and Helix.
     """
+    from hrcplan.cli.stdio_server import end_at_signals
     from hrcplan.core.extras import require
 
     require("pygls", "the language server")
     from hrcplan.lsp.server import make_server
 
+    end_at_signals()
     make_server().start_io()
     return 0

@@ -20,10 +20,16 @@ def command(folders: tuple[Path, ...]) -> int:
     The Model Context Protocol is spoken over standard input and output. Files are read from the
     FOLDERs only, by default from the current one; nothing is written there.
     """
+    import shutil
+    import tempfile
+
+    from hrcplan.cli.stdio_server import end_at_signals
     from hrcplan.core.extras import require
 
     require("mcp", "the server for language models")
     from hrcplan.mcp.server import make_server
 
-    make_server(folders or [Path.cwd()]).run("stdio")
+    with tempfile.TemporaryDirectory(prefix="hrcplan-mcp-") as inputs:
+        end_at_signals(lambda: shutil.rmtree(inputs, ignore_errors=True))
+        make_server(folders or [Path.cwd()], inputs).run("stdio")
     return 0

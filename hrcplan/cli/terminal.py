@@ -183,7 +183,7 @@ class Terminal:
         return shared.Begun(run.t, agent, action[0], action[1:])
 
     def _is_unknown(self, name: str) -> bool:
-        """Return whether a name before a colon is no agent, where people have to be told apart."""
+        """Return whether a name before a colon is no agent, where several people act."""
         is_word = len(name.split()) == 1
         return is_word and len(self.setup.people) > 1 and name not in self.setup.robots
 

@@ -28,9 +28,11 @@ class FolderCommands:
 
     Args:
         folders: Where files may lie; relative paths start from the first.
+        inputs: Where texts are written for a while; by default the system's temporary folder.
     """
 
-    def __init__(self, folders: Sequence[str | Path]) -> None:
+    def __init__(self, folders: Sequence[str | Path], inputs: str | None = None) -> None:
+        self._inputs = inputs
         self.folders = [Path(os.path.realpath(folder)) for folder in folders]
 
     def run(self, *words: str, timeout_s: float = MAX_SECONDS) -> dict[str, Any]:
@@ -62,7 +64,7 @@ class FolderCommands:
         Raises:
             UsageError: if a path leads out of the folders.
         """
-        with tempfile.TemporaryDirectory(prefix="hrcplan-mcp-") as folder:
+        with tempfile.TemporaryDirectory(prefix="hrcplan-mcp-", dir=self._inputs) as folder:
             yield [self._file(text, Path(folder) / f"input-{number}.pddl")
                    for number, text in enumerate(inputs)]  # fmt: skip
 

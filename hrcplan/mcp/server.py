@@ -28,14 +28,17 @@ Settings = Annotated[list[str], Field(description="Values that replace those of 
                                       "as in 'motivation human=10'")]  # fmt: skip
 
 
-def make_server(folders: Sequence[str | Path]) -> MCPServer:
-    """Return a server whose tools read files of the folders only, and write none."""
+def make_server(folders: Sequence[str | Path], inputs: str | None = None) -> MCPServer:
+    """Return a server whose tools read files of the folders only, and write none.
+
+    Texts of requests are written to ``inputs`` for a while; by default a temporary folder.
+    """
     server = MCPServer("hrcplan", version=__version__, instructions=(
         "Plan, check and explain human-robot collaboration from PDDL. Texts of PDDL can be given "
         "instead of files. Every answer is a JSON document with an exit_code: 0 done, 1 the answer "
         "is no, 2 wrong use, 3 bad input with line and column, 4 limit, 5 planner missing."
     ))  # fmt: skip
-    commands = FolderCommands(folders)
+    commands = FolderCommands(folders, inputs)
     _add_pddl_tools(server, commands)
     _add_people_tools(server, commands)
     return server
