@@ -46,8 +46,10 @@ class FolderCommands:
         limits = ProcessLimits(timeout_s + _MARGIN_S, memory_bytes=None)
         try:
             done = run(command, cwd=self.folders[0], limits=limits)
-        except (OSError, ValueError) as error:  # too many words, or a NUL in one of them
+        except (OSError, ValueError) as error:  # a NUL in a word, or no further process
             raise UsageError(f"'{words[0]}' cannot be called: {reason_of(error)}") from None
+        if done.end is ProcessEnd.MISSING:  # words that are too long
+            raise UsageError(f"'{words[0]}' cannot be called: {done.stderr.strip()}")
         if done.end is ProcessEnd.TIMEOUT:
             raise UsageError(f"'{words[0]}' was stopped after {timeout_s:g} s")
         try:
