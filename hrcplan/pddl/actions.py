@@ -6,15 +6,15 @@ from collections import deque
 from collections.abc import Iterator, Set
 
 from hrcplan.core.text import nearest, nearest_name, quote
+from hrcplan.pddl.durations import as_durative, is_durative, read_durations
 from hrcplan.pddl.effects import read_effects
 from hrcplan.pddl.foreign import FOREIGN
-from hrcplan.pddl.formulas import read_conditions, read_expression
-from hrcplan.pddl.model import CONTINUOUS, DURATION, Action, Constant, Expr, Param, Preference
+from hrcplan.pddl.formulas import read_conditions
+from hrcplan.pddl.model import CONTINUOUS, DURATION, Action, Param, Preference
 from hrcplan.pddl.parentheses import ACTIONS, PARTS
 from hrcplan.pddl.preferences import read_preferences
 from hrcplan.pddl.reader import GroupNode, ParseNode, WordNode
 from hrcplan.pddl.scope import Scope
-from hrcplan.pddl.semantics import Undefined, evaluate
 from hrcplan.pddl.source import SECTION_SIMILARITY, SourceText
 from hrcplan.pddl.typed_lists import read_params
 
@@ -70,6 +70,13 @@ def _action(node: GroupNode, scope: Scope) -> Action | None:
         hint = f"write ({node.head} NAME …)"
         source.error(node.at, "no-name", "the action has no name", hint)
         return None
+    name = str(node[1])
+    is_mistaken = node.head == ":action" and is_durative(node)
+    if is_mistaken:
+        message = "this is a durative action: 'at start', 'over all' and 'at end' are for those"
+        hint = f"write (:durative-action {name} …) with :duration, :condition and :effect"
+        source.error(node.at, "unexpected-time", message, hint)
+        node = as_durative(node)
     durative = node.head == ":durative-action"
     parts = _parts(node, source, durative)
     params: tuple[Param, ...] = ()
@@ -83,7 +90,7 @@ def _action(node: GroupNode, scope: Scope) -> Action | None:
         scope_at_end, moment = inner.knowing(CONTINUOUS), "all"
     if node.head in PLUS:
         source.use(":time", node.at)
-    if durative:
+    if durative and not is_mistaken:
         source.use(":durative-actions", node.at)
     condition = parts.get(":condition" if durative else ":precondition")
     preferences: tuple[Preference, ...] = ()
@@ -91,14 +98,14 @@ def _action(node: GroupNode, scope: Scope) -> Action | None:
         condition, preferences = read_preferences(condition, inner, durative)
     effect = parts.get(":effect")
     if effect is None or _is_empty(effect, inner):
-        source.warn(node.at, "no-effect", f"action {quote(node[1])} has no effect")
+        source.warn(node.at, "no-effect", f"action {quote(name)} has no effect")
     return Action(
-        name=str(node[1]),
+        name=name,
         params=params,
         conditions=() if condition is None else tuple(read_conditions(condition, inner, durative)),
         effects=() if effect is None else tuple(read_effects(effect, scope_at_end, moment)),
         durative=durative,
-        durations=tuple(_durations(parts.get(":duration"), inner, node)) if durative else (),
+        durations=tuple(read_durations(parts.get(":duration"), inner, node)) if durative else (),
         preferences=preferences,
     )
 
@@ -189,61 +196,3 @@ def _part_name(key: WordNode, part_names: tuple[str, ...], source: SourceText) -
     hint = f"did you mean {quote(begun)}?" if begun else nearest(key, part_names)
     source.error(key.at, "unknown-section", message, hint)
     return begun or nearest_name(key, part_names, _CLOSE)
-
-
-def _durations(
-    node: ParseNode | None, scope: Scope, action: GroupNode
-) -> Iterator[tuple[str, Expr]]:
-    constraints = node[1:] if isinstance(node, GroupNode) and node.head == "and" else [node]
-    if node is None or (isinstance(node, GroupNode) and node.head == "and" and not constraints):
-        at = action.at if node is None else node.at
-        scope.source.error(at, "no-duration", "a durative action needs a :duration")
-        return
-    for part in constraints:
-        assert part is not None
-        inner = part[2] if _has_time(part) and isinstance(part, GroupNode) else part
-        if not _is_constraint(inner) or not isinstance(inner, GroupNode):
-            message, hint = "a duration is compared by =, <= or >=", _duration_cure(inner)
-            scope.source.error(part.at, "bad-duration", message, hint)
-            continue
-        if inner.head != "=":
-            scope.source.use(":duration-inequalities", inner.at)
-        value = read_expression(inner[2], scope)
-        _check_constant(inner, value, scope.source)
-        yield str(inner.head), value
-
-
-def _duration_cure(node: ParseNode) -> str:
-    if isinstance(node, WordNode) and node not in (DURATION, "="):
-        return f"write (= ?duration {node})"
-    if isinstance(node, GroupNode) and not node:
-        return "for any duration write (>= ?duration 0)"
-    if isinstance(node, WordNode):
-        return "write (= ?duration …), (<= ?duration …) or (>= ?duration …)"
-    if node.head in ("=", "<=", ">=", "<", ">") and len(node) == 3 and node[2] == DURATION:
-        return "?duration stands first: (= ?duration …), (<= ?duration …) or (>= ?duration …)"
-    return "write (= ?duration …), (<= ?duration …) or (>= ?duration …)"
-
-
-def _has_time(node: ParseNode) -> bool:
-    return isinstance(node, GroupNode) and len(node) == 3 and node.head == "at"
-
-
-def _is_constraint(node: ParseNode) -> bool:
-    return (
-        isinstance(node, GroupNode)
-        and len(node) == 3
-        and node.head in ("=", "<=", ">=")
-        and node[1] == DURATION
-    )
-
-
-def _check_constant(node: GroupNode, duration: Expr, source: SourceText) -> None:
-    """Report a duration that is below zero whatever the problem says."""
-    try:
-        value = evaluate(duration, {}, {})
-    except Undefined:
-        return
-    if node.head != ">=" and value < 0:
-        message = f"the action lasts {Constant(value)}: less than nothing"
-        source.error(node.at, "negative-duration", message)

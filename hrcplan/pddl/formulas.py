@@ -196,6 +196,8 @@ def read_function(node: ParseNode, scope: Scope) -> Function | None:
     if is_unsupported(node, scope) or is_foreign(node, scope):
         return None
     if len(node) == 1 and looks_numeric(head):
+        if scope.source.text[node.at] != "(":
+            return None  # a bracket, which is reported
         message = "a number stands without parentheses"
         scope.source.error(node.at, "not-a-function", message, f"write {head}")
         return None

@@ -123,6 +123,7 @@ class _Init:
         self.values: dict[FluentKey, Number] = {}
         self.places: dict[FluentKey, int] = {}
         self.timed_changes: list[TimedChange] = []
+        self._changes: dict[tuple[Number, Fact], TimedChange] = {}
         self.negative_facts: set[FluentKey] = set()
         self._terms: dict[tuple[str, ...], dict[str, str]] = {}
         self._predicates: dict[str, Sequence[Mapping[str, str]]] = {}
@@ -213,7 +214,7 @@ class _Init:
             value = self._number(change[2])
             if function is not None and value is not None:
                 key = (function.name, *function.args)
-                self.timed_changes.append(TimedChange(time, key, value=value))
+                self._add_change(TimedChange(time, key, value=value), node)
         else:
             positive = change.head != "not"
             inner = change if positive else change[-1]
@@ -223,7 +224,16 @@ class _Init:
                 return
             atom = self._base_atom(inner)
             if atom is not None:
-                self.timed_changes.append(TimedChange(time, (atom.name, *atom.args), positive))
+                self._add_change(TimedChange(time, (atom.name, *atom.args), positive), node)
+
+    def _add_change(self, change: TimedChange, node: GroupNode) -> None:
+        """Take a timed change; one that contradicts another of its instant is an error."""
+        other = self._changes.setdefault((change.time, change.key), change)
+        if other == change:
+            self.timed_changes.append(change)
+            return
+        message = f"{change} contradicts {other}: the two happen at one time"
+        self.scope.source.error(node.at, "duplicate-value", message, "remove one of the two")
 
     def _base_atom(self, node: GroupNode) -> Atom | None:
         """Return a fact that a state can hold: no derived predicate."""
