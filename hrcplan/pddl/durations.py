@@ -119,7 +119,7 @@ def is_durative(node: GroupNode) -> bool:
 
 
 def _has_times(node: GroupNode) -> bool:
-    """Whether a group like ``(at start (p))`` stands in a node."""
+    """Whether an action or a part of it has a group such as ``(at start (p))``."""
     waiting = [node]
     while waiting:
         group = waiting.pop()
