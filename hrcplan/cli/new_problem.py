@@ -29,7 +29,7 @@ from hrcplan.pddl.model import Problem
 )
 @click.option(
     "--new-objects",
-    type=click.IntRange(0, 1000),
+    type=click.IntRange(0, 200),
     default=0,
     metavar="N",
     help="With --vary: first add copies of N objects, for a larger problem.",

@@ -78,7 +78,7 @@ def from_json(document: Mapping[str, Any], kinds: Mapping[str, type] = KINDS) ->
     try:
         kind = kinds[document["kind"]]
         item = kind(**{k: _DECODERS.get(k, _same)(v) for k, v in document.items() if k != "kind"})
-        if item.t >= 0 and isinstance(getattr(item, "number", 0), int):
+        if math.isfinite(item.t) and item.t >= 0 and isinstance(getattr(item, "number", 0), int):
             return item
         raise ValueError(f"no event: {document}")
     except (*DOCUMENT_FAULTS, PlanFormatError) as error:

@@ -268,6 +268,8 @@ def test_a_journal_of_an_earlier_version_is_replayed_and_resumed(tmp_path: Path)
         ("planned", {"kind": "planned", "t": "x"}),
         ("planned", {"kind": "planned", "t": 0, "plan": ["(move  wp4 wp5"]}),
         ("ended", {"kind": "ended", "t": None, "number": 1, "outcome": "done"}),
+        ("ended", {"kind": "ended", "t": 10**400, "number": 1, "outcome": "done"}),
+        ("ended", {"kind": "ended", "t": float("inf"), "number": 1, "outcome": "done"}),
     ],
 )
 def test_a_line_that_holds_something_else_is_an_input_error(
