@@ -60,7 +60,7 @@ def test_such_names_are_a_warning(tmp_path: Path) -> None:
     (tmp_path / "d.pddl").write_text(DOMAIN)
     found = check_files([tmp_path / "d.pddl"])
     names = [d.message for d in found if d.code == "keyword-name"]
-    assert len(names) == 5
+    assert len(names) == 6
     assert "many readers refuse a predicate called 'when'" in names
 
 
