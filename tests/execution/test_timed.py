@@ -249,8 +249,15 @@ SWITCHES = ("(open quay)", "(not (open quay))", "(lit quay)", "(not (lit quay))"
             "(= (tide) 5)", "(= (pace) 20)", "(open pier)", "(not (open pier))")  # fmt: skip
 
 
+def _switch(literal: tuple[int, str]) -> tuple[int, str]:
+    """Return when what is switched: two literals of one time must not contradict each other."""
+    return literal[0], literal[1].removeprefix("(not ").strip("(= )").partition(")")[0]
+
+
 @given(
-    st.lists(st.tuples(st.integers(1, 45), st.sampled_from(SWITCHES)), max_size=6),
+    st.lists(
+        st.tuples(st.integers(1, 45), st.sampled_from(SWITCHES)), max_size=6, unique_by=_switch
+    ),
     st.tuples(st.integers(0, 6), st.integers(0, 12), st.integers(0, 12)),
 )
 @settings(max_examples=120, deadline=None)
