@@ -212,7 +212,7 @@ class EffectFacts:
     >>> from hrcplan import read
     >>> problem = read("transport", "two-boxes")
     >>> move = problem.domain.action("move")
-    >>> EffectFacts(move, move.effects[0], problem).of(("robot", "wp0", "wp1"))
+    >>> EffectFacts(move, move.effects[1], problem).of(("robot", "wp0", "wp1"))
     [('at', 'robot', 'wp0')]
     """
 
