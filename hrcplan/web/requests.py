@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import json
 from collections.abc import Awaitable, Callable
 from concurrent.futures import Future
 from typing import Any
@@ -28,10 +29,11 @@ async def document_of(request: Request) -> dict[str, Any]:
     """Return the JSON object of a request.
 
     Raises:
-        InputError: if it has none.
+        InputError: if it has none, or one with half of a surrogate pair, which no page can show.
     """
     try:
         document = json_of(await request.body())
+        json.dumps(document, ensure_ascii=False).encode()
     except ValueError:
         document = None
     if not isinstance(document, dict):
