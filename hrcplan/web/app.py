@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import json
 from collections.abc import Sequence
 from html import escape
 from urllib.parse import quote
@@ -79,9 +80,11 @@ class PageApp:
             except HrcplanError as error:
                 status = _STATUS.get(error.code, 400)
                 if "text/html" in request.headers.get("accept", ""):
-                    return HTMLResponse(_error_page(error), status)
+                    page = _error_page(error).encode("utf-8", "backslashreplace")
+                    return HTMLResponse(page, status)
                 what = {"code": error.code, "message": error.message, "hint": error.hint}
-                return JSONResponse({"error": what}, status)
+                text = json.dumps({"error": what})  # ASCII: half of a character has an escape, too
+                return Response(text, status, media_type="application/json")
 
         return handle
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import json
 from collections.abc import Awaitable, Callable
 from concurrent.futures import Future
 from typing import Any
@@ -29,11 +28,10 @@ async def document_of(request: Request) -> dict[str, Any]:
     """Return the JSON object of a request.
 
     Raises:
-        InputError: if it has none, or one with half of a surrogate pair, which no page can show.
+        InputError: if it has none.
     """
     try:
         document = json_of(await request.body())
-        json.dumps(document, ensure_ascii=False).encode()
     except ValueError:
         document = None
     if not isinstance(document, dict):
