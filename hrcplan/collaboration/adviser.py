@@ -325,7 +325,7 @@ class Adviser:
         """Return what an action needs that the words say better than any of the ``options``.
 
         Where the words leave objects open, the action is the one that lacks the fewest conditions.
-        None of the possible ``steps`` is one that needs something.
+        The ``steps`` are possible, so they need nothing.
         """
         actions = list(self._actions(ask.agents))
         named = read_exactly(ask.text, actions, {}).options
