@@ -12,6 +12,7 @@ from hrcplan.core.files import read_bytes
 from hrcplan.core.numbers import number_text
 from hrcplan.core.text import cut, nearest, plural
 from hrcplan.errors import InputError, UsageError
+from hrcplan.pddl.constructs import constructs
 from hrcplan.pddl.model import Formula, Problem, fact_text
 from hrcplan.pddl.source import SourceText, decode
 from hrcplan.task import Task
@@ -158,3 +159,7 @@ def _differences(first: Problem, other: Problem) -> Iterator[str]:
         if one != two:
             texts = ("missing" if v is None else number_text(v) for v in (two, one))
             yield f"{fact_text(key)} is {next(texts)}, there {next(texts)}"
+    theirs_only = set(constructs(other))
+    for construct in sorted(theirs_only.symmetric_difference(constructs(first))):
+        owner = other if construct in theirs_only else first
+        yield f"only {owner.name} has {construct}"

@@ -60,6 +60,20 @@ def test_differences_between_worlds_are_named(folder):
         assert part in error.message
 
 
+@pytest.mark.parametrize(
+    ("old", "new", "name"),
+    [
+        ("(stored mango)", "(stored mango) (at 5 (not (stored mango)))", "timed initial literals"),
+        ("(:goal (and", "(:goal (and (preference w (stored mango))", "preferences"),
+    ],
+)
+def test_what_only_one_problem_has_is_named(folder, old, new, name):
+    path = folder / "smoothie-oat.pddl"
+    path.write_text(path.read_text().replace(old, new, 1))
+    with pytest.raises(InputError, match=f"only smoothie-oat has {name}"):
+        read_goals(str(folder / "kitchen.pddl"), str(folder))
+
+
 def test_many_differences_are_cut(folder):
     path = folder / "smoothie-oat.pddl"
     path.write_text(path.read_text().replace("(stored ", "(available "))
